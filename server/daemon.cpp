@@ -15,17 +15,15 @@
 #include "access/gate.h"
 #include "error.h"
 #include "http/gateway.h"
-#include "library_log.h"
 #include "limited_log.h"
 #include "listen_address.h"
 #include "net/acceptor.h"
-#include "net/descriptor_limit.h"
-#include "net/heap_trim.h"
+#include "net/connection_limits.h"
 #include "net/listening_port.h"
 #include "net/port_probe.h"
 #include "net/refusing_server.h"
-#include "rpc/parse_error.h"
-#include "rpc/request_limits.h"
+#include "rpc/method_table.h"
+#include "rpc/request_fields.h"
 #include "service.h"
 #include "worker/step_cost.h"
 
@@ -122,7 +120,7 @@ struct Daemon::Impl {
     serve_metrics();
     serve_http();
     service.start();
-    for (const char* name : kServices) service.health().set(name, true);
+    for (const char* name : kServices) service.board.set(name, true);
   }
 
   ~Impl() { stop(); }
@@ -156,10 +154,10 @@ struct Daemon::Impl {
     };
     parts.refused = [this](const std::string& why) {
       refusals.write(spdlog::level::warn, "refused " + why);
-      service.note_refused_connection();
+      service.metrics.count_refused_connection();
     };
     parts.counted = [this](std::size_t open) {
-      service.note_connections(open);
+      service.metrics.set_connections(open);
       heap.note(open + service.stream_count());
     };
     acceptor.emplace(std::move(ports), options.connections, std::move(parts));
@@ -189,14 +187,14 @@ struct Daemon::Impl {
 
   void serve_metrics() {
     if (options.metrics.empty()) return;
-    metrics_url = "http://" + service.serve_metrics(metrics_address(options.metrics)).text() + "/metrics";
+    metrics_url = "http://" + service.metrics.serve(metrics_address(options.metrics)).text() + "/metrics";
     spdlog::info("serving metrics on {}", metrics_url);
   }
 
   void serve_http() {
     if (!wanted_http) return;
     try {
-      gateway.emplace(*wanted_http, gate, service.methods(), options.connections);
+      gateway.emplace(*wanted_http, gate, service.methods, options.connections);
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
       warn_without_http(error);
@@ -207,14 +205,14 @@ struct Daemon::Impl {
   }
 
   void drain() {
-    service.health().set_all(false);
+    service.board.set_all(false);
     if (options.on_drain) options.on_drain();
   }
 
   void stop() {
     if (std::exchange(stopped, true)) return;
-    service.refuse_jobs();
-    service.health().set_all(false);
+    service.admission.drain();
+    service.board.set_all(false);
     service.stop();
     probe.reset();
     acceptor->stop();

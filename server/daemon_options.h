@@ -11,9 +11,9 @@
 #include "access/gate.h"
 #include "clocks.h"
 #include "jobs/admission.h"
-#include "jobs/executor_options.h"
+#include "jobs/deletion.h"
+#include "jobs/executor.h"
 #include "jobs/queue_hold.h"
-#include "jobs/retention.h"
 #include "net/connection_limits.h"
 #include "watch/watch_times.h"
 

@@ -35,11 +35,8 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
   return grpc::StatusCode::INTERNAL;
 }
 
-// Truncates a text at the start of a character.
-std::string shorten(std::string text, std::size_t most) {
-  if (text.size() <= most) return text;
-  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
-  return text.substr(0, most) + "...";
+std::string shorten(const std::string& text, std::size_t most) {
+  return text.size() <= most ? text : cut_text(text, most) + "...";
 }
 
 std::string sentence_of(const ProblemList& problems, const std::string& subject) {
@@ -73,13 +70,9 @@ std::string details_of(const std::string& message, const ProblemList& problems) 
 }
 
 v1::Problem note_on_rest(const std::string& subject, int left_out) {
-  v1::Problem out;
-  out.set_field(subject);
-  out.set_message("has " + std::to_string(left_out) + " more problems.");
-  out.set_remedy(subject == "case" ? "CheckCase lists them all."
-                                   : "Fix these first; the same call then lists the rest.");
-  out.set_kind(v1::Problem::INVALID);
-  return out;
+  return invalid_problem(
+      subject, "has " + std::to_string(left_out) + " more problems.",
+      subject == "case" ? "CheckCase lists them all." : "Fix these first; the same call then lists the rest.");
 }
 
 // Number of leading problems that may fit: the details hold their texts twice.
@@ -115,13 +108,25 @@ grpc::Status status_of(const ProblemList& problems, const std::string& subject) 
 
 grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy) {
   ProblemList problems;
-  v1::Problem& problem = *problems.Add();
-  problem.set_field(field);
-  problem.set_message(message);
-  problem.set_remedy(remedy);
-  problem.set_kind(v1::Problem::INVALID);
+  *problems.Add() = invalid_problem(field, message, remedy);
   const std::string sentence = shorten(field + " " + message + " " + remedy, kMostMessage);
   return {grpc::StatusCode::INVALID_ARGUMENT, sentence, bounded_details(sentence, problems, "request")};
+}
+
+v1::Problem invalid_problem(const std::string& field, const std::string& message, const std::string& remedy) {
+  v1::Problem out;
+  out.set_field(field);
+  out.set_message(message);
+  out.set_remedy(remedy);
+  out.set_kind(v1::Problem::INVALID);
+  return out;
+}
+
+std::string cut_text(std::string text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
+  text.resize(most);
+  return text;
 }
 
 grpc::Status status_of(const std::exception& error) {

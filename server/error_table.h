@@ -3,6 +3,7 @@
 #include <google/protobuf/repeated_ptr_field.h>
 #include <grpcpp/support/status.h>
 
+#include <cstddef>
 #include <exception>
 #include <string>
 
@@ -23,6 +24,12 @@ grpc::Status status_of(const google::protobuf::RepeatedPtrField<v1::Problem>& pr
 /// An invalid argument of a call, with its field in the details. The message continues from the field's name: "is
 /// negative."
 grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy);
+
+/// A problem of the kind INVALID.
+v1::Problem invalid_problem(const std::string& field, const std::string& message, const std::string& remedy);
+
+/// Text of at most this many bytes, cut at the start of a character.
+std::string cut_text(std::string text, std::size_t most);
 
 /// The status for any exception.
 grpc::Status status_of(const std::exception& error);

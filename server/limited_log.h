@@ -34,4 +34,8 @@ class LimitedLog {
   int left_out_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< omitted since the last line
 };
 
+/// Routes the logs of gRPC and protobuf to the default logger until the process ends. At most 10 lines a second of 500
+/// bytes each are logged, and a later line counts the omitted ones. Lines may contain bytes from a caller. Thread-safe.
+void redirect_library_logs();
+
 }  // namespace cellcrush

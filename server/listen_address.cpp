@@ -2,12 +2,9 @@
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 
 #include "error.h"
@@ -71,28 +68,6 @@ ListenAddress parse_listen_address(std::string_view text, const std::string& use
            "or 0.0.0.0 for all.");
   }
   return out;
-}
-
-void remove_stale_socket(const std::string& path) {
-  struct stat status {};
-  if (lstat(path.c_str(), &status) != 0) return;
-  const std::string name = "unix:" + path;
-  if (!S_ISSOCK(status.st_mode)) {
-    throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "Cannot listen on " + name + ": the path exists and is not a socket. Use another path.");
-  }
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::strncpy(address.sun_path, path.c_str(), sizeof(address.sun_path) - 1);
-  const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const bool answers = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  close(probe);
-  if (answers) {
-    throw ServiceError(
-        ServiceError::Kind::failed_precondition,
-        "Cannot listen on " + name + ": another program is listening there. Stop it, or use another path.");
-  }
-  unlink(path.c_str());
 }
 
 }  // namespace cellcrush

@@ -23,8 +23,4 @@ struct ListenAddress {
 /// Throws ServiceError (invalid) for anything else, and for a path too long for a socket. `use`: what to use instead.
 ListenAddress parse_listen_address(std::string_view text, const std::string& use = "unix:PATH or HOST:PORT");
 
-/// Removes a stale socket at the path. Throws ServiceError (failed_precondition) if something answers there or if it is
-/// not a socket.
-void remove_stale_socket(const std::string& path);
-
 }  // namespace cellcrush

@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 #include <spdlog/details/log_msg.h>
 #include <spdlog/pattern_formatter.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <iterator>
 #include <string_view>
-
-#include "log_fields.h"
 
 namespace cellcrush {
 namespace {
@@ -51,20 +50,8 @@ void visit_characters(std::string_view text, const Show& show, const Escape& esc
   }
 }
 
-std::string json_string(std::string_view text) {
-  std::string out = "\"";
-  visit_characters(
-      text,
-      [&out](std::string_view character) {
-        if (character == "\"" || character == "\\") out.push_back('\\');
-        out += character;
-      },
-      // JSON cannot hold bytes: an invalid byte is written as its number in text, as in the text form.
-      [&out](unsigned char byte) {
-        out += byte < 0x80U ? fmt::format("\\u{:04x}", byte) : fmt::format("\\\\x{:02x}", byte);
-      });
-  return out + "\"";
-}
+// A formatter receives only the message, so a thread-local passes the fields; it runs on the logging thread.
+thread_local const std::vector<LogField>* current_fields = nullptr;
 
 // "jobs/12" of "jobs/12 runs in process 7".
 std::string_view job_of(std::string_view message) {
@@ -85,9 +72,10 @@ class JsonFormatter final : public spdlog::formatter {
     const auto add = [&out](std::string_view key, std::string_view value) {
       if (!value.empty()) fmt::format_to(out, ",\"{}\":{}", key, json_string(value));
     };
-    const auto& fields = fields_of_this_line();
-    if (fields.empty()) add("job", job_of(text));
-    for (const auto& field : fields) add(field.key, field.value);
+    if (current_fields == nullptr || current_fields->empty()) add("job", job_of(text));
+    if (current_fields != nullptr) {
+      for (const auto& field : *current_fields) add(field.key, field.value);
+    }
     fmt::format_to(out, ",\"message\":{}}}\n", json_string(text));
   }
 
@@ -116,6 +104,28 @@ class TextFormatter final : public spdlog::formatter {
 };
 
 }  // namespace
+
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  visit_characters(
+      text,
+      [&out](std::string_view character) {
+        if (character == "\"" || character == "\\") out.push_back('\\');
+        out += character;
+      },
+      // JSON cannot hold bytes: an invalid byte is written as its number in text, as in the text form.
+      [&out](unsigned char byte) {
+        out += byte < 0x80U ? fmt::format("\\u{:04x}", byte) : fmt::format("\\\\x{:02x}", byte);
+      });
+  return out + "\"";
+}
+
+void log_with_fields(spdlog::level::level_enum level, const std::string& words, const std::vector<LogField>& fields) {
+  current_fields = &fields;
+  // The message is not a format string. spdlog handles write errors itself and does not throw.
+  spdlog::log(level, spdlog::string_view_t(words));
+  current_fields = nullptr;
+}
 
 std::unique_ptr<spdlog::formatter> make_text_formatter() { return std::make_unique<TextFormatter>(); }
 

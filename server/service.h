@@ -4,23 +4,29 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "access/gate.h"
 #include "daemon_options.h"
-#include "listen_address.h"
+#include "jobs/housekeeping.h"
+#include "metrics/metrics.h"
+#include "rpc/admin_service.h"
+#include "rpc/cases_service.h"
 #include "rpc/health_service.h"
-#include "rpc/method_table.h"
+#include "rpc/jobs_service.h"
+#include "rpc/sweeps_service.h"
+#include "watch/pump.h"
 
 namespace cellcrush {
 
 /// Everything behind a daemon's addresses: store, jobs, watches and gRPC services on one data folder. Calls are
 /// answered as soon as a server has registered it; jobs run between start and stop.
-class Service {
- public:
+struct Service {
   /// `gate` outlives it, and guards its methods from now on; `step_cost`: seconds of one core per element and step.
   /// Ignores the options for addresses and access. Calls `on_drain` once a client has asked the daemon to drain and new
   /// jobs are refused. Throws ServiceError if the data folder is taken or unusable.
-  Service(const DaemonOptions& options, access::Gate& gate, double step_cost, std::function<void()> on_drain);
+  Service(const DaemonOptions& given, access::Gate& gate, double step_cost, std::function<void()> on_drain);
   ~Service();
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
@@ -28,34 +34,44 @@ class Service {
   /// Outlives the server that is built.
   void register_with(grpc::ServerBuilder& builder);
 
-  /// The methods, for callers that are not gRPC. Lives as long as the service.
-  [[nodiscard]] const rpc::MethodTable& methods() const;
-
-  /// Statuses for grpc.health.v1. Lives as long as the service.
-  rpc::HealthBoard& health();
-
   /// Number of open streams.
   [[nodiscard]] std::size_t stream_count() const;
-
-  /// For the metrics.
-  void note_connections(std::size_t open);
-  void note_refused_connection();
-
-  /// metrics::Metrics::serve.
-  ListenAddress serve_metrics(const ListenAddress& address);
 
   /// Resumes the jobs of an earlier daemon, and runs the waiting ones.
   void start();
 
-  /// Refuses new jobs from now on.
-  void refuse_jobs();
-
   /// Has running workers checkpoint their jobs, then ends the watches. Other calls are still answered.
   void stop();
 
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  // In order of dependence: each uses only those above it.
+  DaemonOptions options;
+  store::DataFolder folder;
+  watch::Hub hub;
+  metrics::Metrics metrics;
+  store::Journal journal;
+  store::JournalReader reader;
+  store::SweepReader sweep_reader;
+  store::ChangeReader changes;
+  jobs::Deletion deletion;
+  rpc::HealthBoard board;
+  jobs::Queues queues;
+  rpc::StreamLimits stream_limits;
+  rpc::StreamLimits health_limits;
+  watch::Pump pump;
+  watch::Pump http_pump;
+  jobs::Admission admission;
+  rpc::CallPool calls;
+  rpc::CallPool checks;
+  jobs::MeshPlaces mesh_places;
+  rpc::ServiceParts shared;
+  rpc::CasesService cases;
+  rpc::HealthService health;
+  rpc::JobsService jobs;
+  rpc::SweepsService sweeps;
+  rpc::AdminService admin;
+  std::vector<std::unique_ptr<grpc::Service>> reflection;
+  rpc::MethodTable methods;
+  std::optional<jobs::Housekeeping> housekeeping;
 };
 
 }  // namespace cellcrush

@@ -7,36 +7,38 @@
 #include "error.h"
 
 namespace cellcrush {
+namespace {
 
-const char* name_of(Shortage shortage) {
-  switch (shortage) {
-    case Shortage::none: return "none";
-    case Shortage::low_disk: return "low_disk";
-    case Shortage::full_disk: return "full_disk";
-    case Shortage::descriptors: return "descriptors";
-    case Shortage::memory: return "memory";
-    case Shortage::data_folder: return "data_folder";
-    case Shortage::journal: return "journal";
-    case Shortage::worker: return "worker";
-    case Shortage::cluster: return "cluster";
-  }
-  return "none";
+struct Words {
+  const char* name;
+  const char* remedy;
+};
+
+constexpr const char* kFreeSpace = "Free space on the data folder's disk, or delete jobs.";
+
+// In the order of Shortage.
+constexpr std::array<Words, 9> kWords = {{
+    {"none", ""},
+    {"low_disk", kFreeSpace},
+    {"full_disk", kFreeSpace},
+    {"descriptors", "Raise the daemon's limit on open files (ulimit -n, LimitNOFILE)."},
+    {"memory", "Free memory, or raise the limits on memory and processes (ulimit -v, ulimit -u)."},
+    {"data_folder", "Make the data folder readable and writable for the daemon's user."},
+    {"journal", "Stop the program that locks journal.sqlite, and check the disk for faults."},
+    {"worker", "Reinstall cellcrushd at the path it was started from, readable and executable."},
+    {"cluster", "Check the cluster with sinfo, and the options of --slurm."},
+}};
+
+const Words& words_of(Shortage shortage) {
+  const auto index = static_cast<std::size_t>(shortage);
+  return kWords[index < kWords.size() ? index : 0];
 }
 
-const char* remedy_for(Shortage shortage) {
-  switch (shortage) {
-    case Shortage::none: return "";
-    case Shortage::low_disk:
-    case Shortage::full_disk: return "Free space on the data folder's disk, or delete jobs.";
-    case Shortage::descriptors: return "Raise the daemon's limit on open files (ulimit -n, LimitNOFILE).";
-    case Shortage::memory: return "Free memory, or raise the limits on memory and processes (ulimit -v, ulimit -u).";
-    case Shortage::data_folder: return "Make the data folder readable and writable for the daemon's user.";
-    case Shortage::journal: return "Stop the program that locks journal.sqlite, and check the disk for faults.";
-    case Shortage::cluster: return "Check the cluster with sinfo, and the options of --slurm.";
-    case Shortage::worker: return "Reinstall cellcrushd at the path it was started from, readable and executable.";
-  }
-  return "";
-}
+}  // namespace
+
+const char* name_of(Shortage shortage) { return words_of(shortage).name; }
+
+const char* remedy_for(Shortage shortage) { return words_of(shortage).remedy; }
 
 Shortage shortage_of_errno(int error) {
   switch (error) {

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <utility>
 
-#include "access/certificate.h"
 #include "access/tls_credentials.h"
 #include "error.h"
 #include "error_table.h"
@@ -16,6 +15,7 @@ namespace cellcrush::access {
 namespace {
 
 constexpr std::size_t kLongestPath = 128;  // of a method in the log
+constexpr std::size_t kMostKnownCertificates = 256;
 constexpr const char* kAskForToken =
     "The server's administrator creates tokens with `cellcrushd token NAME --scope SCOPE`.";
 
@@ -198,8 +198,15 @@ Caller Gate::caller_of_token(const Metadata& metadata) const {
 void Gate::check_certificate(const grpc::AuthContext& context) const {
   if (!asks_for_certificates()) return;
   const auto shown = context.FindPropertyValues(GRPC_X509_PEM_CERT_PROPERTY_NAME);
-  if (shown.size() == 1 && client_certificates_.has_client_use(view_of(shown.front()))) return;
-  refuse_certificate();
+  if (shown.size() != 1) refuse_certificate();
+  const std::string_view pem = view_of(shown.front());
+  const MutexLock lock(mutex_);
+  auto found = for_clients_.find(pem);
+  if (found == for_clients_.end()) {
+    if (for_clients_.size() == kMostKnownCertificates) for_clients_.clear();
+    found = for_clients_.emplace(pem, is_for_clients(pem)).first;
+  }
+  if (!found->second) refuse_certificate();
 }
 
 Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {

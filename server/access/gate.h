@@ -2,7 +2,6 @@
 
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/security/auth_metadata_processor.h>
-#include <openssl/x509.h>
 
 #include <filesystem>
 #include <functional>
@@ -13,7 +12,6 @@
 #include <string_view>
 #include <vector>
 
-#include "access/client_certificates.h"
 #include "access/scope.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
@@ -103,7 +101,8 @@ class Gate {
   mutable Mutex mutex_;
   std::shared_ptr<const TlsFiles> tls_ CELLCRUSH_GUARDED_BY(mutex_);      ///< null without TLS
   std::shared_ptr<const TokenFile> tokens_ CELLCRUSH_GUARDED_BY(mutex_);  ///< null without tokens
-  mutable ClientCertificates client_certificates_;
+  /// Which certificates, as PEM, were issued for clients: the last answers, since every call asks.
+  mutable std::map<std::string, bool, std::less<>> for_clients_ CELLCRUSH_GUARDED_BY(mutex_);
   mutable LimitedLog refusals_{"refused calls", 1};
 };
 

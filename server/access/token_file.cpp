@@ -1,5 +1,7 @@
 #include "access/token_file.h"
 
+#include <absl/strings/ascii.h>
+#include <absl/strings/escaping.h>
 #include <openssl/crypto.h>
 #include <openssl/rand.h>
 #include <openssl/sha.h>
@@ -15,33 +17,19 @@ namespace {
 
 constexpr const char* kTokensOption = "--tokens";
 constexpr std::size_t kLongestToken = 1024;
-constexpr std::string_view kDigits = "0123456789abcdef";
 constexpr const char* kNameRule =
     "A name has 1 to 64 printable characters without spaces, quotes, backslashes or #, and is not \"local\".";
 
 template <class Bytes>
 std::string hex_of(const Bytes& bytes) {
-  std::string out;
-  for (const unsigned char byte : bytes) {
-    out.push_back(kDigits[byte >> 4U]);
-    out.push_back(kDigits[byte & 15U]);
-  }
-  return out;
+  return absl::BytesToHexString({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 // False when the text is not twice as many digits as there are bytes.
 template <class Bytes>
-bool read_hex(std::string text, Bytes& bytes) {
-  if (text.size() != 2 * bytes.size()) return false;
-  std::transform(text.begin(), text.end(), text.begin(), [](char digit) {
-    return digit >= 'A' && digit <= 'F' ? static_cast<char>(digit - 'A' + 'a') : digit;
-  });
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const auto high = kDigits.find(text[2 * i]);
-    const auto low = kDigits.find(text[2 * i + 1]);
-    if (high == std::string_view::npos || low == std::string_view::npos) return false;
-    bytes[i] = static_cast<unsigned char>(16 * high + low);
-  }
+bool read_hex(const std::string& text, Bytes& bytes) {
+  if (text.size() != 2 * bytes.size() || !std::all_of(text.begin(), text.end(), absl::ascii_isxdigit)) return false;
+  std::ranges::copy(absl::HexStringToBytes(text), bytes.begin());
   return true;
 }
 

@@ -9,7 +9,7 @@
 
 #include "access/scope.h"
 #include "command_line/checked_config.h"
-#include "slurm/cluster_flag.h"
+#include "slurm/cluster_options.h"
 
 namespace cellcrush {
 namespace {

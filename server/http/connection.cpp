@@ -10,8 +10,7 @@
 
 #include "error_table.h"
 #include "http/browser_rules.h"
-#include "http/connect_error.h"
-#include "http/envelope.h"
+#include "http/connect_protocol.h"
 #include "web/page_files.h"
 
 namespace cellcrush::http {
@@ -28,8 +27,6 @@ constexpr std::chrono::seconds kFarewell{1};
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
     "media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-
-grpc::Status failure(grpc::StatusCode code, const std::string& why) { return {code, why}; }
 
 template <class Response>
 void protect(Response& response) {
@@ -87,6 +84,40 @@ bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, con
 
 }  // namespace
 
+Call::Call(const asio::any_io_executor& executor, std::shared_ptr<rpc::MessageStream> stream,
+           std::optional<std::chrono::milliseconds> timeout)
+    : executor_(executor), news_(executor), stream_(std::move(stream)) {
+  if (timeout) deadline_ = std::chrono::steady_clock::now() + *timeout;
+}
+
+asio::awaitable<rpc::MessageStream::Batch> Call::next() {
+  if (!batch_) {
+    // The executor counts as work, so that the io_context is there until the batch has come.
+    auto executor = asio::prefer(executor_, asio::execution::outstanding_work.tracked);
+    stream_->ask([self = shared_from_this(), executor](rpc::MessageStream::Batch batch) mutable {
+      asio::post(executor, [self = std::move(self), batch = std::move(batch)]() mutable {
+        if (!self->batch_) self->batch_ = std::move(batch);
+        self->news_.cancel();
+      });
+    });
+  }
+  while (!batch_) {
+    news_.expires_at(deadline_);
+    boost::system::error_code error;
+    co_await news_.async_wait(asio::redirect_error(asio::use_awaitable, error));
+    if (!error && !batch_) end({grpc::StatusCode::DEADLINE_EXCEEDED, "Deadline Exceeded"});
+  }
+  co_return *std::exchange(batch_, std::nullopt);
+}
+
+void Call::cancel() { end({grpc::StatusCode::CANCELLED, "The client cancelled the call."}); }
+
+void Call::end(const grpc::Status& status) {
+  stream_->cancel();
+  batch_ = rpc::MessageStream::Batch{{}, status};
+  news_.cancel();
+}
+
 asio::awaitable<void> Connection::serve() {
   const auto self = shared_from_this();
   try {
@@ -128,58 +159,61 @@ asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
   co_await bhttp::async_read(stream_, buffer_, parser, asio::redirect_error(asio::use_awaitable, error));
   if (!error) co_return true;
   keep_alive_ = false;
-  if (error == bhttp::error::body_limit) {
-    const auto refused = failure(grpc::StatusCode::RESOURCE_EXHAUSTED, "The body is larger than 4 MiB.");
-    co_await send_error(413, refused);
-  } else if (error == bhttp::error::header_limit) {
-    const auto refused = failure(grpc::StatusCode::RESOURCE_EXHAUSTED, "The headers are larger than 16 KiB.");
-    co_await send_error(431, refused);
-  }
+  const bool is_body = error == bhttp::error::body_limit;
+  const grpc::Status refused{grpc::StatusCode::RESOURCE_EXHAUSTED,
+                             is_body ? "The body is larger than 4 MiB." : "The headers are larger than 16 KiB."};
+  if (is_body || error == bhttp::error::header_limit) co_await send_error(is_body ? 413 : 431, refused);
   co_return false;
 }
 
 asio::awaitable<void> Connection::answer(const Request& request) {
-  const BrowserHeaders headers{request[Field::host], request[Field::origin], request["Sec-Fetch-Site"]};
-  auto refusal = check_browser(headers, {parts_.port, parts_.has_tls});
-  if (request.count(Field::host) != 1 || request.count(Field::origin) > 1) {
-    refusal = HttpRefusal{400, "One Host header, and at most one Origin header, must be sent."};
-  }
-  if (refusal) {
-    const auto refused = failure(grpc::StatusCode::PERMISSION_DENIED, refusal->why);
-    co_await send_error(refusal->status, refused);
-  } else if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
+  if (const auto refusal = refusal_of(request)) {
+    co_await send_error(refusal->http_status, refusal->error);
+  } else if (request.method() != bhttp::verb::post) {
     co_await answer_file(request);
-  } else if (request.method() == bhttp::verb::post) {
-    co_await answer_call(request);
   } else {
-    const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "Use POST for calls and GET for the page.");
-    co_await send_error(405, refused);
+    const auto& method = *method_of(request);
+    const Encoding encoding{*parse_content_type(request[Field::content_type])};
+    grpc::Status status;
+    auto call = begin_call(request, method, encoding, status);
+    if (encoding.stream) {
+      co_await answer_stream(std::move(call), encoding, status);
+    } else {
+      co_await answer_unary(std::move(call), encoding, status);
+    }
   }
 }
 
-asio::awaitable<void> Connection::answer_call(const Request& request) {
+const rpc::MethodTable::Method* Connection::method_of(const Request& request) const {
+  return parts_.methods.find({request.target().data(), request.target().size()});
+}
+
+std::optional<Connection::Refusal> Connection::refusal_of(const Request& request) const {
+  using grpc::StatusCode;
+  if (request.count(Field::host) != 1 || request.count(Field::origin) > 1) {
+    return Refusal{400,
+                   {StatusCode::PERMISSION_DENIED, "One Host header, and at most one Origin header, must be sent."}};
+  }
+  const BrowserHeaders headers{request[Field::host], request[Field::origin], request["Sec-Fetch-Site"]};
+  if (const auto refusal = check_browser(headers, {parts_.port, parts_.has_tls}))
+    return Refusal{refusal->status, {StatusCode::PERMISSION_DENIED, refusal->why}};
+  const auto* method = method_of(request);
+  if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
+    if (method != nullptr) return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls."}};
+    if (web::find_page_file(request.target()) == nullptr)
+      return Refusal{404, {StatusCode::NOT_FOUND, "There is no such file."}};
+    return std::nullopt;
+  }
+  if (request.method() != bhttp::verb::post)
+    return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls and GET for the page."}};
+  if (method == nullptr) return Refusal{404, {StatusCode::UNIMPLEMENTED, "There is no such method."}};
   const auto encoding = parse_content_type(request[Field::content_type]);
-  const auto* method = parts_.methods.find({request.target().data(), request.target().size()});
-  if (method == nullptr) {
-    const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "There is no such method.");
-    co_await send_error(404, refused);
-    co_return;
-  }
-  if (!encoding || encoding->stream != method->descriptor->server_streaming()) {
-    const std::string kind = method->descriptor->server_streaming() ? "application/connect+" : "application/";
-    const auto refused =
-        failure(grpc::StatusCode::INVALID_ARGUMENT,
-                method->descriptor->name() + " requires the content type " + kind + "json or " + kind + "proto.");
-    co_await send_error(415, refused);
-    co_return;
-  }
-  grpc::Status status;
-  auto call = begin_call(request, *method, *encoding, status);
-  if (encoding->stream) {
-    co_await answer_stream(std::move(call), *encoding, status);
-  } else {
-    co_await answer_unary(std::move(call), *encoding, status);
-  }
+  const bool is_stream = method->descriptor->server_streaming();
+  if (encoding && encoding->stream == is_stream) return std::nullopt;
+  const std::string kind = is_stream ? "application/connect+" : "application/";
+  return Refusal{415,
+                 {StatusCode::INVALID_ARGUMENT,
+                  method->descriptor->name() + " requires the content type " + kind + "json or " + kind + "proto."}};
 }
 
 std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::MethodTable::Method& method,
@@ -188,7 +222,7 @@ std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::
   status = parts_.gate.check_http_call(path_of(*method.descriptor), values_of(request, Field::authorization),
                                        stream_.client_certificate(), incoming.caller);
   if (status.ok() && asks_for_compression(request, encoding))
-    status = failure(grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed.");
+    status = {grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed."};
   if (!status.ok()) return nullptr;
   status = cellcrush::answer([&] {
     std::string_view body = request.body();
@@ -256,16 +290,6 @@ void Connection::watch_client() {
 
 asio::awaitable<void> Connection::answer_file(const Request& request) {
   const web::PageFile* file = web::find_page_file(request.target());
-  if (parts_.methods.find({request.target().data(), request.target().size()}) != nullptr) {
-    const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "Use POST for calls.");
-    co_await send_error(405, refused);
-    co_return;
-  }
-  if (file == nullptr) {
-    const auto refused = failure(grpc::StatusCode::NOT_FOUND, "There is no such file.");
-    co_await send_error(404, refused);
-    co_return;
-  }
   const std::string_view small =
       web::accepts_gzip(request[Field::accept_encoding]) ? web::gzip_of(*file) : std::string_view();
   const std::string_view bytes = small.empty() ? file->bytes : small;

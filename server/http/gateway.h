@@ -30,6 +30,7 @@ class Gateway {
   void stop();
 
  private:
+  class TlsContext;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -20,7 +20,7 @@ std::int64_t memory_of_the_machine() { return std::int64_t{sysconf(_SC_PHYS_PAGE
 
 }  // namespace
 
-Admission::Admission(const Parts& parts, const Limits& limits) : parts_(parts), limits_(limits), quotas_(limits.owner) {
+Admission::Admission(const Parts& parts, const Limits& limits) : parts_(parts), limits_(limits) {
   if (limits_.job_memory_bytes == 0) limits_.job_memory_bytes = memory_of_the_machine();
 }
 
@@ -71,8 +71,7 @@ Admission::Place Admission::admit(const std::string& owner, std::size_t count, s
   }
   const auto admitted = admitted_.find(owner);
   const std::size_t of_owner = admitted == admitted_.end() ? 0 : admitted->second;
-  quotas_.admit(owner, parts_.queues.waiting_count(owner) + of_owner, count,
-                [&] { return parts_.reader.bytes_of_owner(owner); });
+  check_quotas(owner, parts_.queues.waiting_count(owner) + of_owner, count);
   admitted_[owner] += count;
   return {*this, owner, count};
 }
@@ -82,6 +81,30 @@ std::optional<std::string> Admission::low_disk() const {
   if (free >= limits_.free_disk_bytes) return std::nullopt;
   return "The data folder's disk is nearly full: " + mebibytes(free) + " are free, below the reserve of " +
          mebibytes(limits_.free_disk_bytes) + " (--min-free-disk).";
+}
+
+void Admission::check_priority(int priority, const std::string& field) const {
+  if (priority <= limits_.owner.priority) return;
+  throw InvalidField(
+      field, fmt::format("is {}; this daemon allows at most {}.", priority, limits_.owner.priority),
+      fmt::format("Use at most {}, or start the daemon with a higher --owner-max-priority.", limits_.owner.priority));
+}
+
+void Admission::check_quotas(const std::string& owner, std::size_t waiting, std::size_t count) const {
+  if (limits_.owner.queued_jobs > 0 && static_cast<std::int64_t>(waiting + count) > limits_.owner.queued_jobs) {
+    throw ServiceError(
+        ServiceError::Kind::exhausted,
+        fmt::format("{} has {} waiting jobs; {} more would exceed the quota of {} per owner. Wait until some have "
+                    "started, cancel some, or start the daemon with a higher --owner-max-queued.",
+                    owner, waiting, count, limits_.owner.queued_jobs));
+  }
+  if (limits_.owner.disk_bytes == 0) return;
+  if (const std::int64_t bytes = parts_.reader.bytes_of_owner(owner); bytes >= limits_.owner.disk_bytes) {
+    throw ServiceError(ServiceError::Kind::storage_full,
+                       fmt::format("The jobs of {} use {} MiB; the quota per owner is {} MiB. Delete ended jobs or "
+                                   "sweeps, or start the daemon with a higher --owner-max-disk.",
+                                   owner, bytes / kMebibyte, limits_.owner.disk_bytes / kMebibyte));
+  }
 }
 
 }  // namespace cellcrush::jobs

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -9,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "jobs/owner_quotas.h"
 #include "mutex.h"
 #include "store/data_folder.h"
 #include "store/journal_reader.h"
@@ -17,6 +17,16 @@
 namespace cellcrush::jobs {
 
 class Queues;
+
+/// Quotas of one owner. They apply to every owner: tokens and certificates of any scope, and "local".
+struct OwnerLimits {
+  static constexpr int kAnyPriority = 100;
+
+  std::int64_t queued_jobs = 0;  ///< waiting jobs; 0: no limit
+  int running_jobs = 0;          ///< jobs that run at once, for the scheduler; 0: no limit
+  std::int64_t disk_bytes = 0;   ///< results and journal rows; 0: no limit
+  int priority = kAnyPriority;   ///< highest allowed
+};
 
 /// Decides whether the daemon takes new jobs. Thread-safe.
 class Admission {
@@ -62,7 +72,7 @@ class Admission {
   void check_time_limit(double seconds, const std::string& field) const;
 
   /// Checks the requested priority against the owner's limit. Throws InvalidField.
-  void check_priority(int priority, const std::string& field) const { quotas_.check_priority(priority, field); }
+  void check_priority(int priority, const std::string& field) const;
 
   /// Memory of a job, of which `most_bytes` is an upper bound. `predict` is called only if that bound exceeds the
   /// limit.
@@ -76,9 +86,11 @@ class Admission {
   [[nodiscard]] std::optional<std::string> low_disk() const;
 
  private:
+  /// Checks whether the owner, with `waiting` jobs in the queue, may queue `count` more. Throws ServiceError.
+  void check_quotas(const std::string& owner, std::size_t waiting, std::size_t count) const;
+
   Parts parts_;
   Limits limits_;
-  OwnerQuotas quotas_;
   std::atomic<bool> draining_ = false;
   Mutex mutex_;
   std::map<std::string, std::size_t> admitted_

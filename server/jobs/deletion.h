@@ -1,7 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "store/data_folder.h"
@@ -49,6 +51,43 @@ class Deletion {
   void remove_folders(const std::vector<std::int64_t>& jobs) const;
 
   Parts parts_;
+};
+
+/// Deletes ended jobs that are too old or too many, oldest first. A sweep is kept or deleted as a whole and ends with
+/// its last job. Ages follow the service clock (store/service_clock.h). Therefore neither a wrong wall clock nor time
+/// without a daemon ages anything. Not thread-safe.
+class Retention {
+ public:
+  /// 0: no limit, for each.
+  struct Limits {
+    std::chrono::seconds age{0};  ///< since the end
+    std::int64_t count = 0;       ///< ended jobs
+    std::int64_t bytes = 0;       ///< results and journal rows
+  };
+
+  /// `parts` and `deletion` outlive this object.
+  Retention(const Deletion::Parts& parts, const Deletion& deletion, const Limits& limits)
+      : parts_(parts), deletion_(deletion), limits_(limits) {}
+
+  /// Records the size of newly ended jobs, in batches. Returns early once `given_up` returns true.
+  void measure(const std::function<bool()>& given_up) const;
+
+  /// Deletes what exceeds a limit, at most about a thousand jobs; whether there may be more. Returns early once
+  /// `given_up` returns true.
+  bool enforce(const std::function<bool()>& given_up);
+
+ private:
+  [[nodiscard]] bool has_limit() const { return limits_.age.count() > 0 || limits_.count > 0 || limits_.bytes > 0; }
+  [[nodiscard]] bool is_too_much(const store::EndedTotals& totals) const;
+  [[nodiscard]] bool is_old(std::int64_t ended_at) const;
+  /// The end of a job's sweep, looked up once per pass.
+  const store::SweepEnd& end_of(std::int64_t sweep);
+  void delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const;
+
+  Deletion::Parts parts_;
+  const Deletion& deletion_;
+  Limits limits_;
+  std::map<std::int64_t, store::SweepEnd> sweeps_;  ///< seen in this pass
 };
 
 }  // namespace cellcrush::jobs

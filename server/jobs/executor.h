@@ -1,6 +1,9 @@
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -29,10 +32,10 @@ struct WorkerExit {
   };
   Kind kind = Kind::exited;
   int code = 0;
-  bool out_of_memory = false;          ///< the worker was killed while the kernel reported an OOM kill
-  std::optional<worker::Final> final;  ///< its last report, if any
-  std::string detail;                  ///< what happened, as a sentence, where the kind does not say it
-  Trouble trouble;                     ///< with not_started: what the executor lacks; `code` then does not count
+  bool out_of_memory = false;            ///< the worker was killed while the kernel reported an OOM kill
+  std::optional<worker::Final> final{};  ///< its last report, if any
+  std::string detail{};                  ///< what happened, as a sentence, where the kind does not say it
+  Trouble trouble{};                     ///< with not_started: what the executor lacks; `code` then does not count
 };
 
 /// Callbacks during a run, on the thread that called run.
@@ -74,6 +77,24 @@ class Executor {
   /// reports of the folder delivered. An exception from `events` kills the worker and propagates.
   virtual WorkerExit run(const store::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                          const Interruptions& interruptions) = 0;
+};
+
+/// What an executor may use of its daemon.
+struct ExecutorSurroundings {
+  std::filesystem::path data_folder;      ///< root of the data folder
+  std::filesystem::path worker_program;   ///< started as `PROGRAM worker --folder DIR`
+  std::chrono::milliseconds stall_limit;  ///< a worker that shows no sign of life for this long is replaced
+  double step_cost = 0.0;                 ///< seconds of one core per element and step
+};
+
+/// An executor beside that of the daemon's machine.
+struct ExecutorOptions {
+  /// Name for requests and results, "slurm/NAME"; differs from those of all other executors.
+  std::string name;
+  /// Jobs that it has at once; at least 1.
+  int slots = 1;
+  /// Makes it, once, at the start of the daemon. Throws ServiceError if it cannot be used.
+  std::function<std::unique_ptr<Executor>(const ExecutorSurroundings&)> make;
 };
 
 }  // namespace cellcrush::jobs

@@ -13,6 +13,8 @@ namespace {
 
 // Seconds of the service clock that a killed daemon may lose.
 constexpr std::int64_t kNoteAfter = 600;
+// The gradual corrections of a synchronized clock never reach it.
+constexpr std::chrono::seconds kLeastJump{10};
 
 }  // namespace
 
@@ -40,8 +42,10 @@ void Housekeeping::check_disk() {
 }
 
 void Housekeeping::check_clocks() {
-  if (const auto jump = clock_watch_.find_jump()) {
-    const auto seconds = std::chrono::round<std::chrono::seconds>(*jump).count();
+  // The wall clock, when set, advances differently from the uptime.
+  const auto offset = parts_.clocks.wall() - parts_.clocks.uptime();
+  if (const auto jump = offset - std::exchange(clock_offset_, offset); std::chrono::abs(jump) >= kLeastJump) {
+    const auto seconds = std::chrono::round<std::chrono::seconds>(jump).count();
     spdlog::warn("The wall clock was set {} by {} s. Timestamps of new events follow it; retention of jobs does not.",
                  seconds > 0 ? "forward" : "back", std::abs(seconds));
   }

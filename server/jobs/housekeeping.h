@@ -7,9 +7,8 @@
 
 #include "clocks.h"
 #include "jobs/admission.h"
-#include "jobs/clock_watch.h"
+#include "jobs/deletion.h"
 #include "jobs/queues.h"
-#include "jobs/retention.h"
 
 namespace cellcrush::jobs {
 
@@ -34,7 +33,7 @@ class Housekeeping {
   explicit Housekeeping(const Parts& parts)
       : parts_(parts),
         retention_({parts.folder, parts.journal, parts.reader, parts.sweeps}, parts.deletion, parts.keep),
-        clock_watch_(parts.clocks),
+        clock_offset_(parts.clocks.wall() - parts.clocks.uptime()),
         noted_(parts.journal.service_seconds()) {}
 
   /// Holds the queues if the disk is nearly full, before a job starts. Throws ServiceError.
@@ -53,8 +52,8 @@ class Housekeeping {
 
   Parts parts_;
   Retention retention_;
-  ClockWatch clock_watch_;
-  std::int64_t noted_;  ///< service clock, s, when last made durable
+  std::chrono::nanoseconds clock_offset_;  ///< of the wall clock to the uptime, at the last check
+  std::int64_t noted_;                     ///< service clock, s, when last made durable
   std::jthread thread_;
 };
 

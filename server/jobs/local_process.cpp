@@ -1,14 +1,14 @@
 #include "jobs/local_process.h"
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "jobs/worker_follower.h"
 #include "jobs/worker_process.h"
@@ -18,52 +18,23 @@
 namespace cellcrush::jobs {
 namespace {
 
-// Starts a worker in the folder. It may outlive the daemon, so it inherits no descriptors but the standard three, which
-// are opened on /dev/null. Returns 0 or an errno.
-int spawn(const std::filesystem::path& program, const store::JobFolder& folder, LocalProcess::Life life, pid_t& pid) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t signals;
-  sigset_t all;
-  sigemptyset(&signals);
-  sigaddset(&signals, worker::kSuspendSignal);
-  sigaddset(&signals, worker::kCancelSignal);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &signals);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  // A separate process group, so that Ctrl-C at the daemon's terminal reaches the daemon only.
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-
-  std::string name = program.string();
-  std::string command = "worker";
-  std::string option = "--folder";
-  std::string place = folder.root().string();
-  std::string ends = "--end-with";
-  std::string own = std::to_string(getpid());
-  std::array<char*, 7> arguments = {name.data(), command.data(), option.data(), place.data(),
-                                    nullptr,     nullptr,        nullptr};
-  if (life == LocalProcess::Life::ends_with_parent) {
-    arguments[4] = ends.data();
-    arguments[5] = own.data();
+// The value of "oom_kill" in a file with one name and number per line.
+std::optional<std::uint64_t> read_count(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string name;
+  for (std::uint64_t count = 0; file >> name >> count;) {
+    if (name == "oom_kill") return count;
   }
-  const int error = posix_spawn(&pid, name.c_str(), &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
+  return std::nullopt;
 }
 
-WorkerExit not_started(int error) {
-  WorkerExit out;
-  out.kind = WorkerExit::Kind::not_started;
-  out.code = error;
-  return out;
+// For version 2 control groups the line is "0::/path".
+std::filesystem::path control_group() {
+  std::ifstream file("/proc/self/cgroup");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("0::")) return "/sys/fs/cgroup" + line.substr(3);
+  }
+  return {};
 }
 
 void write_order(const store::JobFolder& folder, const worker::Order& order) {
@@ -91,18 +62,20 @@ WorkerExit follow(WorkerProcess& process, WorkerFollower& follower, const Worker
 
 }  // namespace
 
+std::uint64_t count_oom_kills() {
+  const auto group = control_group();
+  if (const auto count = group.empty() ? std::nullopt : read_count(group / "memory.events")) return *count;
+  return read_count("/proc/vmstat").value_or(0);
+}
+
 bool LocalProcess::has_worker(const store::JobFolder& folder) { return WorkerProcess::find(folder).has_value(); }
 
 std::optional<WorkerExit> LocalProcess::read_final_report(const store::JobFolder& folder, const WorkerEvents& events) {
   const Interruptions none;
   WorkerFollower follower(folder, events, none, stall_limit_);
-  WorkerExit out;
-  out.kind = WorkerExit::Kind::broken;
-  if (!follower.catch_up()) return out;
+  if (!follower.catch_up()) return WorkerExit{.kind = WorkerExit::Kind::broken};
   if (!follower.last_word() || follower.last_word()->has_suspended_step()) return std::nullopt;
-  out.kind = WorkerExit::Kind::gone;
-  out.final = follower.last_word();
-  return out;
+  return WorkerExit{.kind = WorkerExit::Kind::gone, .final = follower.last_word()};
 }
 
 void LocalProcess::end_worker(const store::JobFolder& folder) {
@@ -113,18 +86,20 @@ WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order
                              const Interruptions& interruptions) {
   auto process = WorkerProcess::find(folder);
   WorkerFollower follower(folder, events, interruptions, stall_limit_);
-  WorkerExit out;
   if (!follower.catch_up()) {
     if (process) process->end();
-    out.kind = WorkerExit::Kind::broken;
-    return out;
+    return {.kind = WorkerExit::Kind::broken};
   }
   if (process) return follow(*process, follower, events, oom_kills_);
   write_order(folder, order);
   pid_t child = 0;
-  if (const int error = spawn(program_, folder, life_, child); error != 0) return not_started(error);
+  std::vector<std::string> command = {program_.string(), "worker", "--folder", folder.root().string()};
+  if (life_ == Life::ends_with_parent) command.insert(command.end(), {"--end-with", std::to_string(getpid())});
+  // It may outlive the daemon, so it inherits no descriptor.
+  const int error = start_process(command, {worker::kSuspendSignal, worker::kCancelSignal}, -1, -1, child);
+  if (error != 0) return {.kind = WorkerExit::Kind::not_started, .code = error};
   process.emplace(WorkerProcess::of_child(child));
-  out = follow(*process, follower, events, oom_kills_);
+  WorkerExit out = follow(*process, follower, events, oom_kills_);
   if (out.kind != WorkerExit::Kind::exited || out.code != worker::kFolderIsClaimed) return out;
   // A worker that an earlier daemon had just started claimed the folder first.
   auto faster = WorkerProcess::find(folder);

@@ -1,6 +1,8 @@
 #include "jobs/queues.h"
 
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -10,7 +12,6 @@
 #include <utility>
 
 #include "error.h"
-#include "jobs/folder_audit.h"
 #include "jobs/outcome.h"
 #include "store/job_state.h"
 #include "store/resource_name.h"
@@ -24,6 +25,26 @@ std::string queue_name(const std::string& executor) {
 }
 
 constexpr std::size_t kCancelledAtOnce = 1000;  // jobs, in one transaction of some 20 ms
+
+// Entries that belong to the file system.
+constexpr const char* kOfTheFileSystem = "lost+found";
+
+// Why the folder is unusable for workers; empty if it is usable.
+std::string why_unusable(const store::JobFolder& folder) {
+  struct stat status {};
+  if (stat(folder.root().c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return "it is not a folder";
+  if (::access(folder.root().c_str(), R_OK | W_OK | X_OK) != 0)
+    return "the daemon lacks permission to read and write it";
+  for (const auto& path :
+       {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(), folder.previous_checkpoint(),
+        folder.partial_checkpoint(), folder.result(), folder.partial_result(), folder.attempt()}) {
+    if (lstat(path.c_str(), &status) != 0) continue;
+    const std::string name = path.filename().string();
+    if (!S_ISREG(status.st_mode)) return name + " in it is not a regular file";
+    if (::access(path.c_str(), R_OK | W_OK) != 0) return name + " in it is not readable and writable";
+  }
+  return "";
+}
 
 std::string missing(const std::string& executor) { return executor + ", an executor that this daemon does not have"; }
 
@@ -83,9 +104,37 @@ Queues::Queues(const Parts& parts, std::vector<NamedExecutor> executors) : parts
 Queues::~Queues() { stop(); }
 
 void Queues::start() {
-  audit_job_folders(parts_.reader, parts_.folder, [this](const store::QueuedJob& job) { return end_worker(job); });
+  audit_folders();
   clean_up();
   for (auto& queue : queues_) queue->is_present() ? queue->scheduler.start(queue->slots) : keep(*queue);
+}
+
+// No job mistakes what belongs to no job for its own. A job whose folder is unusable restarts from step 0.
+void Queues::audit_folders() {
+  std::map<std::int64_t, store::QueuedJob> open;
+  for (const auto state : {v1::Job::PENDING, v1::Job::RUNNING, v1::Job::SUSPENDED, v1::Job::CANCELLING}) {
+    for (auto& job : parts_.reader.queued_jobs(state)) open.emplace(job.job, std::move(job));
+  }
+  for (const auto& name : parts_.folder.names_in_jobs()) {
+    if (name == kOfTheFileSystem) continue;
+    const auto job = store::number_of("jobs/" + name);
+    if (!job || !parts_.reader.has_job(*job)) {
+      set_aside(name, "it belongs to no job");
+    } else if (const auto found = open.find(*job); found != open.end()) {
+      const std::string trouble = why_unusable(parts_.folder.job_folder(*job));
+      if (!trouble.empty() && end_worker(found->second)) set_aside(name, trouble);
+    }
+  }
+}
+
+void Queues::set_aside(const std::string& name, const std::string& why) const {
+  try {
+    spdlog::warn("jobs/{} was moved aside to {} because {}. Delete it when it is no longer needed.", name,
+                 parts_.folder.set_aside(name).string(), why);
+  } catch (const ServiceError& error) {
+    spdlog::error("jobs/{} is ignored because {}, and could not be moved aside: {} Move it away by hand.", name, why,
+                  error.what());
+  }
 }
 
 bool Queues::end_worker(const store::QueuedJob& job) {
@@ -187,12 +236,7 @@ void Queues::end_cancelled(std::int64_t job, const std::string& executor) {
   change.state = v1::Job::CANCELLED;
   change.message = "The job ran on " + missing(executor) +
                    ", so it has no result. The history is kept. A worker may run there until a daemon with it starts.";
-  try {
-    parts_.journal.change_state(job, change);
-  } catch (const ServiceError& error) {
-    // Another call was first.
-    if (error.kind() != ServiceError::Kind::failed_precondition) throw;
-  }
+  try_change(parts_.journal, job, change);  // another call may have been first
 }
 
 void Queues::cancel_all(const std::vector<std::int64_t>& jobs) {

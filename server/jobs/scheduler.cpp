@@ -14,6 +14,16 @@
 
 namespace cellcrush::jobs {
 
+bool try_change(store::Journal& journal, std::int64_t job, const store::StateChange& change) {
+  try {
+    journal.change_state(job, change);
+    return true;
+  } catch (const ServiceError& error) {
+    if (error.kind() != ServiceError::Kind::failed_precondition) throw;
+    return false;
+  }
+}
+
 void Scheduler::start(int slots) {
   const auto adopted = reconcile();
   const auto waiting = parts_.reader.queued_jobs(v1::Job::PENDING, parts_.executor_name);
@@ -88,12 +98,7 @@ void Scheduler::cancel(std::int64_t job) {
     change.worker_pid = stored.job.worker_pid();
     if (state == v1::Job::SUSPENDED)
       change.message = "The job was cancelled while suspended and has no result. The history is kept.";
-    try {
-      parts_.journal.change_state(job, change);
-    } catch (const ServiceError& error) {
-      if (error.kind() == ServiceError::Kind::failed_precondition) continue;
-      throw;
-    }
+    if (!try_change(parts_.journal, job, change)) continue;
     {
       const MutexLock lock(mutex_);
       // A CANCELLING job may have returned to the queue meanwhile, to be given up.
@@ -161,9 +166,8 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
     store::StateChange change;
     change.state = v1::Job::SUSPENDED;
     try {
-      parts_.journal.change_state(job, change);
-    } catch (const ServiceError& error) {
-      if (error.kind() == ServiceError::Kind::failed_precondition) continue;
+      try_change(parts_.journal, job, change);
+    } catch (const ServiceError&) {
       // If that cannot be written, it waits as before.
       enqueue({*queued});
       throw;

@@ -6,12 +6,12 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <map>
 #include <string>
 #include <utility>
 
-#include "error.h"
+#include "error_table.h"
 #include "jobs/case_field.h"
-#include "jobs/point_problems.h"
 #include "jobs/sweep_points.h"
 #include "translate/case_checker.h"
 
@@ -28,12 +28,6 @@ constexpr std::size_t kMostNamedBytes = 4'190'000;
 constexpr std::size_t kNameBytes = 17;
 constexpr std::size_t kMostLabelBytes = 16 * 1024 * 1024;  // of the labels of all its jobs
 
-void cut(std::string& text, std::size_t most) {
-  if (text.size() <= most) return;
-  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
-  text.resize(most);
-}
-
 std::size_t bytes_of_labels(const v1::Sweep& sweep) {
   std::size_t out = 0;
   for (const auto& [key, value] : sweep.labels()) out += key.size() + value.size();
@@ -49,19 +43,10 @@ std::string text_of_point(const std::vector<std::string>& fields, const std::vec
 
 // Truncates the case's own title rather than the values.
 std::string title_of(std::string title, std::string point) {
-  cut(point, kLongestTitle);
+  point = cut_text(std::move(point), kLongestTitle);
   if (point.size() + 2 >= kLongestTitle) return point;
-  cut(title, kLongestTitle - point.size() - 2);
+  title = cut_text(std::move(title), kLongestTitle - point.size() - 2);
   return title.empty() ? point : title + ", " + point;
-}
-
-v1::Problem problem_of(const InvalidField& refused) {
-  v1::Problem out;
-  out.set_field(refused.field());
-  out.set_message(refused.message());
-  out.set_remedy(refused.remedy());
-  out.set_kind(v1::Problem::INVALID);
-  return out;
 }
 
 v1::Job job_of(const v1::Sweep& sweep, v1::Case made) {
@@ -93,6 +78,79 @@ void check_sizes(const v1::Sweep& sweep, std::size_t points) {
         "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, too many for " + std::to_string(points) + " jobs.",
         "Use fewer or shorter labels, or fewer points: the labels of all jobs together may have at most 16 MiB.");
   }
+}
+
+constexpr const char* kDigits = "0123456789";
+constexpr const char* kOfNumbers = "0123456789.e+-";
+
+std::string without_numbers(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto number = std::min(text.find_first_of(kDigits, i), text.size());
+    out += text.substr(i, number - i) + "#";
+    i = std::min(text.find_first_not_of(kOfNumbers, number), text.size());
+  }
+  return out;
+}
+
+// Merges problems, or notes, that several points of a sweep share.
+class PointProblems {
+ public:
+  // What to merge: equal problems, or also those that differ only in their numbers.
+  enum class Merge : std::uint8_t { equal, but_for_numbers };
+
+  PointProblems(std::size_t points, Merge merge) : points_(points), merge_(merge) {}
+
+  // Adds a problem of the point at `position`; `point` describes the point.
+  void add(const v1::Problem& problem, std::size_t position, const std::string& point);
+
+  // The merged problems, in the order of their first points and with the numbers of these. The message names the first
+  // point and counts the others, unless every point of the sweep has the same problem.
+  [[nodiscard]] google::protobuf::RepeatedPtrField<v1::Problem> merged() const;
+
+ private:
+  struct Entry {
+    v1::Problem problem;
+    std::size_t first = 0;
+    std::string point;
+    std::size_t count = 0;
+    bool is_equal = true;  // at all its points
+  };
+
+  [[nodiscard]] std::string key_of(const v1::Problem& problem) const;
+
+  std::size_t points_;
+  Merge merge_;
+  std::map<std::string, std::size_t> seen_;
+  std::vector<Entry> entries_;
+};
+
+void PointProblems::add(const v1::Problem& problem, std::size_t position, const std::string& point) {
+  const auto [found, is_new] = seen_.try_emplace(key_of(problem), entries_.size());
+  if (is_new) entries_.push_back({problem, position, point});
+  Entry& entry = entries_[found->second];
+  ++entry.count;
+  if (merge_ == Merge::but_for_numbers && problem.SerializeAsString() != entry.problem.SerializeAsString())
+    entry.is_equal = false;
+}
+
+google::protobuf::RepeatedPtrField<v1::Problem> PointProblems::merged() const {
+  google::protobuf::RepeatedPtrField<v1::Problem> out;
+  for (const auto& entry : entries_) {
+    v1::Problem& problem = *out.Add();
+    problem = entry.problem;
+    if (entry.is_equal && entry.count == points_) continue;
+    std::string where = " This applies to point " + std::to_string(entry.first + 1) + " of " + std::to_string(points_) +
+                        " (" + entry.point + ")";
+    if (entry.count > 1) where += " and to " + std::to_string(entry.count - 1) + " more";
+    problem.set_message(problem.message() + where + ".");
+  }
+  return out;
+}
+
+std::string PointProblems::key_of(const v1::Problem& problem) const {
+  if (merge_ == Merge::equal) return problem.SerializeAsString();
+  return problem.field() + "\n" + without_numbers(problem.message());
 }
 
 struct CheckedPoint {
@@ -132,7 +190,7 @@ class PointChecker {
     try {
       for (std::size_t i = 0; i < values.size(); ++i) set_case_field(out.made, points_.fields[i], values[i]);
     } catch (const InvalidField& refused) {
-      out.verdict.problems.push_back(problem_of(refused));
+      out.verdict.problems.push_back(invalid_problem(refused.field(), refused.message(), refused.remedy()));
       return out;
     }
     // Large lattices of a sweep are built one after another; the sweep waits for places as long as its caller does.

@@ -1,6 +1,8 @@
 #include "jobs/worker_process.h"
 
+#include <fcntl.h>
 #include <poll.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +19,36 @@ extern "C" {
 }
 
 namespace cellcrush::jobs {
+
+int start_process(std::vector<std::string> command, const std::vector<int>& blocked, int output, int errors,
+                  pid_t& process) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  for (const auto& [inherited, as] : {std::pair(output, STDOUT_FILENO), std::pair(errors, STDERR_FILENO)}) {
+    inherited < 0 ? posix_spawn_file_actions_addopen(&actions, as, "/dev/null", O_WRONLY, 0)
+                  : posix_spawn_file_actions_adddup2(&actions, inherited, as);
+  }
+  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+  sigset_t mask;
+  sigset_t all;
+  sigemptyset(&mask);
+  for (const int signal : blocked) sigaddset(&mask, signal);
+  sigfillset(&all);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigmask(&attributes, &mask);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  std::vector<char*> arguments;
+  for (auto& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const int error = posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
 
 WorkerProcess::WorkerProcess(pid_t process, bool is_child)
     : process_(process), is_child_(is_child), descriptor_(pidfd_open(process, 0)) {

@@ -4,10 +4,18 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "store/job_folder.h"
 
 namespace cellcrush::jobs {
+
+/// Starts a program, found by PATH unless its name has a slash. Its group is its own, so that Ctrl-C at the daemon's
+/// terminal reaches the daemon only. It inherits the output and the errors, -1: /dev/null, and no other descriptor. Only
+/// the signals of `blocked` are blocked, and none is handled. Returns 0 or an errno.
+int start_process(std::vector<std::string> command, const std::vector<int>& blocked, int output, int errors,
+                  pid_t& process);
 
 /// A worker process: a child of this process, or one started by an earlier daemon. The destructor kills and reaps a
 /// child; other processes keep running. Not thread-safe. Construction throws std::system_error if no descriptor is

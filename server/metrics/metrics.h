@@ -13,22 +13,7 @@
 
 namespace cellcrush::metrics {
 
-/// Prometheus metrics of the daemon, in text format at http://HOST:PORT/metrics.
-///
-///   cellcrush_jobs_waiting, cellcrush_jobs_running   current number of jobs of all executors
-///   cellcrush_jobs_ended_total{state="SUCCEEDED"}    jobs ended since the daemon started, by final state
-///   cellcrush_steps_total                            time steps of ended jobs that left a result
-///   cellcrush_stage_seconds_total{stage="..."}       their processor time by stage (fields of StageTimes)
-///   cellcrush_steps_per_second                       of all running jobs, as last reported
-///   cellcrush_commit_seconds                         histogram: time to make a write durable
-///   cellcrush_event_seconds                          histogram: from an event to its message on the stream
-///   cellcrush_watchers                               open watches
-///   cellcrush_connections                            open gRPC connections
-///   cellcrush_refused_connections_total              connections beyond the limits
-///   cellcrush_queue_held{cause="full_disk"}          1 while this shortage (shortage.h) holds a queue
-///   cellcrush_skipped_frames_total                   frames skipped for slow watchers
-///
-/// Thread-safe.
+/// Prometheus metrics of the daemon, in text format at http://HOST:PORT/metrics (monitor.md lists them). Thread-safe.
 class Metrics {
  public:
   Metrics();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 
 namespace cellcrush::net {
@@ -19,6 +20,23 @@ struct ConnectionLimits {
   std::chrono::milliseconds keepalive_answer{20'000};  ///< deadline for the answer to a ping
   std::chrono::milliseconds probe_interval{10'000};    ///< interval between probes of the daemon's own ports
   std::chrono::milliseconds probe_patience{5'000};     ///< deadline for a port to answer a probe
+};
+
+/// Raises the soft limit on file descriptors to the hard limit. Returns how many connections may be open, between 8 and
+/// `wanted`, so that enough descriptors remain for the journal, results and `workers` jobs. Logs a warning if that is
+/// fewer than wanted.
+int raise_descriptor_limit(int wanted, int workers);
+
+/// Returns memory to the system after a flood of connections and streams. The C library would otherwise keep its peak.
+/// Not thread-safe.
+class HeapTrim {
+ public:
+  /// Called about once a second with the number of open connections and streams. Returns whether memory was returned:
+  /// once, after at least half of a large number has closed.
+  bool note(std::size_t open);
+
+ private:
+  std::size_t most_ = 0;  ///< peak since memory was last returned
 };
 
 }  // namespace cellcrush::net

@@ -21,7 +21,7 @@ std::string text_of(int family, const void* address) {
 }  // namespace
 
 std::optional<std::string> ConnectionTable::admit(int descriptor, const std::string& peer) {
-  if (excess(peer) && now_() - last_look_ >= kBetweenLooks) drop_closed();
+  if (excess(peer) && Clock::now() - last_look_ >= kBetweenLooks) drop_closed();
   if (auto words = excess(peer)) return words;
   struct stat status {};
   if (fstat(descriptor, &status) != 0) return "it is already closed";
@@ -33,7 +33,7 @@ std::optional<std::string> ConnectionTable::admit(int descriptor, const std::str
 }
 
 void ConnectionTable::drop_closed() {
-  last_look_ = now_();
+  last_look_ = Clock::now();
   for (auto entry = entries_.begin(); entry != entries_.end();) {
     struct stat status {};
     const bool is_open = fstat(entry->first, &status) == 0 && status.st_ino == entry->second.inode &&

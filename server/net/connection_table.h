@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,8 +22,7 @@ class ConnectionTable {
     int per_peer = 0;
   };
 
-  explicit ConnectionTable(Limits limits, std::function<Clock::time_point()> now = Clock::now)
-      : limits_(limits), now_(std::move(now)) {}
+  explicit ConnectionTable(Limits limits) : limits_(limits) {}
 
   /// Records a connection. If it exceeds a limit, returns the reason and does not record it.
   std::optional<std::string> admit(int descriptor, const std::string& peer);
@@ -47,7 +45,6 @@ class ConnectionTable {
   Entries::iterator erase(Entries::iterator entry);
 
   Limits limits_;
-  std::function<Clock::time_point()> now_;
   Entries entries_;                   ///< by descriptor
   std::map<std::string, int> peers_;  ///< connections by peer
   Clock::time_point last_look_;

@@ -109,10 +109,8 @@ void ListeningPort::reopen() {
 
 void ListeningPort::listen_on_unix_socket() {
   remove_stale_socket(address_.place);
-  sockaddr_un name{};
-  name.sun_family = AF_UNIX;
-  std::strncpy(name.sun_path, address_.place.c_str(), sizeof(name.sun_path) - 1);
-  const int socket = open_socket(reinterpret_cast<const sockaddr*>(&name), sizeof(name));
+  const SocketName name = name_of(address_);
+  const int socket = open_socket(reinterpret_cast<const sockaddr*>(&name.address), name.size);
   if (socket < 0) refuse(address_, option_);
   descriptors_.push_back(socket);
   file_ = inode_of(address_.place);
@@ -155,6 +153,44 @@ void ListeningPort::close_all() {
   if (file_ != 0 && inode_of(address_.place) == file_) unlink(address_.place.c_str());
   file_ = 0;
   errno = reason;
+}
+
+void remove_stale_socket(const std::string& path) {
+  struct stat status {};
+  if (lstat(path.c_str(), &status) != 0) return;
+  const std::string name = "unix:" + path;
+  if (!S_ISSOCK(status.st_mode)) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       "Cannot listen on " + name + ": the path exists and is not a socket. Use another path.");
+  }
+  const SocketName address = name_of({ListenAddress::Kind::unix_socket, path, 0});
+  const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const bool answers = connect(probe, reinterpret_cast<const sockaddr*>(&address.address), address.size) == 0;
+  close(probe);
+  if (answers) {
+    throw ServiceError(
+        ServiceError::Kind::failed_precondition,
+        "Cannot listen on " + name + ": another program is listening there. Stop it, or use another path.");
+  }
+  unlink(path.c_str());
+}
+
+SocketName name_of(const ListenAddress& address) {
+  SocketName out;
+  if (address.kind == ListenAddress::Kind::unix_socket) {
+    auto& name = reinterpret_cast<sockaddr_un&>(out.address);
+    name.sun_family = AF_UNIX;
+    std::strncpy(name.sun_path, address.place.c_str(), sizeof(name.sun_path) - 1);
+    out.size = sizeof(name);
+    return out;
+  }
+  const std::string host = address.place == "0.0.0.0" ? "127.0.0.1" : address.place == "[::]" ? "::1" : address.place;
+  if (const Addresses list = resolve(host)) {
+    set_port(list->ai_addr, address.port);
+    std::memcpy(&out.address, list->ai_addr, list->ai_addrlen);
+    out.size = list->ai_addrlen;
+  }
+  return out;
 }
 
 }  // namespace cellcrush::net

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sys/socket.h>
 #include <sys/types.h>
 
 #include <string>
@@ -39,5 +40,18 @@ class ListeningPort {
   std::vector<int> descriptors_;
   ino_t file_ = 0;  ///< inode of the Unix socket's file
 };
+
+/// Removes a stale socket at the path. Throws ServiceError (failed_precondition) if something answers there or if it is
+/// not a socket.
+void remove_stale_socket(const std::string& path);
+
+/// An address as the kernel has it.
+struct SocketName {
+  sockaddr_storage address{};
+  socklen_t size = 0;  ///< 0: none
+};
+
+/// Where to connect to a port that listens on the address: loopback if that is a wildcard.
+SocketName name_of(const ListenAddress& address);
 
 }  // namespace cellcrush::net

@@ -1,15 +1,12 @@
 #include "net/port_probe.h"
 
-#include <netdb.h>
 #include <openssl/ssl.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -21,45 +18,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Name {
-  sockaddr_storage address{};
-  socklen_t size = 0;
-};
-
-Name name_of_socket(const std::string& path) {
-  Name out;
-  auto& name = reinterpret_cast<sockaddr_un&>(out.address);
-  name.sun_family = AF_UNIX;
-  std::strncpy(name.sun_path, path.c_str(), sizeof(name.sun_path) - 1);
-  out.size = sizeof(name);
-  return out;
-}
-
-// The address itself, or loopback for a wildcard.
-Name name_of_port(const ListenAddress& address) {
-  std::string host = address.place;
-  if (host == "0.0.0.0") host = "127.0.0.1";
-  if (host == "[::]") host = "[::1]";
-  if (host.front() == '[') host = host.substr(1, host.size() - 2);
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  hints.ai_flags = AI_NUMERICSERV;
-  addrinfo* list = nullptr;
-  Name out;
-  if (getaddrinfo(host.c_str(), std::to_string(address.port).c_str(), &hints, &list) != 0) return out;
-  std::memcpy(&out.address, list->ai_addr, list->ai_addrlen);
-  out.size = list->ai_addrlen;
-  freeaddrinfo(list);
-  return out;
-}
-
 bool is_ready(int socket, short what, Clock::time_point limit) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(limit - Clock::now());
   pollfd waiting{socket, what, 0};
   return left.count() > 0 && poll(&waiting, 1, static_cast<int>(left.count())) > 0;
 }
 
-bool connects(int socket, const Name& name, Clock::time_point limit) {
+bool connects(int socket, const SocketName& name, Clock::time_point limit) {
   if (connect(socket, reinterpret_cast<const sockaddr*>(&name.address), name.size) == 0) return true;
   if (errno != EINPROGRESS || !is_ready(socket, POLLOUT, limit)) return false;
   int error = 0;
@@ -67,7 +32,7 @@ bool connects(int socket, const Name& name, Clock::time_point limit) {
   return getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
 }
 
-bool answers_on(int socket, const Name& name, const std::string& hello, Clock::time_point limit) {
+bool answers_on(int socket, const SocketName& name, const std::string& hello, Clock::time_point limit) {
   if (!connects(socket, name, limit)) return false;
   if (!hello.empty()) static_cast<void>(send(socket, hello.data(), hello.size(), MSG_NOSIGNAL));
   return is_ready(socket, POLLIN, limit);
@@ -94,8 +59,7 @@ std::string client_hello() {
 }
 
 bool answers(const ListenAddress& address, const std::string& hello, std::chrono::milliseconds patience) {
-  const bool is_unix = address.kind == ListenAddress::Kind::unix_socket;
-  const Name name = is_unix ? name_of_socket(address.place) : name_of_port(address);
+  const SocketName name = name_of(address);
   const int probe = socket(name.address.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (probe < 0) return true;
   const bool out = answers_on(probe, name, hello, Clock::now() + patience);

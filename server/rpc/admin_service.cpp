@@ -1,15 +1,60 @@
 #include "rpc/admin_service.h"
 
+#include <google/protobuf/util/time_util.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "error.h"
 #include "revision.h"
 #include "rpc/change_log.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::rpc {
+namespace {
+
+google::protobuf::Timestamp clock_time(jobs::Hold::Clock::time_point time) {
+  const std::chrono::nanoseconds from_now = time - jobs::Hold::Clock::now();
+  return google::protobuf::util::TimeUtil::GetCurrentTime() +
+         google::protobuf::util::TimeUtil::NanosecondsToDuration(from_now.count());
+}
+
+v1::Queue::Hold to_proto(const jobs::Hold& hold, const std::string& executor) {
+  v1::Queue::Hold out;
+  out.set_cause(name_of(hold.shortage));
+  out.set_reason(hold.reason);
+  out.set_remedy(remedy_for(hold.shortage));
+  *out.mutable_since() = clock_time(hold.since);
+  if (hold.next_try) *out.mutable_next_try_time() = clock_time(*hold.next_try);
+  out.set_executor(executor);
+  return out;
+}
+
+void add_entry(const store::QueuedJob& job, const std::string& reason, v1::Queue& out) {
+  auto& entry = *out.add_entries();
+  entry.set_job(store::name_of(job.job));
+  entry.set_reason(reason);
+  entry.set_priority(job.priority);
+  entry.set_executor(job.executor);
+}
+
+// Drops entries beyond the limit and counts them.
+void limit(v1::Queue& queue) {
+  const int extra = queue.entries_size() - jobs::kMostEntries;
+  if (extra <= 0) return;
+  queue.mutable_entries()->DeleteSubrange(jobs::kMostEntries, extra);
+  queue.set_more_count(queue.more_count() + extra);
+}
+
+}  // namespace
 
 grpc::Status AdminService::get_capabilities(const Call&, const v1::GetCapabilitiesRequest&,
                                             v1::Capabilities& response) {
   response.set_version(kSolverRevision);
   response.set_draining(draining_);
-  const jobs::Queues& queues = parts_.listing.queues;
+  const jobs::Queues& queues = parts_.queues;
   response.set_default_executor(queues.default_name());
   for (const auto& standing : queues.standings()) {
     if (standing.executor == store::kLocalExecutor) response.set_worker_limit(standing.slots);
@@ -22,14 +67,14 @@ grpc::Status AdminService::get_capabilities(const Call&, const v1::GetCapabiliti
 }
 
 grpc::Status AdminService::get_queue(const Call&, const v1::GetQueueRequest&, v1::Queue& response) {
-  response = listing_.list();
+  response = list_queues();
   return grpc::Status::OK;
 }
 
 grpc::Status AdminService::drain(const Call& call, const v1::DrainRequest&, v1::DrainResponse&) {
   log_change("", "drained", call.caller().name);
   draining_ = true;
-  parts_.drain();
+  drain_daemon_();
   return grpc::Status::OK;
 }
 
@@ -39,6 +84,90 @@ void AdminService::add_methods(MethodTable& table) {
               &AdminService::get_capabilities);
   table.unary("/cellcrush.v1.Admin/GetQueue", Scope::read, &parts_.calls, *this, &AdminService::get_queue);
   table.unary("/cellcrush.v1.Admin/Drain", Scope::admin, &parts_.calls, *this, &AdminService::drain);
+}
+
+v1::Queue AdminService::list_queues() {
+  v1::Queue out;
+  const auto standings = parts_.queues.standings();
+  for (const auto& standing : standings) {
+    if (standing.is_present) add_queue(standing, out);
+  }
+  std::stable_sort(
+      out.mutable_entries()->begin(), out.mutable_entries()->end(),
+      [](const auto& one, const auto& other) { return one.seconds_until_start() < other.seconds_until_start(); });
+  for (const auto& standing : standings) {
+    if (!standing.is_present) add_kept_jobs(standing.executor, out);
+  }
+  limit(out);
+  return out;
+}
+
+void AdminService::add_queue(const jobs::Queues::Standing& standing, v1::Queue& out) {
+  const Jobs jobs = jobs_of(standing.executor, out);
+  jobs::WorkerFacts workers{standing.slots, parts_.step_cost, {}, parts_.owner_max_running, standing.executor};
+  if (!standing.holds.empty()) {
+    const auto& first = standing.holds.front();
+    workers.held = first.reason + " " + remedy_for(first.shortage);
+  }
+  const auto forecast =
+      jobs::forecast_queue(jobs.running, jobs.waiting, workers, [this](std::int64_t job) { return facts_of(job); });
+  out.mutable_entries()->MergeFrom(forecast.entries());
+  out.set_more_count(out.more_count() + forecast.more_count());
+  for (const auto& hold : standing.holds) *out.add_holds() = to_proto(hold, standing.executor);
+}
+
+void AdminService::add_kept_jobs(const std::string& executor, v1::Queue& out) {
+  const std::string reason =
+      "This daemon does not have " + executor + ". Start cellcrushd with it to run the job, or cancel the job.";
+  for (const auto& job : parts_.reader.queued_jobs(v1::Job::PENDING, executor)) add_entry(job, reason, out);
+}
+
+AdminService::Jobs AdminService::jobs_of(const std::string& executor, v1::Queue& out) {
+  Jobs jobs;
+  for (const auto state : {v1::Job::RUNNING, v1::Job::CANCELLING}) {
+    for (const auto& job : parts_.reader.queued_jobs(state, executor)) jobs.running.push_back(running_job(job, state));
+  }
+  for (auto& job : parts_.reader.queued_jobs(v1::Job::PENDING, executor)) {
+    const auto channel = parts_.hub.find(job.job);
+    const std::string place = channel ? channel->newest().place : "";
+    if (place.empty()) {
+      jobs.waiting.push_back(std::move(job));
+    } else {
+      add_entry(job, executor + " has it: " + place + ".", out);
+      jobs.running.push_back(running_job(job, v1::Job::PENDING));
+    }
+  }
+  return jobs;
+}
+
+jobs::RunningJob AdminService::running_job(const store::QueuedJob& job, v1::Job::State state) {
+  const int cores = parts_.queues.cores_of(job);
+  // A service that was told to stop ends at once.
+  if (state == v1::Job::CANCELLING) return {job, 0.0, cores};
+  const auto channel = parts_.hub.find(job.job);
+  const auto progress = channel ? channel->newest().progress : nullptr;
+  const double seconds_left = progress && progress->steps_per_second() > 0.0
+                                  ? progress->seconds_left()
+                                  : jobs::predicted_seconds(job, facts_of(job.job), cores, parts_.step_cost);
+  return {job, seconds_left, cores};
+}
+
+jobs::JobFacts AdminService::facts_of(std::int64_t job) {
+  jobs::JobFacts out;
+  const auto stored = parts_.reader.find_job(job);
+  if (!stored) return out;
+  out.threads = std::max(stored->job.case_().numerics().threads(), 1);
+  // The worker that ran the job has reported the mesh.
+  const auto mesh = stored->job.attempt() > 0 ? parts_.reader.mesh(job) : std::nullopt;
+  if (!mesh) return out;
+  try {
+    out.element_steps_done =
+        mesh->thickness_mm_size() * std::max<std::int64_t>(parts_.reader.last_sampled_step(job), 0);
+  } catch (const ServiceError& error) {
+    // A damaged job must not hide the others.
+    spdlog::error("Cannot read the progress of {}: {}", store::name_of(job), error.what());
+  }
+  return out;
 }
 
 }  // namespace cellcrush::rpc

@@ -1,26 +1,24 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cellcrush/v1/admin_service.pb.h"
-#include "jobs/queues.h"
-#include "rpc/method_table.h"
-#include "rpc/queue_listing.h"
+#include "jobs/queue_forecast.h"
+#include "rpc/service_parts.h"
 
 namespace cellcrush::rpc {
 
-/// State and control of the daemon. Thread-safe.
+/// State and control of the daemon, and the waiting jobs of all executors. Thread-safe.
 class AdminService {
  public:
-  /// All of it outlives the service.
-  struct Parts {
-    QueueListing::Parts listing;
-    CallPool& calls;
-    std::function<void()> drain;
-  };
-
-  explicit AdminService(const Parts& parts) : parts_(parts), listing_(parts.listing) {}
+  /// `drain`: called once a client has asked for it.
+  AdminService(const ServiceParts& parts, std::function<void()> drain)
+      : parts_(parts), drain_daemon_(std::move(drain)) {}
 
   /// The service outlives the table.
   void add_methods(MethodTable& table);
@@ -30,8 +28,23 @@ class AdminService {
   grpc::Status get_queue(const Call&, const v1::GetQueueRequest&, v1::Queue& response);
   grpc::Status drain(const Call& call, const v1::DrainRequest&, v1::DrainResponse&);
 
-  Parts parts_;
-  QueueListing listing_;
+  /// Jobs of one executor.
+  struct Jobs {
+    std::vector<jobs::RunningJob> running;  ///< or with the executor, which has not started them
+    std::vector<store::QueuedJob> waiting;
+  };
+
+  /// Throws ServiceError if the journal cannot be read.
+  v1::Queue list_queues();
+  /// Jobs that the executor has, and entries for those that it has not started.
+  Jobs jobs_of(const std::string& executor, v1::Queue& out);
+  jobs::RunningJob running_job(const store::QueuedJob& job, v1::Job::State state);
+  jobs::JobFacts facts_of(std::int64_t job);
+  void add_queue(const jobs::Queues::Standing& standing, v1::Queue& out);
+  void add_kept_jobs(const std::string& executor, v1::Queue& out);
+
+  ServiceParts parts_;
+  std::function<void()> drain_daemon_;
   std::atomic<bool> draining_ = false;
 };
 

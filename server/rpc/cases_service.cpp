@@ -3,7 +3,7 @@
 #include <string>
 
 #include "error_table.h"
-#include "rpc/request_limits.h"
+#include "rpc/request_fields.h"
 #include "store/result_writer.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
@@ -26,16 +26,16 @@ std::string known_presets() {
 grpc::Status CasesService::check_case(const Call& call, const v1::CheckCaseRequest& request,
                                       v1::CheckCaseResponse& response) {
   const auto elements = translate::CaseChecker().elements_to_build(request.case_());
-  const jobs::MeshPlaces::Place place(places_, elements, [&call] { return call.is_cancelled(); });
+  const jobs::MeshPlaces::Place place(parts_.places, elements, [&call] { return call.is_cancelled(); });
   const auto look_up = [&call] {
     if (call.is_cancelled()) throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call.");
   };
   auto check = translate::check_case(request.case_(), look_up);
   v1::CheckCaseResponse& out = check.response;
   if (out.problems_size() == 0) {
-    out.set_predicted_seconds(step_cost_ * static_cast<double>(out.element_count()) *
+    out.set_predicted_seconds(parts_.step_cost * static_cast<double>(out.element_count()) *
                               static_cast<double>(out.step_count()));
-    translate::add_fidelities(request.case_(), step_cost_, check);
+    translate::add_fidelities(request.case_(), parts_.step_cost, check);
     out.set_predicted_bytes(store::predicted_result_bytes(out.particle_count(), out.element_count(), check.sample_count,
                                                           check.frame_count));
   }
@@ -47,7 +47,7 @@ grpc::Status CasesService::preview_case(const Call& call, const v1::PreviewCaseR
                                         v1::PreviewCaseResponse& response) {
   check_size("case", request.case_().ByteSizeLong(), kLargestCase);
   const auto elements = translate::CaseChecker().elements_to_build(request.case_());
-  const jobs::MeshPlaces::Place place(places_, elements, [&call] { return call.is_cancelled(); });
+  const jobs::MeshPlaces::Place place(parts_.places, elements, [&call] { return call.is_cancelled(); });
   auto preview = translate::preview_case(request.case_());
   if (!preview.problems.empty()) return status_of(preview.problems);
   if (preview.mesh.ByteSizeLong() > kLargestPreview) {
@@ -81,10 +81,10 @@ grpc::Status CasesService::get_preset(const Call&, const v1::GetPresetRequest& r
 
 void CasesService::add_methods(MethodTable& table) {
   using access::Scope;
-  table.unary("/cellcrush.v1.Cases/CheckCase", Scope::read, &checks_, *this, &CasesService::check_case);
-  table.unary("/cellcrush.v1.Cases/PreviewCase", Scope::read, &checks_, *this, &CasesService::preview_case);
-  table.unary("/cellcrush.v1.Cases/ListPresets", Scope::read, &calls_, *this, &CasesService::list_presets);
-  table.unary("/cellcrush.v1.Cases/GetPreset", Scope::read, &calls_, *this, &CasesService::get_preset);
+  table.unary("/cellcrush.v1.Cases/CheckCase", Scope::read, &parts_.checks, *this, &CasesService::check_case);
+  table.unary("/cellcrush.v1.Cases/PreviewCase", Scope::read, &parts_.checks, *this, &CasesService::preview_case);
+  table.unary("/cellcrush.v1.Cases/ListPresets", Scope::read, &parts_.calls, *this, &CasesService::list_presets);
+  table.unary("/cellcrush.v1.Cases/GetPreset", Scope::read, &parts_.calls, *this, &CasesService::get_preset);
 }
 
 }  // namespace cellcrush::rpc

@@ -1,18 +1,14 @@
 #pragma once
 
 #include "cellcrush/v1/cases_service.pb.h"
-#include "jobs/mesh_places.h"
-#include "rpc/method_table.h"
+#include "rpc/service_parts.h"
 
 namespace cellcrush::rpc {
 
 /// Answers questions about cases. Thread-safe.
 class CasesService {
  public:
-  /// `step_cost`: seconds of one core per element and step. `checks` runs calls that may take seconds, so that the
-  /// others need not wait for them. Both pools and the places outlive it.
-  CasesService(double step_cost, CallPool& calls, CallPool& checks, jobs::MeshPlaces& places)
-      : step_cost_(step_cost), calls_(calls), checks_(checks), places_(places) {}
+  explicit CasesService(const ServiceParts& parts) : parts_(parts) {}
 
   /// The service outlives the table.
   void add_methods(MethodTable& table);
@@ -23,10 +19,7 @@ class CasesService {
   grpc::Status list_presets(const Call&, const v1::ListPresetsRequest&, v1::ListPresetsResponse& response);
   grpc::Status get_preset(const Call&, const v1::GetPresetRequest& request, v1::Preset& response);
 
-  double step_cost_;
-  CallPool& calls_;
-  CallPool& checks_;
-  jobs::MeshPlaces& places_;
+  ServiceParts parts_;
 };
 
 }  // namespace cellcrush::rpc

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "log_fields.h"
+#include "log_format.h"
 
 namespace cellcrush::rpc {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "error.h"
-#include "rpc/page.h"
+#include "rpc/request_fields.h"
 #include "store/job_state.h"
 #include "translate/case_checker.h"
 #include "translate/case_words.h"

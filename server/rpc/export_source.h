@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "jobs/frame_series.h"
 #include "jobs/mesh_places.h"
+#include "rpc/stream_state.h"
 #include "store/data_folder.h"
 #include "store/journal_reader.h"
 
@@ -31,11 +31,8 @@ class ExportPlaces {
 
 /// Source of an ExportJob: the HTML file (web/exported_page.h) in chunks. Holds one frame, the mesh and a page of
 /// samples at most. Not thread-safe.
-class ExportSource {
+class ExportSource final : public PlainSource<v1::ExportJobResponse> {
  public:
-  using Message = v1::ExportJobResponse;
-  static constexpr bool kIsWatch = false;
-
   /// All of it outlives the source.
   struct Parts {
     const store::DataFolder& folder;
@@ -51,14 +48,11 @@ class ExportSource {
   ExportSource(const ExportSource&) = delete;
   ExportSource& operator=(const ExportSource&) = delete;
 
-  void open(const std::function<void()>&) {}
-  void close() {}
   /// Throws ServiceError: exhausted while checks of other large cases occupy the daemon, and the errors of
   /// jobs::FrameSeries.
   std::optional<Message> next();
   [[nodiscard]] bool has_more() const;
   [[nodiscard]] bool ended() const { return stage_ == Stage::done && text_.size() == sent_; }
-  [[nodiscard]] std::optional<Message> bookmark() const { return std::nullopt; }
   [[nodiscard]] std::string resume_advice() const { return "from the start"; }
 
  private:

@@ -1,6 +1,6 @@
 #include "rpc/health_service.h"
 
-#include "rpc/request_limits.h"
+#include "rpc/request_fields.h"
 
 namespace cellcrush::rpc {
 namespace {

@@ -36,20 +36,15 @@ class HealthBoard {
 };
 
 /// Source of a Health.Watch: the status of a service, repeated whenever it changes. Not thread-safe, except for `wake`.
-class HealthSource {
+class HealthSource final : public PlainSource<grpc::health::v1::HealthCheckResponse> {
  public:
-  using Message = grpc::health::v1::HealthCheckResponse;
-  static constexpr bool kIsWatch = false;
-
   /// `board` outlives it.
   HealthSource(HealthBoard& board, std::string service) : board_(board), service_(std::move(service)) {}
 
   void open(std::function<void()> wake) { subscription_ = board_.subscribe(std::move(wake)); }
   void close() { board_.unsubscribe(subscription_); }
   std::optional<Message> next();
-  [[nodiscard]] bool has_more() const { return false; }
   [[nodiscard]] bool ended() const { return false; }
-  [[nodiscard]] std::optional<Message> bookmark() const { return std::nullopt; }
   [[nodiscard]] std::string resume_advice() const { return "for the service"; }
 
  private:

@@ -6,11 +6,8 @@
 
 #include "error_table.h"
 #include "rpc/change_log.h"
-#include "rpc/create_request.h"
-#include "rpc/find_job.h"
 #include "rpc/job_query.h"
-#include "rpc/page.h"
-#include "rpc/request_limits.h"
+#include "rpc/request_fields.h"
 #include "store/job_state.h"
 #include "store/resource_name.h"
 #include "translate/case_checker.h"

@@ -1,22 +1,9 @@
 #pragma once
 
-#include "access/gate.h"
-#include "jobs/admission.h"
-#include "jobs/deletion.h"
-#include "jobs/mesh_places.h"
-#include "jobs/queues.h"
-#include "rpc/download_source.h"
 #include "rpc/export_source.h"
-#include "rpc/frame_series_source.h"
-#include "rpc/frame_source.h"
 #include "rpc/jobs_source.h"
-#include "rpc/method_table.h"
-#include "store/change_reader.h"
-#include "store/data_folder.h"
-#include "store/journal.h"
-#include "store/journal_reader.h"
-#include "store/sweep_reader.h"
-#include "watch/hub.h"
+#include "rpc/result_sources.h"
+#include "rpc/service_parts.h"
 #include "watch/job_source.h"
 
 namespace cellcrush::rpc {
@@ -24,25 +11,7 @@ namespace cellcrush::rpc {
 /// Jobs and their results. Thread-safe. Streams hold no thread, even for slow readers; the pools run all other calls.
 class JobsService {
  public:
-  /// All of it outlives the service.
-  struct Parts {
-    const store::DataFolder& folder;
-    store::Journal& journal;
-    store::JournalReader& reader;
-    store::SweepReader& sweeps;
-    store::ChangeReader& changes;
-    const jobs::Deletion& deletion;
-    watch::Hub& hub;
-    jobs::Queues& queues;
-    jobs::Admission& admission;
-    const access::Gate& gate;
-    CallPool& calls;
-    CallPool& checks;  ///< for checks that build meshes and may take seconds
-    jobs::MeshPlaces& places;
-    StreamParts streams;
-  };
-
-  explicit JobsService(const Parts& parts) : parts_(parts) {}
+  explicit JobsService(const ServiceParts& parts) : parts_(parts) {}
 
   /// The service outlives the table.
   void add_methods(MethodTable& table);
@@ -73,7 +42,7 @@ class JobsService {
   void add_live(store::StoredJob& stored);
   void commit_samples();
 
-  Parts parts_;
+  ServiceParts parts_;
   ExportPlaces exports_;
 };
 

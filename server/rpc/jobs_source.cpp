@@ -5,12 +5,13 @@
 #include <chrono>
 #include <utility>
 
-#include "error.h"
+#include "error_table.h"
 #include "rpc/job_query.h"
-#include "rpc/request_limits.h"
+#include "rpc/request_fields.h"
 #include "store/job_filter.h"
 #include "store/job_state.h"
 #include "store/resource_name.h"
+#include "watch/job_source.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -29,6 +30,78 @@ store::JobFilter filter_of(const std::string& text) {
 
 }  // namespace
 
+/// A requested job of a WatchJobs: what its WatchJob would send, and how it would end. Not thread-safe, except for
+/// `wake`.
+class JobsSource::WatchedJob {
+ public:
+  /// A request that is not valid throws nothing: its status is the first message.
+  WatchedJob(store::JournalReader& journal, watch::Hub& hub, const v1::WatchJobRequest& request);
+
+  void open(const std::function<void()>& wake);
+  void close();
+
+  std::optional<v1::WatchJobsResponse> next();
+  [[nodiscard]] bool has_more() const { return source_ && source_->has_more(); }
+
+ private:
+  v1::WatchJobsResponse end(const grpc::Status& status);
+
+  std::string name_;
+  std::optional<watch::JobSource> source_;
+  std::optional<grpc::Status> refused_;  ///< until it was sent
+  bool is_open_ = false;
+};
+
+JobsSource::WatchedJob::WatchedJob(store::JournalReader& journal, watch::Hub& hub, const v1::WatchJobRequest& request)
+    : name_(request.name()) {
+  const auto status = answer([&] {
+    const std::int64_t job = find_job(journal, request.name()).number;
+    check_epoch(journal.epoch(), request.epoch());
+    source_.emplace(journal, hub, job, request.after_sequence(),
+                    watch::WatchCursor::Wanted{request.frames(), true, request.encoding()});
+    return grpc::Status::OK;
+  });
+  if (!status.ok()) refused_ = status;
+}
+
+void JobsSource::WatchedJob::open(const std::function<void()>& wake) {
+  if (!source_) return;
+  source_->open(wake);
+  is_open_ = true;
+}
+
+void JobsSource::WatchedJob::close() {
+  if (std::exchange(is_open_, false)) source_->close();
+}
+
+std::optional<v1::WatchJobsResponse> JobsSource::WatchedJob::next() {
+  if (refused_) return end(*std::exchange(refused_, std::nullopt));
+  if (!source_) return std::nullopt;
+  std::optional<v1::JobEvent> event;
+  const auto status = answer([&] {
+    event = source_->next();
+    return grpc::Status::OK;
+  });
+  if (!status.ok()) return end(status);
+  if (!event) return source_->ended() ? std::optional(end(grpc::Status::OK)) : std::nullopt;
+  v1::WatchJobsResponse out;
+  out.mutable_watched()->set_job(name_);
+  *out.mutable_watched()->mutable_event() = *std::move(event);
+  return out;
+}
+
+v1::WatchJobsResponse JobsSource::WatchedJob::end(const grpc::Status& status) {
+  close();
+  source_.reset();
+  v1::WatchJobsResponse out;
+  out.mutable_watched_end()->set_job(name_);
+  auto& sent = *out.mutable_watched_end()->mutable_status();
+  if (!sent.ParseFromString(status.error_details())) sent.Clear();
+  sent.set_code(status.error_code());
+  sent.set_message(status.error_message());
+  return out;
+}
+
 JobsSource::JobsSource(const Parts& parts, const v1::WatchJobsRequest& request)
     : parts_(parts), filter_(filter_of(request.filter())), after_(change_in(request.resume_token())) {
   if (request.jobs_size() > kMostWatchedJobs) {
@@ -40,6 +113,8 @@ JobsSource::JobsSource(const Parts& parts, const v1::WatchJobsRequest& request)
   for (const auto& job : request.jobs())
     watched_.push_back(std::make_unique<WatchedJob>(parts_.journal, parts_.hub, job));
 }
+
+JobsSource::~JobsSource() = default;
 
 // "EPOCH@CHANGE"
 std::string JobsSource::token() const { return parts_.journal.epoch().id + "@" + std::to_string(after_); }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "cellcrush/v1/jobs_service.pb.h"
-#include "rpc/watched_job.h"
 #include "store/change_reader.h"
 #include "store/job_filter.h"
 #include "store/journal_reader.h"
@@ -37,6 +36,9 @@ class JobsSource {
   /// Throws InvalidField for a filter or token that is not valid, and ServiceError: out_of_range or
   /// failed_precondition for a token whose changes are gone.
   JobsSource(const Parts& parts, const v1::WatchJobsRequest& request);
+  ~JobsSource();
+  JobsSource(const JobsSource&) = delete;
+  JobsSource& operator=(const JobsSource&) = delete;
 
   /// Calls `wake` from now on whenever there may be another message, on other threads and under locks: it must be
   /// quick.
@@ -51,6 +53,8 @@ class JobsSource {
   [[nodiscard]] static std::string resume_advice() { return "with the most recent resume_token"; }
 
  private:
+  class WatchedJob;
+
   [[nodiscard]] std::string token() const;
   std::int64_t change_in(const std::string& token) const;
   std::optional<Message> next_change();

@@ -177,4 +177,9 @@ class MethodTable {
   std::map<std::string, Method, std::less<>> methods_;
 };
 
+/// Ends a unary or server-streaming call over gRPC whose request cannot be parsed with InvalidField, naming the method
+/// and the message type, as MethodTable does elsewhere. gRPC itself would end it with INTERNAL or UNIMPLEMENTED and no
+/// message.
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_parse_error_interceptors();
+
 }  // namespace cellcrush::rpc

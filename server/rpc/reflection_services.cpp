@@ -10,7 +10,7 @@
 #include "error_table.h"
 #include "grpc/reflection/v1/reflection.grpc.pb.h"
 #include "grpc/reflection/v1alpha/reflection.grpc.pb.h"
-#include "rpc/refused_stream.h"
+#include "rpc/stream_reactor.h"
 
 namespace cellcrush::rpc {
 namespace {

@@ -9,10 +9,17 @@
 #include <utility>
 
 #include "mutex.h"
-#include "rpc/refused_stream.h"
 #include "rpc/stream_state.h"
 
 namespace cellcrush::rpc {
+
+/// A stream that is refused before it starts. Reactor is a gRPC server reactor.
+template <class Reactor>
+class RefusedStream final : public Reactor {
+ public:
+  explicit RefusedStream(const grpc::Status& status) { this->Finish(status); }
+  void OnDone() override { delete this; }
+};
 
 /// One open stream over gRPC: sends the messages of its source (stream_state.h) one at a time, as fast as the client
 /// reads, and holds no thread. It owns itself until gRPC is done with it.

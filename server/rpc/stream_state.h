@@ -5,6 +5,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +61,43 @@ class EventDelay {
  private:
   using Clock = std::chrono::steady_clock;
   std::atomic<std::int64_t> since_ = 0;  ///< Clock's count at the first change without a message yet; 0: none
+};
+
+/// A source that changes nothing while it is read: there is nothing to wake for and no bookmark.
+template <class M>
+class PlainSource {
+ public:
+  using Message = M;
+  static constexpr bool kIsWatch = false;
+
+  void open(const std::function<void()>&) {}
+  void close() {}
+  [[nodiscard]] bool has_more() const { return false; }
+  [[nodiscard]] std::optional<Message> bookmark() const { return std::nullopt; }
+};
+
+/// A plain source that reads several messages at once and sends them one by one.
+template <class M>
+class QueuedSource : public PlainSource<M> {
+ public:
+  virtual ~QueuedSource() = default;
+
+  std::optional<M> next() {
+    if (messages_.empty() && !is_read_) read();
+    if (messages_.empty()) return std::nullopt;
+    M out = std::move(messages_.front());
+    messages_.pop_front();
+    return out;
+  }
+  [[nodiscard]] bool has_more() const { return !messages_.empty(); }
+  [[nodiscard]] bool ended() const { return is_read_ && messages_.empty(); }
+
+ protected:
+  /// Adds the next messages.
+  virtual void read() = 0;
+
+  std::deque<M> messages_;  ///< still to send
+  bool is_read_ = false;    ///< whether the last message was read
 };
 
 /// What an open stream sends next and how it ends, for StreamReactor and SourceStream, which carry the messages.

@@ -2,16 +2,7 @@
 
 #include <string>
 
-#include "access/gate.h"
-#include "jobs/admission.h"
-#include "jobs/deletion.h"
-#include "jobs/mesh_places.h"
-#include "jobs/queues.h"
-#include "rpc/method_table.h"
-#include "store/journal.h"
-#include "store/journal_reader.h"
-#include "store/sweep_reader.h"
-#include "watch/hub.h"
+#include "rpc/service_parts.h"
 #include "watch/sweep_source.h"
 
 namespace cellcrush::rpc {
@@ -19,25 +10,7 @@ namespace cellcrush::rpc {
 /// Sweeps: many jobs from one case. Thread-safe. Watches hold no thread; the pools run all other calls.
 class SweepsService {
  public:
-  /// All of it outlives the service.
-  struct Parts {
-    store::Journal& journal;
-    store::JournalReader& reader;
-    store::SweepReader& sweeps;
-    const jobs::Deletion& deletion;
-    watch::Hub& hub;
-    jobs::Queues& queues;
-    jobs::Admission& admission;
-    const access::Gate& gate;
-    CallPool& calls;
-    CallPool& checks;  ///< for checks that build meshes and may take seconds
-    jobs::MeshPlaces& places;
-    int check_threads = 1;   ///< for checking the points of one sweep
-    double step_cost = 0.0;  ///< seconds of one core per element and step
-    StreamParts streams;
-  };
-
-  explicit SweepsService(const Parts& parts) : parts_(parts) {}
+  explicit SweepsService(const ServiceParts& parts) : parts_(parts) {}
 
   /// The service outlives the table.
   void add_methods(MethodTable& table);
@@ -63,7 +36,7 @@ class SweepsService {
   /// Number of a sweep that the caller may change. Also throws ServiceError (permission_denied).
   std::int64_t find_own(const Call& call, const std::string& name);
 
-  Parts parts_;
+  ServiceParts parts_;
 };
 
 }  // namespace cellcrush::rpc

@@ -25,13 +25,6 @@ ExitKind kind_of(Ended::Kind kind) {
 
 }  // namespace
 
-jobs::WorkerExit exit_with(ExitKind kind, std::string detail) {
-  jobs::WorkerExit out;
-  out.kind = kind;
-  out.detail = std::move(detail);
-  return out;
-}
-
 std::string slurm_name(const Attempt& attempt) {
   if (attempt.slurm_job() == 0) return "Slurm job " + (kJobPrefix + attempt.batch());
   return "Slurm job " + std::to_string(attempt.slurm_job()) +
@@ -39,8 +32,7 @@ std::string slurm_name(const Attempt& attempt) {
 }
 
 jobs::WorkerExit exit_by_meaning(Meaning meaning, const std::optional<worker::Final>& final, const std::string& what) {
-  jobs::WorkerExit out = exit_with(ExitKind::gone, what);
-  out.final = final;
+  jobs::WorkerExit out{.kind = ExitKind::gone, .final = final, .detail = what};
   if (meaning == Meaning::cancelled) out.kind = ExitKind::withdrawn;
   if (meaning == Meaning::displaced) out.kind = ExitKind::displaced;
   out.out_of_memory = meaning == Meaning::no_memory;
@@ -50,9 +42,7 @@ jobs::WorkerExit exit_by_meaning(Meaning meaning, const std::optional<worker::Fi
 bool ends_job(const Ended& ended) { return ended.has_final() && !ended.final().has_suspended_step(); }
 
 jobs::WorkerExit exit_of_last_word(const Ended& ended, const Attempt& attempt, const std::string& host) {
-  jobs::WorkerExit out = exit_with(kind_of(ended.kind()));
-  out.code = ended.code();
-  out.out_of_memory = ended.out_of_memory();
+  jobs::WorkerExit out{.kind = kind_of(ended.kind()), .code = ended.code(), .out_of_memory = ended.out_of_memory()};
   if (ended.has_final()) out.final = ended.final();
   const std::string where = host.empty() ? "" : " on " + host;
   // What a node lacks is a loss of this attempt: other nodes may have it.

@@ -12,8 +12,6 @@ namespace cellcrush::slurm {
 /// "Slurm job 17_3"; "Slurm job cellcrush-NAME" while its number is unknown.
 std::string slurm_name(const Attempt& attempt);
 
-jobs::WorkerExit exit_with(jobs::WorkerExit::Kind kind, std::string detail = {});
-
 /// Whether the worker came to the end of the job. It may have been told to leave while it wrote the result.
 bool ends_job(const Ended& ended);
 

@@ -7,11 +7,12 @@
 #include <utility>
 
 #include "slurm/attempt.pb.h"
+#include "slurm/cluster_options.h"
 #include "store/job_folder.h"
 
 namespace cellcrush::slurm {
 
-/// A file in a cluster's folder. Without it the folder's file system is not mounted (shared_folder.h).
+/// A file in a cluster's folder. Without it the folder's file system is not mounted.
 inline constexpr const char* kMarker = "cellcrush-folder";
 
 /// The folder attempts/ID on the shared file system, with which the daemon and one task communicate
@@ -57,5 +58,18 @@ class AttemptFolder {
 
   std::filesystem::path root_;
 };
+
+/// Prepares the folder of a cluster for the daemon with this data folder: a marker in both says that they belong
+/// together. Removes what earlier daemons left of attempts that no job names. Throws ServiceError
+/// (failed_precondition) if the folder belongs to another daemon or lacks its marker, as when its file system is not
+/// mounted.
+void prepare_shared_folder(const ClusterOptions& options, const std::filesystem::path& data_folder);
+
+/// Throws ServiceError, with a shortage, unless the marker is there.
+void require_marker(const std::filesystem::path& folder);
+
+/// The file `attempt` of a job's folder.
+void write_attempt(const store::JobFolder& job, const Attempt& attempt);
+std::optional<Attempt> read_attempt(const store::JobFolder& job);
 
 }  // namespace cellcrush::slurm

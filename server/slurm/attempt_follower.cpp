@@ -24,12 +24,6 @@ constexpr std::chrono::milliseconds kBetweenLooksAtWaiting{10'000};
 // For an answer of Slurm on which a decision waits.
 constexpr std::chrono::milliseconds kBetweenQuestions{5'000};
 
-std::uint64_t size_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto out = std::filesystem::file_size(path, error);
-  return error ? 0 : out;
-}
-
 }  // namespace
 
 AttemptFollower::AttemptFollower(const Parts& parts, const store::JobFolder& job,
@@ -38,8 +32,7 @@ AttemptFollower::AttemptFollower(const Parts& parts, const store::JobFolder& job
       job_(job),
       submission_(std::move(submission)),
       folder_(parts.options.folder / "attempts" / submission_->state().attempt.id()),
-      sink_(job),
-      mirror_(folder_.files(), sink_, size_of(job.reports())),
+      mirror_(folder_.files(), job, size_of(job.reports())),
       feed_(job, parts.events) {}
 
 jobs::WorkerExit AttemptFollower::follow() {
@@ -80,7 +73,7 @@ std::optional<jobs::WorkerExit> AttemptFollower::look() {
   const bool is_read = read_folder();
   if (feed_.read(true) == jobs::ReportFeed::Reading::broken) {
     close(true);
-    return exit_with(ExitKind::broken);
+    return jobs::WorkerExit{.kind = ExitKind::broken};
   }
   if (!has_begun_ && claim_ && !claim_->withdrawn()) {
     parts_.events.started(static_cast<int>(claim_->process()));
@@ -92,7 +85,7 @@ std::optional<jobs::WorkerExit> AttemptFollower::look() {
   if (parts_.interruptions.stop.stop_requested()) {
     // Gathered attempts were not handed to Slurm; the next daemon submits them.
     static_cast<void>(submission_->withdraw());
-    return exit_with(ExitKind::left);
+    return jobs::WorkerExit{.kind = ExitKind::left};
   }
   if (last_word_ && is_read) return is_complete(*last_word_) ? exit_of_ended(*last_word_) : exit_of_incomplete();
   if (last_word_) return std::nullopt;
@@ -159,7 +152,8 @@ std::optional<jobs::WorkerExit> AttemptFollower::exit_of_incomplete() {
   if (Clock::now() - *ended_ < 2 * parts_.options.times.lease) return std::nullopt;
   const auto attempt = submission_->state().attempt;
   close(false);
-  return exit_with(ExitKind::gone, slurm_name(attempt) + " ended, but its files are not in the shared folder.");
+  return jobs::WorkerExit{.kind = ExitKind::gone,
+                          .detail = slurm_name(attempt) + " ended, but its files are not in the shared folder."};
 }
 
 std::optional<jobs::WorkerExit> AttemptFollower::exit_of_ended(const Ended& ended) {
@@ -175,9 +169,8 @@ std::optional<jobs::WorkerExit> AttemptFollower::exit_of_ended(const Ended& ende
       return std::nullopt;
     }
     if (meaning == Meaning::cancelled) {
-      out = exit_with(ExitKind::withdrawn, slurm_name(attempt) + " was cancelled in Slurm" +
-                                               (seen->report.reason.empty() ? "" : " (" + seen->report.reason + ")") +
-                                               ".");
+      const std::string reason = seen->report.reason.empty() ? "" : " (" + seen->report.reason + ")";
+      out = {.kind = ExitKind::withdrawn, .detail = slurm_name(attempt) + " was cancelled in Slurm" + reason + "."};
     }
   }
   close(false);
@@ -209,7 +202,7 @@ std::optional<jobs::WorkerExit> AttemptFollower::forward_requests() {
     // A task that begins meanwhile is asked at the next look.
     if (!withdraw()) return std::nullopt;
     close(true);
-    return exit_with(kind);
+    return jobs::WorkerExit{.kind = kind};
   }
   const auto wanted = cancel ? Request::CANCEL : Request::SUSPEND;
   if (request_ != wanted) {
@@ -224,7 +217,7 @@ std::optional<jobs::WorkerExit> AttemptFollower::forward_requests() {
   }
   if (Clock::now() - *asked_ < parts_.options.times.leave) return std::nullopt;
   close(true);
-  return exit_with(kind);
+  return jobs::WorkerExit{.kind = kind};
 }
 
 std::optional<jobs::WorkerExit> AttemptFollower::look_at_waiting() {
@@ -261,7 +254,8 @@ std::optional<jobs::WorkerExit> AttemptFollower::look_at_waiting() {
   close(true);
   if (!is_over) {
     spdlog::warn("{} is no longer known to Slurm, and had not begun.", slurm_name(attempt));
-    return exit_with(ExitKind::displaced, slurm_name(attempt) + " is no longer known to Slurm.");
+    return jobs::WorkerExit{.kind = ExitKind::displaced,
+                            .detail = slurm_name(attempt) + " is no longer known to Slurm."};
   }
   auto out = exit_by_meaning(meaning, final_report(),
                              slurm_name(attempt) + " ended before the crush began: " + seen->report.state + "." + log);
@@ -297,9 +291,9 @@ std::optional<jobs::WorkerExit> AttemptFollower::not_submitted(const Submission:
   if (!withdraw()) return std::nullopt;
   // A task that turns up later computes nothing.
   close(false);
-  auto out = exit_with(ExitKind::not_started);
-  out.trouble = state.trouble ? state.trouble : Trouble{Shortage::cluster, "Slurm took no job. " + state.why};
-  return out;
+  return jobs::WorkerExit{
+      .kind = ExitKind::not_started,
+      .trouble = state.trouble ? state.trouble : Trouble{Shortage::cluster, "Slurm took no job. " + state.why}};
 }
 
 std::optional<jobs::WorkerExit> AttemptFollower::look_at_begun() {
@@ -320,8 +314,9 @@ std::optional<jobs::WorkerExit> AttemptFollower::exit_of_silent(const Submission
     const bool is_alive = meaning == Meaning::runs && is_listed && parts_.view.trouble().empty();
     if (is_alive || silence < 2 * parts_.options.times.lease) return std::nullopt;
     close(true);
-    return exit_with(ExitKind::displaced, slurm_name(attempt) + " gave no sign of life for " +
-                                              std::to_string(2 * parts_.options.times.lease.count() / 1000) + " s.");
+    const auto seconds = std::to_string(2 * parts_.options.times.lease.count() / 1000);
+    return jobs::WorkerExit{.kind = ExitKind::displaced,
+                            .detail = slurm_name(attempt) + " gave no sign of life for " + seconds + " s."};
   }
   // A node that Slurm cannot reach may compute all the same, until its task has lost the lease.
   if (meaning == Meaning::displaced && seen->report.state == "NODE_FAIL" &&

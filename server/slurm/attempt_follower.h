@@ -82,7 +82,6 @@ class AttemptFollower {
   store::JobFolder job_;
   std::shared_ptr<Submission> submission_;
   AttemptFolder folder_;
-  FolderSink sink_;
   Mirror mirror_;
   jobs::ReportFeed feed_;
   std::optional<worker::Final> final_before_;  ///< that was in the job's folder when this follower began

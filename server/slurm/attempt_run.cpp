@@ -33,28 +33,12 @@ Ended::Kind ended_kind(jobs::WorkerExit::Kind kind) {
   }
 }
 
-std::uint64_t bytes_in(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto out = std::filesystem::file_size(path, error);
-  return error ? 0 : out;
-}
-
 }  // namespace
-
-void TaskEnd::request(Ended::Reason reason) {
-  const std::lock_guard lock(mutex_);
-  if (reason_ == Ended::REASON_UNSPECIFIED) reason_ = reason;
-}
-
-Ended::Reason TaskEnd::reason() const {
-  const std::lock_guard lock(mutex_);
-  return reason_;
-}
 
 void AttemptRun::run(const store::JobFolder& folder) {
   const auto order = read_message<worker::Order>(folder.order());
   if (!order) throw ServiceError(ServiceError::Kind::data_loss, folder.order().string() + " is damaged.");
-  mirror_.emplace(folder, link_, bytes_in(folder.reports()));
+  mirror_.emplace(folder, shared_.files(), size_of(folder.reports()));
   jobs::WorkerEvents events;
   events.started = [](int) {};
   events.watched = [] { return false; };
@@ -75,7 +59,7 @@ void AttemptRun::run(const store::JobFolder& folder) {
 void AttemptRun::accompany(const std::stop_token& worker_ended) {
   std::string trouble;
   do {
-    if (end_.reason() != Ended::REASON_UNSPECIFIED) leave_.request_stop();
+    if (end_.load() != Ended::REASON_UNSPECIFIED) leave_.request_stop();
     try {
       if (!keep_contact()) return;
       trouble.clear();
@@ -104,13 +88,19 @@ void AttemptRun::watch_lease(const std::stop_token& worker_ended) {
   }
 }
 
+// A network file system shows a new file once its folder is opened again.
+Request::Kind AttemptRun::requested() const {
+  shared_.look_again();
+  return shared_.requested();
+}
+
 // False once the attempt is no longer this task's.
 bool AttemptRun::keep_contact() {
-  const auto request = link_.requested();
+  const auto request = requested();
   obey(request);
   if (request == Request::ABANDON) return false;
   if (Clock::now() - last_beat_ > kBetweenBeats) {
-    link_.beat(++beats_);
+    shared_.beat(++beats_);
     last_beat_ = Clock::now();
   }
   last_contact_ = Clock::now();
@@ -139,7 +129,7 @@ Ended AttemptRun::last_word_of(const jobs::WorkerExit& exit) const {
   if (exit.kind == jobs::WorkerExit::Kind::not_started)
     out.set_message("no worker could be started: " + std::generic_category().message(exit.code) + ".");
   // SIGTERM may reach the worker before this task has passed it on.
-  const auto reason = end_.reason();
+  const auto reason = end_.load();
   const bool has_left = exit.final && exit.final->has_suspended_step() && exit.final->shortage() == 0;
   const bool is_told = reason != Ended::REASON_UNSPECIFIED || is_lease_lost_;
   if (out.kind() == Ended::EXITED && has_left && is_told) out.set_kind(Ended::LEFT);
@@ -153,16 +143,16 @@ void AttemptRun::hand_over(const Ended& ended) {
   std::string trouble;
   while (true) {
     try {
-      if (link_.requested() == Request::ABANDON) return;
+      if (requested() == Request::ABANDON) return;
       mirror_->pass();
-      link_.end(ended);
+      shared_.end(ended);
       return;
     } catch (const std::exception& error) {
       if (std::exchange(trouble, error.what()) != error.what()) spdlog::warn("trying again: {}", error.what());
     }
     // A shared folder that is full for long is waited for: the job's results are here only.
     try {
-      link_.beat(++beats_);
+      shared_.beat(++beats_);
     } catch (const std::exception&) {
       // As above.
     }

@@ -4,37 +4,28 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <stop_token>
 
 #include "jobs/executor.h"
 #include "slurm/attempt.pb.h"
-#include "slurm/file_link.h"
+#include "slurm/attempt_folder.h"
 #include "slurm/mirror.h"
 #include "store/job_folder.h"
 
 namespace cellcrush::slurm {
 
-/// Why a task ends, for whatever it computes at the moment. Thread-safe.
-class TaskEnd {
- public:
-  void request(Ended::Reason reason);
-  [[nodiscard]] Ended::Reason reason() const;
+/// Why a task ends, for whatever it computes at the moment; REASON_UNSPECIFIED: it goes on.
+using TaskEnd = std::atomic<Ended::Reason>;
 
- private:
-  mutable std::mutex mutex_;
-  Ended::Reason reason_ = Ended::REASON_UNSPECIFIED;
-};
-
-/// One attempt on a node: a worker in a folder of its own, and beside it the copying of its files to the daemon.
+/// One attempt on a node: a worker in a folder of its own, and beside it the copying of its files to the attempt's.
 class AttemptRun {
  public:
   /// `lease`: without contact for so long, the worker leaves the job at a checkpoint. All outlive it.
-  AttemptRun(Link& link, jobs::Executor& workers, const TaskEnd& end, std::chrono::milliseconds lease)
-      : link_(link), workers_(workers), end_(end), lease_(lease) {}
+  AttemptRun(const AttemptFolder& shared, jobs::Executor& workers, const TaskEnd& end, std::chrono::milliseconds lease)
+      : shared_(shared), workers_(workers), end_(end), lease_(lease) {}
 
-  /// Computes the claimed attempt in this folder, which has its order. Returns once the daemon has the last word, or
+  /// Computes the claimed attempt in this folder of the node, which has its order. Returns once the daemon has the last word, or
   /// the attempt is no longer this task's.
   void run(const store::JobFolder& folder);
 
@@ -46,12 +37,13 @@ class AttemptRun {
   /// Makes the worker leave once the lease is over, also while a call to the shared file system does not return.
   void watch_lease(const std::stop_token& worker_ended);
   bool keep_contact();
+  Request::Kind requested() const;
   void obey(Request::Kind request);
   Ended last_word_of(const jobs::WorkerExit& exit) const;
   /// Tries until it succeeds or the attempt is no longer this task's.
   void hand_over(const Ended& ended);
 
-  Link& link_;
+  const AttemptFolder& shared_;
   jobs::Executor& workers_;
   const TaskEnd& end_;
   std::chrono::milliseconds lease_;

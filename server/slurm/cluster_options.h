@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "jobs/executor.h"
+
 namespace cellcrush::slurm {
 
-/// How the daemon uses one Slurm cluster. Names of options are those of the flag --slurm (cluster_flag.h).
+/// How the daemon uses one Slurm cluster. Names of options are those of the flag --slurm (parse_cluster).
 struct ClusterOptions {
   std::string name;                      ///< the executor is called "slurm/NAME"
   std::filesystem::path folder;          ///< absolute; on a file system that the daemon and all nodes share
@@ -32,5 +34,14 @@ struct ClusterOptions {
   };
   Times times;
 };
+
+/// Reads the value of the flag --slurm: "NAME:key=value,key=value", such as
+/// "big:folder=/shared/cellcrush,sbatch=--partition=short". Keys: folder, program, commands, simd,
+/// sbatch (may be repeated), jobs, tasks, task-length and longest (seconds). Throws std::invalid_argument with a
+/// sentence that names the key, the value and the remedy.
+ClusterOptions parse_cluster(const std::string& text);
+
+/// The executor "slurm/NAME" of the cluster.
+jobs::ExecutorOptions executor_of(const ClusterOptions& options);
 
 }  // namespace cellcrush::slurm

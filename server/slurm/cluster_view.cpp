@@ -79,14 +79,14 @@ void ClusterView::look(const std::set<std::int64_t>& missed) {
     // whoever asks meanwhile waits for the next.
     ++answers_;
     for (const auto& report : *listed) {
-      tasks_[{report.job, report.task}] = {report, answers_, answers_, false};
+      tasks_[{report.job, report.task}] = {report, answers_, answers_};
       jobs_[report.name] = report.job;
     }
   }
   if (accounted) {
     for (const auto& report : *accounted) {
       auto& seen = tasks_[{report.job, report.task}];
-      seen = {report, seen.answer, answers_, true};
+      seen = {report, seen.answer, answers_};
       jobs_[report.name] = report.job;
     }
   }

@@ -29,9 +29,8 @@ class ClusterView {
   /// A task as Slurm last showed it.
   struct Seen {
     TaskReport report;
-    std::uint64_t answer = 0;   ///< number of the answer that listed it last
-    std::uint64_t heard = 0;    ///< number of the answer at which anything was last heard of it
-    bool is_accounted = false;  ///< sacct said so, and not squeue
+    std::uint64_t answer = 0;  ///< number of the answer that listed it last
+    std::uint64_t heard = 0;   ///< number of the answer at which anything was last heard of it
   };
   /// The task of a job with this name: a controller that lost its state counts from 1 again.
   [[nodiscard]] std::optional<Seen> find(std::int64_t job, int task, const std::string& name);

@@ -1,47 +1,76 @@
 #include "slurm/commands.h"
 
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_join.h>
+#include <absl/strings/str_split.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cerrno>
+#include <csignal>
 #include <exception>
 #include <map>
 #include <sstream>
-#include <string_view>
+#include <system_error>
 #include <utility>
+
+#include "jobs/worker_process.h"
 
 namespace cellcrush::slurm {
 namespace {
 
-constexpr char kBetween = '|';
+constexpr std::size_t kMostOutput = std::size_t{64} << 20;
+// A process that left the group may hold the pipes open after the program has ended.
+constexpr std::chrono::milliseconds kForTheRest{200};
 
-std::vector<std::string> split(const std::string& line, char between) {
-  std::vector<std::string> out;
-  std::size_t begin = 0;
-  for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
-    end = line.find(between, begin);
-    out.push_back(line.substr(begin, end == std::string::npos ? end : end - begin));
+using Clock = std::chrono::steady_clock;
+
+// A pipe whose reading end does not block.
+class Pipe {
+ public:
+  Pipe() {
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "No pipe");
+    fcntl(ends_[0], F_SETFL, O_NONBLOCK);
   }
-  return out;
-}
+  ~Pipe() {
+    close_writing();
+    close(ends_[0]);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 
-template <typename Number>
-bool read_number(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
+  [[nodiscard]] int reading() const { return ends_[0]; }
+  [[nodiscard]] int writing() const { return ends_[1]; }
+  void close_writing() {
+    if (ends_[1] >= 0) close(ends_[1]);
+    ends_[1] = -1;
+  }
+
+  // False once nobody writes any more.
+  bool read_into(std::string& text) const {
+    std::array<char, 65536> part{};
+    while (true) {
+      const auto count = read(ends_[0], part.data(), part.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) return errno == EAGAIN;
+      if (count == 0) return false;
+      if (text.size() < kMostOutput) text.append(part.data(), static_cast<std::size_t>(count));
+    }
+  }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+};
+
+std::vector<std::string> split(const std::string& line, char between) { return absl::StrSplit(line, between); }
 
 // Several lines as one.
 std::string in_one_line(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const bool is_space = c == '\n' || c == '\r' || c == '\t' || c == ' ';
-    if (!is_space) out += c;
-    if (is_space && !out.empty() && out.back() != ' ') out += ' ';
-  }
-  while (!out.empty() && out.back() == ' ') out.pop_back();
-  return out;
+  return absl::StrJoin(absl::StrSplit(text, absl::ByAnyChar(" \n\r\t"), absl::SkipEmpty()), " ");
 }
 
 std::string what_failed(const char* command, const ProgramEnd& end) {
@@ -75,6 +104,46 @@ std::vector<TaskReport> parse_lines(const std::string& text, const Parse& parse)
 
 }  // namespace
 
+ProgramEnd run_program(const std::vector<std::string>& command, std::chrono::milliseconds limit,
+                       const std::stop_token& stop) {
+  Pipe output;
+  Pipe errors;
+  ProgramEnd out;
+  const auto end = Clock::now() + limit;
+  pid_t process = 0;
+  if (const int error = jobs::start_process(command, {}, output.writing(), errors.writing(), process); error != 0)
+    throw std::system_error(error, std::generic_category(), command.front() + " cannot be started");
+  output.close_writing();
+  errors.close_writing();
+  std::optional<int> status;
+  auto last = end;
+  for (bool open = true; (open || !status) && Clock::now() < last && !stop.stop_requested();) {
+    std::array<pollfd, 2> waiting = {pollfd{output.reading(), POLLIN, 0}, pollfd{errors.reading(), POLLIN, 0}};
+    if (open) {
+      poll(waiting.data(), waiting.size(), 20);
+    } else {
+      usleep(1000);
+    }
+    const bool more_output = output.read_into(out.output);
+    const bool more_errors = errors.read_into(out.errors);
+    open = more_output || more_errors;
+    int now = 0;
+    if (!status && waitpid(process, &now, WNOHANG) == process) {
+      status = now;
+      last = std::min(end, Clock::now() + kForTheRest);
+    }
+  }
+  if (!status) {
+    out.timed_out = true;
+    kill(-process, SIGKILL);
+    int now = 0;
+    while (waitpid(process, &now, 0) < 0 && errno == EINTR) continue;
+    return out;
+  }
+  if (WIFEXITED(*status)) out.exit_code = WEXITSTATUS(*status);
+  return out;
+}
+
 ProgramEnd Commands::run(const char* command, std::vector<std::string> arguments) const {
   arguments.insert(arguments.begin(), folder_.empty() ? std::string(command) : (folder_ / command).string());
   try {
@@ -94,7 +163,7 @@ Submitted Commands::sbatch(const std::vector<std::string>& arguments) const {
   std::int64_t job = 0;
   // "17" or "17;CLUSTER".
   const std::string answer = in_one_line(end.output);
-  if (end.is_good() && read_number(std::string_view(answer).substr(0, answer.find(';')), job)) {
+  if (end.is_good() && absl::SimpleAtoi(answer.substr(0, answer.find(';')), &job)) {
     out.job = job;
     return out;
   }
@@ -117,10 +186,8 @@ std::optional<std::vector<TaskReport>> Commands::squeue(const std::string& prefi
 }
 
 std::optional<std::vector<TaskReport>> Commands::sacct(const std::vector<std::int64_t>& jobs) const {
-  std::string list;
-  for (const auto job : jobs) list += (list.empty() ? "" : ",") + std::to_string(job);
-  const ProgramEnd end = run("sacct", {"--noheader", "--parsable2", "--allocations", "--jobs=" + list,
-                                       "--format=JobID,State,NodeList,JobName"});
+  const ProgramEnd end = run("sacct", {"--noheader", "--parsable2", "--allocations",
+                                       "--jobs=" + absl::StrJoin(jobs, ","), "--format=JobID,State,NodeList,JobName"});
   if (!end.is_good()) return std::nullopt;
   return parse_lines(end.output, parse_sacct_line);
 }
@@ -130,24 +197,24 @@ bool Commands::scancel(std::int64_t job, int task) const {
 }
 
 std::optional<TaskReport> parse_squeue_line(const std::string& line) {
-  const auto words = split(line, kBetween);
+  const auto words = split(line, '|');
   TaskReport out;
-  if (words.size() < 6 || !read_number(words[0], out.job)) return std::nullopt;
-  if (!read_number(words[1], out.task)) out.task = -1;
+  if (words.size() < 6 || !absl::SimpleAtoi(words[0], &out.job)) return std::nullopt;
+  if (!absl::SimpleAtoi(words[1], &out.task)) out.task = -1;
   out.state = words[2];
   out.reason = words[3] == "None" ? "" : words[3];
   out.node = words[4];
-  for (std::size_t i = 5; i < words.size(); ++i) out.name += (i == 5 ? "" : "|") + words[i];
+  out.name = absl::StrJoin(words.begin() + 5, words.end(), "|");
   return out;
 }
 
 std::optional<TaskReport> parse_sacct_line(const std::string& line) {
-  const auto words = split(line, kBetween);
+  const auto words = split(line, '|');
   if (words.size() < 4) return std::nullopt;
   TaskReport out;
   const auto parts = split(words[0], '_');
-  if (!read_number(parts.front(), out.job)) return std::nullopt;
-  if (parts.size() == 2 && !read_number(parts.back(), out.task)) return std::nullopt;
+  if (!absl::SimpleAtoi(parts.front(), &out.job)) return std::nullopt;
+  if (parts.size() == 2 && !absl::SimpleAtoi(parts.back(), &out.task)) return std::nullopt;
   // "CANCELLED by 0".
   const auto space = words[1].find(' ');
   out.state = words[1].substr(0, space);

@@ -2,8 +2,10 @@
 
 #include <sys/stat.h>
 
-#include "error.h"
+#include <system_error>
+
 #include "slurm/small_file.h"
+#include "worker/report_log.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -22,9 +24,17 @@ std::optional<Mirror::Version> Mirror::version_of(const std::filesystem::path& p
 bool Mirror::put_result() {
   const auto version = version_of(from_.result());
   if (!version || version == result_) return false;
-  to_.put_result(from_.result());
+  copy_durably(from_.result(), to_.result());
   result_ = version;
   return true;
+}
+
+// The checkpoint before becomes checkpoint.previous.
+void Mirror::put_checkpoint(const std::string& bytes) const {
+  make_durable(to_.reports());
+  std::error_code ignored;
+  std::filesystem::rename(to_.checkpoint(), to_.previous_checkpoint(), ignored);
+  write_small_file(to_.checkpoint(), bytes);
 }
 
 bool Mirror::pass() {
@@ -43,18 +53,32 @@ bool Mirror::pass() {
     while (records.size() < kPart && (more = reader.read_record(records))) continue;
     if (records.empty()) break;
     is_new |= put_result();
-    to_.write_reports(offset_, records);
+    write_in_place(to_.reports(), records, offset_);
     offset_ += records.size();
     is_new = true;
   }
   // Also without new reports: a network file system may show it after the report that announces it.
   is_new |= put_result();
   if (checkpoint) {
-    to_.put_checkpoint(*checkpoint);
+    put_checkpoint(*checkpoint);
     checkpoint_ = checkpoint_version;
     is_new = true;
   }
   return is_new;
+}
+
+void copy_run(const store::JobFolder& from, const store::JobFolder& to) {
+  for (const auto& [own, copy] :
+       {std::pair(from.reports(), to.reports()), std::pair(from.checkpoint(), to.checkpoint()),
+        std::pair(from.previous_checkpoint(), to.previous_checkpoint())}) {
+    if (std::filesystem::exists(own)) copy_durably(own, copy);
+  }
+}
+
+std::uint64_t size_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto out = std::filesystem::file_size(path, error);
+  return error ? 0 : out;
 }
 
 }  // namespace cellcrush::slurm

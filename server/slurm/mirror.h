@@ -1,22 +1,24 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 
-#include "slurm/file_sink.h"
 #include "store/job_folder.h"
 
 namespace cellcrush::slurm {
 
-/// Copies what a run writes, while it runs: reports as they grow, each new checkpoint, and the result. The copy keeps
-/// the order on which readers rely: a checkpoint comes after all reports before it, the last report after the result.
+/// Copies what a run writes into another folder, while it runs: reports as they grow, each new checkpoint, and the
+/// result. The copy keeps the order on which readers rely: a checkpoint comes after all reports before it, the last
+/// report after the result.
 /// Not thread-safe. Failures throw ServiceError; the next pass repeats what failed.
 class Mirror {
  public:
-  /// `reports_from`: size of the reports that the sink has already, at a boundary of two reports.
-  Mirror(store::JobFolder from, FileSink& to, std::uint64_t reports_from)
-      : from_(std::move(from)), to_(to), offset_(reports_from) {}
+  /// `reports_from`: size of the reports that `to` has already, at a boundary of two reports.
+  Mirror(store::JobFolder from, store::JobFolder to, std::uint64_t reports_from)
+      : from_(std::move(from)), to_(std::move(to)), offset_(reports_from) {}
 
   /// Copies what is new. Returns whether anything was.
   bool pass();
@@ -31,13 +33,20 @@ class Mirror {
     bool operator==(const Version&) const = default;
   };
   bool put_result();
+  void put_checkpoint(const std::string& bytes) const;
   static std::optional<Version> version_of(const std::filesystem::path& path);
 
   store::JobFolder from_;
-  FileSink& to_;
+  store::JobFolder to_;
   std::uint64_t offset_;
   std::optional<Version> checkpoint_;
   std::optional<Version> result_;
 };
+
+/// Copies the files from which a worker resumes: reports and checkpoints. Throws ServiceError.
+void copy_run(const store::JobFolder& from, const store::JobFolder& to);
+
+/// 0 for a file that is not there.
+std::uint64_t size_of(const std::filesystem::path& path);
 
 }  // namespace cellcrush::slurm

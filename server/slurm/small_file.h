@@ -2,6 +2,7 @@
 
 #include <google/protobuf/message_lite.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,9 +13,15 @@ namespace cellcrush::slurm {
 /// loss. Throws ServiceError, with the shortage if there is one.
 void write_small_file(const std::filesystem::path& path, const std::string& content);
 
-/// Writes a few bytes over those of a file, or into a new one. Needs no room if the file had as many. Throws
+/// Writes bytes over those of a file from `offset` on, or into a new one. Needs no room if the file had as many. Throws
 /// ServiceError.
-void write_in_place(const std::filesystem::path& path, const std::string& content);
+void write_in_place(const std::filesystem::path& path, const std::string& content, std::uint64_t offset = 0);
+
+/// Returns once what was written in place is durable. Throws ServiceError.
+void make_durable(const std::filesystem::path& path);
+
+/// Copies a file durably under its final name. Throws ServiceError.
+void copy_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// A random name of 16 hexadecimal digits.
 std::string random_name();

@@ -1,9 +1,13 @@
 #include "slurm/task.h"
 
+#include <fcntl.h>
 #include <spdlog/spdlog.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <climits>
 #include <csignal>
@@ -13,6 +17,7 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -20,12 +25,13 @@
 #include "jobs/local_process.h"
 #include "slurm/attempt_folder.h"
 #include "slurm/attempt_run.h"
-#include "slurm/file_link.h"
-#include "slurm/scratch_folder.h"
 #include "slurm/small_file.h"
+#include "store/durable_file.h"
 
 namespace cellcrush::slurm {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kStallLimit{60'000};
 constexpr std::chrono::milliseconds kBetweenTries{1'000};
@@ -69,17 +75,18 @@ void wait_for_ends(const sigset_t& signals, TaskEnd& end, const std::stop_token&
     const int received = sigtimedwait(&signals, nullptr, &interval);
     if (received < 0) continue;
     spdlog::info("received {}", strsignal(received));
-    end.request(received == SIGUSR2 ? Ended::TIME_LIMIT : Ended::TERMINATED);
+    auto reason = Ended::REASON_UNSPECIFIED;  // the first counts
+    end.compare_exchange_strong(reason, received == SIGUSR2 ? Ended::TIME_LIMIT : Ended::TERMINATED);
   }
 }
 
 // Says on behalf of an attempt that was not begun that this task ends.
-void leave_unbegun(Link& link, Ended::Reason reason) {
+void leave_unbegun(const AttemptFolder& shared, Ended::Reason reason) {
   Ended ended;
   ended.set_kind(Ended::LEFT);
   ended.set_reason(reason);
   ended.set_advanced(true);
-  link.end(ended);
+  shared.end(ended);
 }
 
 // Names of the attempts of this task.
@@ -101,50 +108,115 @@ auto patiently(const TaskEnd& end, const Call& call) {
     try {
       return call();
     } catch (const std::exception& error) {
-      if (i == kTries || end.reason() != Ended::REASON_UNSPECIFIED) throw;
+      if (i == kTries || end.load() != Ended::REASON_UNSPECIFIED) throw;
       if (i == 0) spdlog::warn("trying again: {}", error.what());
     }
     std::this_thread::sleep_for(kBetweenTries);
   }
 }
 
-void compute(const std::string& id, Link& link, const TaskOptions& options, const TaskEnd& end) {
+void compute(const std::string& id, const AttemptFolder& shared, const TaskOptions& options, const TaskEnd& end) {
   const Claim claim = own_claim();
-  if (!patiently(end, [&] { return link.claim(claim); })) {
+  if (!patiently(end, [&] { return shared.claim(claim); })) {
     spdlog::info("attempt {} is not this task's", id);
     return;
   }
-  if (const auto reason = end.reason(); reason != Ended::REASON_UNSPECIFIED) return leave_unbegun(link, reason);
+  if (const auto reason = end.load(); reason != Ended::REASON_UNSPECIFIED) return leave_unbegun(shared, reason);
   spdlog::info("attempt {} begins", id);
   try {
     const ScratchFolder scratch(variable("TMPDIR").empty() ? "/tmp" : variable("TMPDIR"));
     const store::JobFolder folder(scratch.path());
-    patiently(end, [&] { link.fetch(folder); });
+    patiently(end, [&] {
+      copy_durably(shared.files().order(), folder.order());
+      copy_run(shared.files(), folder);
+    });
     jobs::LocalProcess workers(options.worker_program, kStallLimit, jobs::count_oom_kills,
                                jobs::LocalProcess::Life::ends_with_parent);
-    AttemptRun(link, workers, end, options.lease).run(folder);
+    AttemptRun(shared, workers, end, options.lease).run(folder);
     spdlog::info("attempt {} has ended", id);
   } catch (const std::exception& error) {
     Ended ended;
     ended.set_kind(Ended::NOT_STARTED);
     ended.set_message(error.what());
-    patiently(end, [&] { link.end(ended); });
+    patiently(end, [&] { shared.end(ended); });
     throw;
+  }
+}
+
+// The locks of a network file system may not reach other nodes, so each node has names of its own.
+std::string prefix_of_node() {
+  std::array<char, HOST_NAME_MAX + 1> host{};
+  gethostname(host.data(), host.size() - 1);
+  return std::string("cellcrush-task-") + host.data() + "@";
+}
+
+int open_folder(const fs::path& path) { return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC); }
+
+bool is_own(int folder) {
+  struct stat status {};
+  return fstat(folder, &status) == 0 && status.st_uid == geteuid();
+}
+
+// Another task may have taken the new folder for a left one, in the instant before it was locked.
+bool still_exists(int folder, const fs::path& path) {
+  struct stat opened {};
+  struct stat found {};
+  return fstat(folder, &opened) == 0 && stat(path.c_str(), &found) == 0 && opened.st_ino == found.st_ino;
+}
+
+void remove_left_folders(const fs::path& parent, const std::string& prefix) {
+  std::error_code ignored;
+  for (auto entry = fs::directory_iterator(parent, ignored); entry != fs::directory_iterator();
+       entry.increment(ignored)) {
+    if (!entry->path().filename().string().starts_with(prefix)) continue;
+    const int folder = open_folder(entry->path());
+    if (folder < 0) continue;
+    std::error_code failed;
+    if (is_own(folder) && flock(folder, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry->path(), failed);
+    close(folder);
   }
 }
 
 }  // namespace
 
+ScratchFolder::ScratchFolder(const fs::path& parent) {
+  const std::string prefix = prefix_of_node();
+  remove_left_folders(parent, prefix);
+  while (lock_ < 0) {
+    std::string name = (parent / prefix).string() + "XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) store::throw_file_error(name, "created", errno);
+    path_ = name;
+    const int folder = open_folder(path_);
+    if (folder < 0 && errno == ENOENT) continue;
+    if (folder < 0) {
+      const int error = errno;
+      rmdir(name.c_str());
+      store::throw_file_error(path_, "used", error);
+    }
+    // On a file system without locks, nobody takes a folder for a left one.
+    static_cast<void>(flock(folder, LOCK_EX));
+    if (still_exists(folder, path_))
+      lock_ = folder;
+    else
+      close(folder);
+  }
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+  close(lock_);
+}
+
 int run_task(const TaskOptions& options) {
-  TaskEnd end;
+  TaskEnd end = Ended::REASON_UNSPECIFIED;
   const sigset_t signals = block_ends();
   const std::jthread waits([&](const std::stop_token& stop) { wait_for_ends(signals, end, stop); });
   int out = 0;
   try {
     for (const auto& id : own_attempts(options)) {
       try {
-        FileLink link(AttemptFolder(options.folder / "attempts" / id));
-        compute(id, link, options, end);
+        compute(id, AttemptFolder(options.folder / "attempts" / id), options, end);
       } catch (const std::exception& error) {
         // The next attempt may have more luck.
         spdlog::error("attempt {}: {}", id, error.what());

@@ -1,29 +1,17 @@
 #include "web/exported_page.h"
 
+#include <absl/strings/escaping.h>
+#include <absl/strings/str_replace.h>
 #include <openssl/sha.h>
 
 #include <array>
 
 #include "revision.h"
-#include "web/base64.h"
 #include "web/page_files.h"
 #include "zlib_bytes.h"
 
 namespace cellcrush::web {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
 
 std::string_view bytes_of_file(std::string_view path) {
   const PageFile* file = find_page_file(path);
@@ -34,7 +22,7 @@ std::string_view bytes_of_file(std::string_view path) {
 std::string policy_hash(std::string_view text) {
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
   SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data());
-  return "'sha256-" + base64_of({reinterpret_cast<const char*>(digest.data()), digest.size()}) + "'";
+  return "'sha256-" + absl::Base64Escape({reinterpret_cast<const char*>(digest.data()), digest.size()}) + "'";
 }
 
 }  // namespace
@@ -47,12 +35,14 @@ std::string exported_head(std::string_view title) {
   out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src " +
          policy_hash(script) + "; style-src " + policy_hash(style) +
          "; img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'\">\n";
-  out += "<title>" + escaped(title) + "</title>\n";
+  out += "<title>" + absl::StrReplaceAll(std::string(title), {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}}) +
+         "</title>\n";
   out +=
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n";
   out += "<meta name=\"generator\" content=\"cellcrush " + std::string(kVersion) + "\">\n";
-  out += "<link rel=\"icon\" href=\"data:image/svg+xml;base64," + base64_of(bytes_of_file("/icon.svg")) + "\">\n";
+  out += "<link rel=\"icon\" href=\"data:image/svg+xml;base64," +
+         absl::Base64Escape(std::string(bytes_of_file("/icon.svg"))) + "\">\n";
   out.append("<style>").append(style).append("</style>\n");
   out.append("<script type=\"module\">").append(script).append("</script>\n");
   out += "</head>\n<body>\n<noscript>This page needs JavaScript, which the browser has switched off.</noscript>\n";
@@ -65,7 +55,7 @@ std::string exported_block(std::string_view call, const google::protobuf::Messag
   if (is_small) bytes = zlib_of(bytes);
   std::string out = "<script type=\"application/x-protobuf\" data-call=\"" + std::string(call) + "\"";
   out += is_small ? " data-zlib>" : ">";
-  return out.append(base64_of(bytes)).append("</script>\n");
+  return out.append(absl::Base64Escape(bytes)).append("</script>\n");
 }
 
 std::string_view exported_end() { return "</body>\n</html>\n"; }

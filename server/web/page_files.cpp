@@ -1,15 +1,19 @@
 #include "web/page_files.h"
 
-#include <zlib.h>
+#include <absl/strings/str_replace.h>
+#include <absl/strings/str_split.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "zlib_bytes.h"
 
 namespace cellcrush::web {
 
@@ -19,25 +23,8 @@ std::span<const PageFile> page_files();
 namespace {
 
 std::string gzip(std::string_view bytes) {
-  constexpr int kGzip = 15 + 16;  // the largest window, and the form of gzip
-  constexpr int kMemory = 8;
-  z_stream stream{};
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) return "";
-  std::string out(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  const bool done = deflate(&stream, Z_FINISH) == Z_STREAM_END;
-  out.resize(done ? stream.total_out : 0);
-  deflateEnd(&stream);
+  auto out = cellcrush::gzip_of(bytes);
   return out.size() < bytes.size() ? out : "";
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
 }  // namespace
@@ -59,13 +46,11 @@ std::string_view gzip_of(const PageFile& file) {
 }
 
 bool accepts_gzip(std::string_view accept_encoding) {
-  while (!accept_encoding.empty()) {
-    const std::string_view item = accept_encoding.substr(0, accept_encoding.find(','));
-    accept_encoding.remove_prefix(std::min(accept_encoding.size(), item.size() + 1));
-    const auto semicolon = std::min(item.find(';'), item.size());
-    if (trimmed(item.substr(0, semicolon)) != "gzip") continue;
-    const std::string_view weight = trimmed(item.substr(std::min(semicolon + 1, item.size())));
-    return !weight.starts_with("q=0") || weight.find_first_of("123456789", 3) != std::string_view::npos;
+  const std::string text = absl::StrReplaceAll(std::string(accept_encoding), {{" ", ""}, {"\t", ""}});
+  const std::vector<std::string> items = absl::StrSplit(text, ',');
+  for (const std::string& item : items) {
+    if (item != "gzip" && !item.starts_with("gzip;")) continue;
+    return !item.starts_with("gzip;q=0") || item.find_first_of("123456789", 8) != std::string::npos;
   }
   return false;
 }
@@ -89,9 +74,7 @@ const char* content_type_of_file(std::string_view name) {
 std::string entity_tag(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), "\"%016llx\"", static_cast<unsigned long long>(hash));
-  return text.data();
+  return fmt::format("\"{:016x}\"", hash);
 }
 
 }  // namespace cellcrush::web

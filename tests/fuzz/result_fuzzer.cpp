@@ -24,7 +24,7 @@
 #include "error.h"
 #include "fuzz/hostile_result.h"
 #include "fuzz/prepared_folder.h"
-#include "rpc/result_frame.h"
+#include "rpc/result_sources.h"
 #include "server/temporary_folder.h"
 #include "store/result_layout.h"
 #include "store/result_reader.h"

@@ -12,7 +12,7 @@
 #include "cellcrush/v1/cases_service.pb.h"
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
-#include "rpc/page.h"
+#include "rpc/request_fields.h"
 
 namespace cellcrush::fuzz {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cellcrush/v1/jobs_service.pb.h"
-#include "http/envelope.h"
+#include "http/connect_protocol.h"
 #include "load/stream_parser.h"
 #include "server/http/http_socket.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "http/envelope.h"
+#include "http/connect_protocol.h"
 
 namespace cellcrush::load {
 namespace {

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <spdlog/spdlog.h>
 
-#include "log_fields.h"
 #include "log_format.h"
 #include "server/log_capture.h"
 

@@ -1,6 +1,6 @@
-#include "net/heap_trim.h"
-
 #include <gtest/gtest.h>
+
+#include "net/connection_limits.h"
 
 namespace cellcrush::net {
 namespace {

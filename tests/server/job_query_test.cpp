@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "error.h"
-#include "rpc/page.h"
+#include "rpc/request_fields.h"
 
 namespace cellcrush::rpc {
 namespace {

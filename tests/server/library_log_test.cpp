@@ -1,11 +1,10 @@
-#include "library_log.h"
-
 #include <gmock/gmock.h>
 #include <grpc/support/log.h>
 
 #include <chrono>
 
 #include "cellcrush/v1/jobs_service.pb.h"
+#include "limited_log.h"
 #include "log_format.h"
 #include "server/log_capture.h"
 

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "error.h"
+#include "net/listening_port.h"
 #include "server/temporary_folder.h"
 
 namespace cellcrush {
@@ -36,9 +37,9 @@ TEST(ListenAddress, AFileThatIsNoSocketIsLeftAlone) {
   const testing::TemporaryFolder folder;
   const auto path = folder.path() / "file";
   std::ofstream(path) << "precious";
-  EXPECT_THROW(remove_stale_socket(path.string()), ServiceError);
+  EXPECT_THROW(net::remove_stale_socket(path.string()), ServiceError);
   EXPECT_TRUE(std::filesystem::exists(path));
-  EXPECT_NO_THROW(remove_stale_socket((folder.path() / "absent").string()));
+  EXPECT_NO_THROW(net::remove_stale_socket((folder.path() / "absent").string()));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/executor_options.h"
+#include "jobs/executor.h"
 #include "jobs/local_process.h"
 
 namespace cellcrush::testing {

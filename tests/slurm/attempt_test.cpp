@@ -1,6 +1,8 @@
 // One attempt, seen from its task and from the daemon, without Slurm.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <fstream>
@@ -9,9 +11,9 @@
 #include "server/small_case.h"
 #include "server/temporary_folder.h"
 #include "slurm/attempt_exit.h"
+#include "slurm/attempt_folder.h"
 #include "slurm/attempt_run.h"
 #include "slurm/executor_run.h"
-#include "slurm/shared_folder.h"
 #include "slurm/slurm_executor.h"
 #include "slurm/small_file.h"
 
@@ -54,32 +56,10 @@ TEST(AttemptExit, AResultCountsWhateverTheTaskWasTold) {
   EXPECT_FALSE(slurm::ends_job(ended));
 }
 
-// A file system that does not answer.
-class BlockedLink : public slurm::Link {
- public:
-  bool claim(const slurm::Claim&) override { return true; }
-  void fetch(const store::JobFolder&) override {}
-  void beat(std::uint64_t) override {}
-  slurm::Request::Kind requested() override {
-    answers_.wait();
-    return slurm::Request::ABANDON;
-  }
-  void end(const slurm::Ended&) override {}
-  void write_reports(std::uint64_t, const std::string&) override {}
-  void put_checkpoint(const std::string&) override {}
-  void put_result(const fs::path&) override {}
-
-  void answer() { answer_.set_value(); }
-
- private:
-  std::promise<void> answer_;
-  std::shared_future<void> answers_{answer_.get_future()};
-};
-
 // Computes until it is told to stop.
 class EndlessWorker : public jobs::Executor {
  public:
-  explicit EndlessWorker(BlockedLink& link) : link_(link) {}
+  explicit EndlessWorker(const slurm::AttemptFolder& shared) : shared_(shared) {}
   bool has_worker(const store::JobFolder&) override { return false; }
   std::optional<jobs::WorkerExit> read_final_report(const store::JobFolder&, const jobs::WorkerEvents&) override {
     return std::nullopt;
@@ -90,24 +70,29 @@ class EndlessWorker : public jobs::Executor {
     std::promise<void> stopped;
     const std::stop_callback on_stop(interruptions.stop, [&stopped] { stopped.set_value(); });
     was_stopped = stopped.get_future().wait_for(std::chrono::seconds(20)) == std::future_status::ready;
-    link_.answer();
-    return slurm::exit_with(Kind::stopped);
+    shared_.request(slurm::Request::ABANDON);
+    close(open((shared_.root() / "heartbeat").c_str(), O_RDONLY | O_NONBLOCK));
+    return {.kind = Kind::stopped};
   }
 
   bool was_stopped = false;
 
  private:
-  BlockedLink& link_;
+  const slurm::AttemptFolder& shared_;
 };
 
 TEST(AttemptRun, TheLeaseEndsWhileACallDoesNotReturn) {
   const TemporaryFolder temporary;
   const store::JobFolder folder(temporary.path());
   slurm::write_small_file(folder.order(), order_of(tiny_case()).SerializeAsString());
-  BlockedLink link;
-  EndlessWorker worker(link);
-  const slurm::TaskEnd end;
-  slurm::AttemptRun(link, worker, end, milliseconds(300)).run(folder);
+  const slurm::AttemptFolder shared(temporary.path() / "attempts" / "1");
+  fs::create_directories(shared.root());
+  shared.request(slurm::Request::NONE);
+  // A file system that does not answer: the heartbeat is written once somebody reads it.
+  ASSERT_EQ(mkfifo((shared.root() / "heartbeat").c_str(), 0600), 0);
+  EndlessWorker worker(shared);
+  const slurm::TaskEnd end = slurm::Ended::REASON_UNSPECIFIED;
+  slurm::AttemptRun(shared, worker, end, milliseconds(300)).run(folder);
   EXPECT_TRUE(worker.was_stopped);
 }
 

@@ -9,7 +9,7 @@
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
-#include "slurm/cluster_flag.h"
+#include "slurm/cluster_options.h"
 #include "slurm/slurm_cluster.h"
 
 namespace cellcrush::testing {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "slurm/shared_folder.h"
+#include "slurm/attempt_folder.h"
 
 namespace cellcrush::testing {
 namespace {

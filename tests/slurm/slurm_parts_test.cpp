@@ -10,14 +10,12 @@
 #include "error.h"
 #include "server/temporary_folder.h"
 #include "slurm/attempt_folder.h"
-#include "slurm/cluster_flag.h"
+#include "slurm/batcher.h"
+#include "slurm/cluster_options.h"
 #include "slurm/commands.h"
 #include "slurm/mirror.h"
-#include "slurm/packing.h"
-#include "slurm/program.h"
-#include "slurm/scratch_folder.h"
-#include "slurm/shared_folder.h"
 #include "slurm/small_file.h"
+#include "slurm/task.h"
 #include "worker/report_log.h"
 
 namespace cellcrush::slurm {
@@ -256,11 +254,10 @@ class MirrorTest : public ::testing::Test {
   testing::TemporaryFolder temporary_;
   store::JobFolder from_{temporary_.path() / "from"};
   store::JobFolder to_{temporary_.path() / "to"};
-  FolderSink sink_{to_};
 };
 
 TEST_F(MirrorTest, CopiesWholeReportsOnly) {
-  Mirror mirror(from_, sink_, 0);
+  Mirror mirror(from_, to_, 0);
   EXPECT_FALSE(mirror.pass());
   worker::ReportLog log(from_.reports());
   log.append(progress(1));
@@ -277,38 +274,39 @@ TEST_F(MirrorTest, CopiesWholeReportsOnly) {
   EXPECT_EQ(content(to_.reports()), both);
 }
 
+// What cannot be written holds up what has to come after it.
 TEST_F(MirrorTest, PutsTheResultBeforeTheReportThatAnnouncesItAndACheckpointAfterItsReports) {
-  struct Recorder final : FileSink {
-    std::vector<std::string> calls;
-    void write_reports(std::uint64_t, const std::string&) override { calls.emplace_back("reports"); }
-    void put_checkpoint(const std::string& bytes) override { calls.push_back(bytes); }
-    void put_result(const fs::path&) override { calls.emplace_back("result"); }
-  } recorder;
-  Mirror mirror(from_, recorder, 0);
-  worker::ReportLog log(from_.reports());
-  log.append(progress(1));
+  Mirror mirror(from_, to_, 0);
+  worker::ReportLog(from_.reports()).append(progress(1));
   write_small_file(from_.checkpoint(), "checkpoint 1");
   write_small_file(from_.result(), "result");
+  fs::create_directory(to_.result());
+  EXPECT_THROW(mirror.pass(), ServiceError);
+  EXPECT_FALSE(fs::exists(to_.reports()));
+  fs::remove(to_.result());
+  fs::create_directory(to_.reports());
+  EXPECT_THROW(mirror.pass(), ServiceError);
+  EXPECT_EQ(content(to_.result()), "result");
+  EXPECT_FALSE(fs::exists(to_.checkpoint()));
+  fs::remove(to_.reports());
   EXPECT_TRUE(mirror.pass());
-  EXPECT_THAT(recorder.calls, ElementsAre("result", "reports", "checkpoint 1"));
-  recorder.calls.clear();
+  EXPECT_EQ(content(to_.reports()), content(from_.reports()));
+  EXPECT_EQ(content(to_.checkpoint()), "checkpoint 1");
   EXPECT_FALSE(mirror.pass());
-  EXPECT_THAT(recorder.calls, IsEmpty());
   write_small_file(from_.checkpoint(), "checkpoint 2");
   EXPECT_TRUE(mirror.pass());
-  EXPECT_THAT(recorder.calls, ElementsAre("checkpoint 2"));
+  EXPECT_EQ(content(to_.checkpoint()), "checkpoint 2");
+  EXPECT_EQ(content(to_.previous_checkpoint()), "checkpoint 1");
 }
 
 TEST_F(MirrorTest, RepeatsWhatFailed) {
-  worker::ReportLog log(from_.reports());
-  log.append(progress(1));
-  const FolderSink nowhere(store::JobFolder(temporary_.path() / "absent"));
-  FolderSink failing = nowhere;
-  Mirror mirror(from_, failing, 0);
+  worker::ReportLog(from_.reports()).append(progress(1));
+  const store::JobFolder absent(temporary_.path() / "absent");
+  Mirror mirror(from_, absent, 0);
   EXPECT_THROW(mirror.pass(), ServiceError);
-  fs::create_directory(temporary_.path() / "absent");
+  fs::create_directory(absent.root());
   EXPECT_TRUE(mirror.pass());
-  EXPECT_EQ(content(temporary_.path() / "absent" / "reports"), content(from_.reports()));
+  EXPECT_EQ(content(absent.reports()), content(from_.reports()));
 }
 
 }  // namespace

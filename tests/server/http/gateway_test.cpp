@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "http/envelope.h"
+#include "http/connect_protocol.h"
 #include "server/http/http_fixture.h"
 #include "server/small_case.h"
 

@@ -3,8 +3,7 @@
 #include "error.h"
 #include "google/rpc/status.pb.h"
 #include "http/browser_rules.h"
-#include "http/connect_error.h"
-#include "http/envelope.h"
+#include "http/connect_protocol.h"
 #include "web/page_files.h"
 
 namespace cellcrush::http {

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <thread>
 
-#include "http/envelope.h"
+#include "http/connect_protocol.h"
 #include "http/gateway.h"
 #include "rpc/method_table.h"
 #include "server/http/http_fixture.h"

@@ -1,10 +1,10 @@
 #include "web/exported_page.h"
 
+#include <absl/strings/escaping.h>
 #include <gmock/gmock.h>
 #include <openssl/sha.h>
 
 #include "cellcrush/v1/job.pb.h"
-#include "web/base64.h"
 #include "web/page_files.h"
 
 namespace cellcrush::web {
@@ -22,7 +22,7 @@ std::string hash_of_policy(const std::string& text) {
   std::string digest(SHA256_DIGEST_LENGTH, '\0');
   SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(),
          reinterpret_cast<unsigned char*>(digest.data()));
-  return "'sha256-" + base64_of(digest) + "'";
+  return "'sha256-" + absl::Base64Escape(digest) + "'";
 }
 
 TEST(ExportedPage, ThePolicyPermitsItsScriptAndStyleAndNoRequest) {
@@ -49,9 +49,9 @@ TEST(ExportedPage, TheBundleCanStandInAnElement) {
 TEST(ExportedPage, ABlockHoldsItsMessageAsText) {
   v1::Job job;
   job.set_name("</script>");
-  EXPECT_EQ(
-      exported_block("GetJob", job, Compression::none),
-      "<script type=\"application/x-protobuf\" data-call=\"GetJob\">" + base64_of("\n\x9</script>") + "</script>\n");
+  EXPECT_EQ(exported_block("GetJob", job, Compression::none),
+            "<script type=\"application/x-protobuf\" data-call=\"GetJob\">" + absl::Base64Escape("\n\x9</script>") +
+                "</script>\n");
   EXPECT_THAT(exported_block("GetJob", job, Compression::zlib), HasSubstr("data-call=\"GetJob\" data-zlib>eJ"));
 }
 

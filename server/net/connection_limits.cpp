@@ -1,5 +1,6 @@
-#include "net/descriptor_limit.h"
+#include "net/connection_limits.h"
 
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
@@ -15,6 +16,8 @@ constexpr std::int64_t kOfAWorker = 8;
 constexpr int kLeast = 8;
 // A hard limit may be 10^9, and some programs close every descriptor up to it.
 constexpr rlim_t kMost = 1 << 20;
+// Connections and streams whose memory is worth returning.
+constexpr std::size_t kLargeFlood = 100;
 
 }  // namespace
 
@@ -37,6 +40,14 @@ int raise_descriptor_limit(int wanted, int workers) {
         out, wanted, descriptors);
   }
   return out;
+}
+
+bool HeapTrim::note(std::size_t open) {
+  most_ = std::max(most_, open);
+  if (most_ < kLargeFlood || open > most_ / 2) return false;
+  most_ = open;
+  malloc_trim(0);
+  return true;
 }
 
 }  // namespace cellcrush::net

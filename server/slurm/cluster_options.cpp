@@ -1,16 +1,18 @@
-#include "slurm/cluster_flag.h"
+#include "slurm/cluster_options.h"
+
+#include <absl/strings/ascii.h>
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_join.h>
+#include <absl/strings/str_split.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
-#include <string_view>
 
 #include "error.h"
-#include "slurm/shared_folder.h"
+#include "slurm/attempt_folder.h"
 #include "slurm/slurm_executor.h"
 
 namespace cellcrush::slurm {
@@ -28,17 +30,14 @@ std::filesystem::path absolute_path(const std::string& key, const std::string& v
 
 int whole_number(const std::string& key, const std::string& value, int least, int most) {
   int out = 0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), out);
-  if (error != std::errc() || end != value.data() + value.size() || out < least || out > most)
+  if (!absl::SimpleAtoi(value, &out) || out < least || out > most)
     refuse(key + " is '" + value + "'; it must be a whole number from " + std::to_string(least) + " to " +
            std::to_string(most) + ".");
   return out;
 }
 
 void check_name(const std::string& name) {
-  const auto is_good = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-  };
+  const auto is_good = [](unsigned char c) { return absl::ascii_isalnum(c) || c == '-' || c == '_'; };
   if (name.empty() || name.size() > kLongestName || !std::all_of(name.begin(), name.end(), is_good))
     refuse("the cluster's name is '" + name +
            "'; it must be 1 to 40 letters, digits, - or _, followed by a colon: NAME:folder=PATH.");
@@ -84,18 +83,16 @@ ClusterOptions parse_cluster(const std::string& text) {
   const auto colon = text.find(':');
   out.name = text.substr(0, colon);
   check_name(out.name);
-  std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
-  while (!rest.empty()) {
-    const auto comma = rest.find(',');
-    const std::string setting = rest.substr(0, comma);
-    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
+  const std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
+  const std::vector<std::string> settings = absl::StrSplit(rest, ',', absl::SkipEmpty());
+  for (const std::string& setting : settings) {
     const auto equals = setting.find('=');
     const std::string key = setting.substr(0, equals);
     const auto setter = setters().find(key);
     if (setter == setters().end() || equals == std::string::npos) {
-      std::string known;
-      for (const auto& [name, unused] : setters()) known += (known.empty() ? "" : ", ") + name;
-      refuse("'" + setting + "' is not a setting of a cluster; write KEY=VALUE with one of " + known + ".");
+      const auto name_of = [](std::string* to, const auto& each) { *to += each.first; };
+      refuse("'" + setting + "' is not a setting of a cluster; write KEY=VALUE with one of " +
+             absl::StrJoin(setters(), ", ", name_of) + ".");
     }
     setter->second(out, key, setting.substr(equals + 1));
   }

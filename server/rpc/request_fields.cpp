@@ -1,0 +1,130 @@
+#include "rpc/request_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "access/scope.h"
+#include "error.h"
+#include "store/case_hash.h"
+#include "store/resource_name.h"
+
+namespace cellcrush::rpc {
+namespace {
+
+constexpr std::size_t kLongestId = 128;
+constexpr std::size_t kMostLabels = 64;
+constexpr std::size_t kLongestKey = 63;
+constexpr std::size_t kLongestValue = 255;
+constexpr int kHighestPriority = 100;
+
+template <class Request>
+std::string hash_of_payload(Request& request, const std::string& owner) {
+  request.clear_request_id();
+  request.clear_validate_only();
+  // The form without owners, which journals of earlier versions hold.
+  return store::hash_of(request) + (owner == access::kLocal ? "" : " " + owner);
+}
+
+constexpr int kDefaultPage = 50;
+constexpr int kLargestPage = 1000;
+
+// FNV-1a: distinguishes lists, but keeps nothing secret.
+std::string mark_of(const std::string& question) {
+  std::uint32_t hash = 2166136261U;
+  for (const char character : question) hash = (hash ^ static_cast<unsigned char>(character)) * 16777619U;
+  return fmt::format("{:08x}", hash);
+}
+
+// The number in a token; 0 for no token.
+std::int64_t read_token(const std::string& text, const std::string& question) {
+  if (text.empty()) return 0;
+  check_length("page_token", text, kLongestPageToken);
+  std::int64_t after = 0;
+  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), after);
+  if (error != std::errc() || after < 1 || text != page_token(after, question)) {
+    throw InvalidField("page_token", "is not a token of this list.",
+                       "Use the next_page_token of the previous page, with the same filter and order_by, or name.");
+  }
+  return after;
+}
+
+}  // namespace
+
+void check_size(const std::string& field, std::size_t bytes, std::size_t largest) {
+  if (bytes <= largest) return;
+  throw InvalidField(field, "has " + std::to_string(bytes) + " bytes.", "Use at most " + std::to_string(largest) + ".");
+}
+
+void check_length(const std::string& field, const std::string& text, std::size_t longest) {
+  check_size(field, text.size(), longest);
+}
+
+void check_epoch(const store::Epoch& epoch, const std::string& given) {
+  if (given.empty() || given == epoch.id) return;
+  throw ServiceError(
+      ServiceError::Kind::failed_precondition,
+      "The after_sequence comes" + epoch.of_before() +
+          ": its number may now belong to a different event. Watch again without after_sequence and epoch.");
+}
+
+void check_request(const std::string& request_id, const google::protobuf::Map<std::string, std::string>& labels,
+                   const std::string& prefix) {
+  if (request_id.size() > kLongestId)
+    throw InvalidField("request_id", "has " + std::to_string(request_id.size()) + " characters.", "Use at most 128.");
+  const std::string field = prefix + "labels";
+  if (labels.size() > kMostLabels)
+    throw InvalidField(field, "are " + std::to_string(labels.size()) + ".", "Use at most 64.");
+  for (const auto& [key, value] : labels) {
+    if (key.empty() || key.size() > kLongestKey)
+      throw InvalidField(field, "have the key \"" + key + "\", of invalid length.", "Use 1 to 63 characters.");
+    if (value.size() > kLongestValue)
+      throw InvalidField(field, "have a value that is too long for \"" + key + "\".", "Use at most 255 characters.");
+  }
+}
+
+void check_priority(int priority, const std::string& field) {
+  if (priority < -kHighestPriority || priority > kHighestPriority)
+    throw InvalidField(field, "is " + std::to_string(priority) + ".",
+                       "Use -100 to 100; higher priorities start first.");
+}
+
+std::string payload_hash(v1::CreateJobRequest request, const std::string& owner) {
+  return hash_of_payload(request, owner);
+}
+
+std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner) {
+  return hash_of_payload(request, owner);
+}
+
+store::StoredJob find_job(store::JournalReader& journal, const std::string& name) {
+  check_length("name", name, kLongestName);
+  const auto number = store::number_of(name);
+  auto stored = number ? journal.find_job(*number) : std::nullopt;
+  if (!stored) {
+    throw ServiceError(
+        ServiceError::Kind::not_found,
+        "There is no job \"" + name + "\". Job names look like jobs/12; ListJobs (`cellcrush list`) lists them.");
+  }
+  return *std::move(stored);
+}
+
+Page read_page(int page_size, const std::string& page_token_text, const std::string& question) {
+  if (page_size < 0) throw InvalidField("page_size", "is negative.", "Use 1 to 1000, or 0 for 50.");
+  return {page_size == 0 ? kDefaultPage : std::min(page_size, kLargestPage), read_token(page_token_text, question)};
+}
+
+Page read_full_page(int page_size, const std::string& page_token_text, const std::string& question) {
+  if (page_size < 0) throw InvalidField("page_size", "is negative.", "Use 0 for as many as fit.");
+  return {page_size == 0 ? std::numeric_limits<int>::max() : page_size, read_token(page_token_text, question)};
+}
+
+std::string page_token(std::int64_t last, const std::string& question) {
+  return std::to_string(last) + "-" + mark_of(question);
+}
+
+}  // namespace cellcrush::rpc

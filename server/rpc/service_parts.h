@@ -1,0 +1,39 @@
+#pragma once
+
+#include "access/gate.h"
+#include "jobs/admission.h"
+#include "jobs/deletion.h"
+#include "jobs/mesh_places.h"
+#include "jobs/queues.h"
+#include "rpc/method_table.h"
+#include "store/change_reader.h"
+#include "store/data_folder.h"
+#include "store/journal.h"
+#include "store/journal_reader.h"
+#include "store/sweep_reader.h"
+#include "watch/hub.h"
+
+namespace cellcrush::rpc {
+
+/// What the services work with; all of it outlives them.
+struct ServiceParts {
+  const store::DataFolder& folder;
+  store::Journal& journal;
+  store::JournalReader& reader;
+  store::SweepReader& sweeps;
+  store::ChangeReader& changes;
+  const jobs::Deletion& deletion;
+  watch::Hub& hub;
+  jobs::Queues& queues;
+  jobs::Admission& admission;
+  const access::Gate& gate;
+  CallPool& calls;
+  CallPool& checks;  ///< for checks that build meshes and may take seconds
+  jobs::MeshPlaces& places;
+  int check_threads = 1;      ///< for checking the points of one sweep
+  double step_cost = 0.0;     ///< seconds of one core per element and step
+  int owner_max_running = 0;  ///< jobs of one owner that run at once on one executor; 0: no limit
+  StreamParts streams;
+};
+
+}  // namespace cellcrush::rpc
