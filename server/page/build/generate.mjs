@@ -3,7 +3,8 @@ import { execFileSync } from "node:child_process";
 import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { helpOf } from "./proto_help.mjs";
+import { fromBinary } from "@bufbuild/protobuf";
+import { FileDescriptorSetSchema } from "@bufbuild/protobuf/wkt";
 
 // The messages whose fields the page explains.
 const kExplained = ["Case", "Lattice", "Material", "Section", "Contact", "Plates", "Loading", "Numerics", "Output",
@@ -13,6 +14,48 @@ const protos = join(page, "../../proto");
 const gen = join(page, "gen");
 const files = readdirSync(join(protos, "cellcrush/v1")).map((name) => `cellcrush/v1/${name}`);
 const errorFiles = ["google/rpc/status.proto"];
+
+const kMessages = 4, kNestedMessages = 3, kFields = 2, kNestedEnums = 4, kValues = 2; // numbers in descriptor.proto
+
+// Comment of every declaration, keyed by its path in the file.
+function commentsOf(file) {
+  const comments = new Map();
+  for (const location of file.sourceCodeInfo.location) {
+    const text = location.leadingComments.trim().replace(/\s+/g, " ");
+    if (text) comments.set(location.path.join("."), text);
+  }
+  return comments;
+}
+
+function addMessage(help, comments, message, path, name) {
+  const fields = {};
+  message.field.forEach((field, i) => {
+    fields[field.name] = comments.get(`${path}.${kFields}.${i}`) ?? "";
+  });
+  help.messages[name] = fields;
+  message.nestedType.forEach((nested, i) =>
+    addMessage(help, comments, nested, `${path}.${kNestedMessages}.${i}`, `${name}.${nested.name}`));
+  message.enumType.forEach((type, i) => {
+    const values = {};
+    type.value.forEach((value, j) => {
+      values[value.name] = comments.get(`${path}.${kNestedEnums}.${i}.${kValues}.${j}`) ?? "";
+    });
+    help.enums[`${name}.${type.name}`] = values;
+  });
+}
+
+// The comments of the protos as data, from the bytes of a FileDescriptorSet with source info: for each message its
+// fields, for each enum its values.
+function helpOf(bytes, names) {
+  const help = { messages: {}, enums: {} };
+  for (const file of fromBinary(FileDescriptorSetSchema, bytes).file) {
+    const comments = commentsOf(file);
+    file.messageType.forEach((message, i) => {
+      if (names.includes(message.name)) addMessage(help, comments, message, `${kMessages}.${i}`, message.name);
+    });
+  }
+  return help;
+}
 
 rmSync(gen, { recursive: true, force: true });
 mkdirSync(gen);

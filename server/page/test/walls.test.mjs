@@ -1,7 +1,8 @@
-// Walls drawn pixel by pixel.
+// Walls drawn pixel by pixel, and what is said of pictures that are drawn slowly.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { kShades } from "../src/picture/colours";
+import { Pace } from "../src/picture/player";
 import { drawSegments, shadesOf } from "../src/picture/walls_pixels";
 
 const kView = { width: 200, height: 100, x: 0, y: 0, scale: 1, thinnest: 0 };
@@ -69,4 +70,25 @@ test("walls beyond the view and walls without a place draw nothing", () => {
   const walls = [[500, 0, 600, 0, 3, 0], [0, -900, 10, -800, 3, 0], [NaN, 0, 1, 0, 3, 0], [0, 0, Infinity, 0, 3, 0]];
   for (const wall of walls) assert.equal(area(draw([wall])), 0);
   assert.ok(area(draw([[-1e5, 0, 1e5, 0, 2, 0]])) > 390, "a wall through the view does");
+});
+
+function noteAfter(pace, interval, pictures) {
+  let text = "";
+  for (let i = 0; i < pictures; ++i) text = pace.note(1000 + i * interval);
+  return text;
+}
+
+test("a smooth picture has no note, a slow one tells its rate", () => {
+  assert.equal(noteAfter(new Pace(), 16, 50), "");
+  assert.equal(noteAfter(new Pace(), 250, 50), "slow drawing: 4 per second");
+  assert.equal(noteAfter(new Pace(), 800, 50), "slow drawing: 1.3 per second");
+  assert.equal(noteAfter(new Pace(), 800, 1), "");
+});
+
+test("a pause between two plays is not slow", () => {
+  const pace = new Pace();
+  noteAfter(pace, 16, 20);
+  pace.stop();
+  assert.equal(pace.note(60_000), "");
+  assert.equal(pace.note(60_016), "");
 });

@@ -72,7 +72,7 @@ test('its crush is scrubbed and played, and the address holds the place', async 
 
 test('its picture, curves and samples can be saved from it', async () => {
   const { page } = exported;
-  for (const name of ['Save this picture', 'Save the curves', 'Save all samples']) {
+  for (const name of ['Save this picture', 'Save the chart', 'Save all samples']) {
     const download = page.waitForEvent('download');
     await page.getByRole('button', { name }).first().click();
     await download;

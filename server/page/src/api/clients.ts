@@ -1,5 +1,5 @@
 // Clients of the daemon's services, on the origin of the page; in an exported page, of the file itself.
-import { createClient, type Client, type Transport } from "@connectrpc/connect";
+import { createClient } from "@connectrpc/connect";
 import { createConnectTransport } from "@connectrpc/connect-web";
 import { Admin } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Cases } from "../../gen/cellcrush/v1/cases_service_pb";
@@ -8,22 +8,12 @@ import { Sweeps } from "../../gen/cellcrush/v1/sweeps_service_pb";
 import { exportedTransport, isExported } from "./exported";
 import { withToken } from "./token";
 
-export interface Clients {
-  admin: Client<typeof Admin>;
-  cases: Client<typeof Cases>;
-  jobs: Client<typeof Jobs>;
-  sweeps: Client<typeof Sweeps>;
-}
+const transport = isExported ? exportedTransport
+  : createConnectTransport({ baseUrl: location.origin, useBinaryFormat: true, interceptors: [withToken] });
 
-export function clientsOf(transport: Transport): Clients {
-  return {
-    admin: createClient(Admin, transport),
-    cases: createClient(Cases, transport),
-    jobs: createClient(Jobs, transport),
-    sweeps: createClient(Sweeps, transport),
-  };
-}
-
-export const api = clientsOf(isExported ? exportedTransport : createConnectTransport({
-  baseUrl: location.origin, useBinaryFormat: true, interceptors: [withToken],
-}));
+export const api = {
+  admin: createClient(Admin, transport),
+  cases: createClient(Cases, transport),
+  jobs: createClient(Jobs, transport),
+  sweeps: createClient(Sweeps, transport),
+};

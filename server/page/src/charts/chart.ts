@@ -29,7 +29,7 @@ export class Chart {
   private readonly ignoreTheme = onThemeChange(() => this.rebuild());
   private readonly observer = new ResizeObserver(() => this.resize());
   private plot: uPlot | undefined;
-  private data: ChartData | undefined;
+  data: ChartData | undefined;
   private values: HTMLElement[] = [];
   private head: number | undefined;
   private hoverIndex: number | null = null;
@@ -45,8 +45,9 @@ export class Chart {
     setText(this.element.querySelector("h3")!, title);
   }
 
-  get shown(): ChartData | undefined {
-    return this.data;
+  /** Adds what saves or changes the chart, beside its title. */
+  addTools(...tools: HTMLElement[]): void {
+    this.element.querySelector("figcaption")!.append(h("span", { class: "take-away" }, ...tools));
   }
 
   private rebuild(): void {
@@ -119,7 +120,10 @@ export class Chart {
       hooks: {
         drawClear: [(plot) => drawShapes(plot, this.data!, bandShapes)],
         draw: [(plot) => drawShapes(plot, this.data!, markShapes), () => this.moveHead()], // scales are known from here on
-        setCursor: [(plot) => this.hover(plot.cursor.idx ?? null)],
+        setCursor: [(plot) => {
+          this.hoverIndex = plot.cursor.idx ?? null;
+          this.showValues();
+        }],
       },
     }, data.columns as uPlot.AlignedData, place);
     this.plot.over.append(this.playhead);
@@ -170,11 +174,6 @@ export class Chart {
         .map((series) => entry(series.label, series.colour, series.dash, kindOf(series), series.mark)),
       ...(data.levels ?? []).filter((level) => level.label)
         .map((level) => entry(level.label, level.colour, level.dash, "level")));
-  }
-
-  private hover(index: number | null): void {
-    this.hoverIndex = index;
-    this.showValues();
   }
 
   // The values of the legend: at the pointer, otherwise at the playhead.

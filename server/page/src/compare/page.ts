@@ -93,8 +93,7 @@ export class ComparePage implements View {
   }
 
   private build(): void {
-    this.chart.element.querySelector("figcaption")!.append(h("span", { class: "take-away" },
-      saveChartButton(this.chart, () => "Comparison", "comparison")));
+    this.chart.addTools(saveChartButton(this.chart, () => "Comparison", "comparison"));
     replaceChildren(this.element,
       h("header", { class: "job-header" }, h("div", { class: "title-row" }, h("h1", {}, this.title),
         h("span", { class: "spacer" }), colourLegend())),

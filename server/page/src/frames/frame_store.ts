@@ -14,7 +14,6 @@ export class FrameStore {
   jobCount = 0;
   readonly changes = new Listeners<void>();
   private unpacked = new Map<number, Fields>();
-
   private base: Float32Array = new Float32Array();
   private guides: Uint32Array = new Uint32Array();
 

@@ -19,7 +19,7 @@ import { Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
 import { RigidWalls } from "../picture/rigid_walls";
 import { keepInUrl, setTitle, type View } from "../router";
-import { takeAwayOfChart, takeAwayOfPicture } from "../take_away/menus";
+import { addSaving, takeAwayOfPicture } from "../take_away/menus";
 import { JobHeader } from "./header";
 import { JobData } from "./job_data";
 import { resultsList } from "./results";
@@ -79,10 +79,8 @@ export class JobPage implements View {
   private build(): void {
     const { picture } = this.frames;
     picture.element.append(this.waiting);
-    this.stress.element.querySelector("figcaption")!.append(
-      takeAwayOfChart(this.stress, this.data, () => this.axis, "stress"));
-    this.energy.element.querySelector("figcaption")!.append(
-      takeAwayOfChart(this.energy, this.data, () => this.axis, "energy"));
+    addSaving(this.stress, this.data, "stress");
+    addSaving(this.energy, this.data, "energy");
     replaceChildren(this.element, this.header.element, this.problem, this.warnings,
       this.grid);
     replaceChildren(this.grid,

@@ -83,8 +83,7 @@ export class JobsPage implements View {
     const text = this.text.value.trim().toLowerCase();
     if (/[=:]/.test(text)) return false; // the daemon decides; the next list has it
     if (text && !titleOf(job).toLowerCase().includes(text)) return false;
-    if (!this.isShown(job)) return false;
-    return !this.state.value || Job_State[job.state] === this.state.value;
+    return this.isShown(job);
   }
 
   // Jobs of sweeps are listed by their sweep; here only while they run, unless the user wants all.

@@ -5,6 +5,12 @@ import { h, setText } from "../dom/element";
 import { fieldAt } from "./fields";
 import { choicesOf, defaultOf, helpOf, labelOf, limitsOf, unitOf } from "./words";
 
+/** Shows below an input of a form what it may be, or why its text is no value. */
+export function showHint(hint: HTMLElement, text: string, isValue: boolean): void {
+  setText(hint, text);
+  hint.parentElement!.dataset.kind = isValue ? "" : "error";
+}
+
 let count = 0;
 
 export class FieldInput {

@@ -1,5 +1,6 @@
 // Labels and priority of a new job or sweep.
-import { h, setText } from "../dom/element";
+import { h } from "../dom/element";
+import { showHint } from "./field_input";
 
 /** The labels that a text such as "series=a, batch=2" gives, or what is wrong with the text. */
 export function labelsOf(text: string): Record<string, string> | string {
@@ -38,12 +39,11 @@ export class OrderInput {
   read(): Order | undefined {
     const labels = labelsOf(this.labels.value);
     const areLabels = typeof labels !== "string";
-    setText(this.labelsHint, areLabels ? "key=value, to filter the job list" : labels);
-    this.labelsHint.parentElement!.dataset.kind = areLabels ? "" : "error";
+    showHint(this.labelsHint, areLabels ? "key=value, to filter the job list" : labels, areLabels);
     const priority = Number(this.priority.value);
     const isPriority = Number.isInteger(priority) && Math.abs(priority) <= 100;
-    setText(this.priorityHint, isPriority ? "-100 to 100; higher starts first." : "A whole number, -100 to 100.");
-    this.priorityHint.parentElement!.dataset.kind = isPriority ? "" : "error";
+    showHint(this.priorityHint, isPriority ? "-100 to 100; higher starts first." : "A whole number, -100 to 100.",
+             isPriority);
     return areLabels && isPriority ? { labels, priority } : undefined;
   }
 }

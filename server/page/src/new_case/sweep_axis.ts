@@ -1,8 +1,9 @@
 // The fields that a sweep varies, and their values: a list, or a range as "10:200:8" or "10:200:8:log".
 import { create } from "@bufbuild/protobuf";
 import { SweepAxisSchema, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
-import { button, h, replaceChildren, setText } from "../dom/element";
+import { button, h, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
+import { showHint } from "./field_input";
 import { fieldAt } from "./fields";
 import { labelOf, unitOf } from "./words";
 
@@ -95,8 +96,7 @@ class AxisInput {
   read(others: string[]): SweepAxis | undefined {
     const axis = others.includes(this.path) ? "This field is already varied." : axisOf(this.path, this.values.value);
     const isAxis = typeof axis !== "string";
-    setText(this.hint, isAxis ? "a list, first:last:count, first:last:count:log, or seeds:count" : axis);
-    this.hint.parentElement!.dataset.kind = isAxis ? "" : "error";
+    showHint(this.hint, isAxis ? "a list, first:last:count, first:last:count:log, or seeds:count" : axis, isAxis);
     return isAxis ? axis : undefined;
   }
 }

@@ -31,14 +31,17 @@ function plate(context: CanvasRenderingContext2D, camera: Camera, state: Plates,
                    Math.max(3, camera.scale * Math.abs(y1 - y0)));
 }
 
+// Between two points of the lattice.
+function line(context: CanvasRenderingContext2D, camera: Camera, x0: number, y0: number, x1: number, y1: number): void {
+  const [a, b] = [`${camera.toScreenX(x0)},${camera.toScreenY(y0)}`, `${camera.toScreenX(x1)},${camera.toScreenY(y1)}`];
+  context.stroke(new Path2D(`M${a}L${b}`));
+}
+
 function startLine(context: CanvasRenderingContext2D, camera: Camera, { lattice, box }: OverlayState): void {
   const at = lattice.impactPlate;
   const [x0, y0, x1, y1] = lattice.alongY ? [box.lowX, at, box.highX, at] : [at, box.lowY, at, box.highY];
   context.setLineDash([4, 4]);
-  context.beginPath();
-  context.moveTo(camera.toScreenX(x0), camera.toScreenY(y0));
-  context.lineTo(camera.toScreenX(x1), camera.toScreenY(y1));
-  context.stroke();
+  line(context, camera, x0, y0, x1, y1);
   context.setLineDash([]);
 }
 
@@ -58,14 +61,7 @@ function scaleBar(context: CanvasRenderingContext2D, camera: Camera): void {
   context.fillRect(left, y - 11, x1 - left + 8, 22);
   context.globalAlpha = 1;
   context.fillStyle = ink;
-  context.beginPath();
-  for (const [x, dy0, dy1] of [[x0, -4, 4], [x1, -4, 4]]) {
-    context.moveTo(x, y + dy0);
-    context.lineTo(x, y + dy1);
-  }
-  context.moveTo(x0, y);
-  context.lineTo(x1, y);
-  context.stroke();
+  context.stroke(new Path2D(`M${x0},${y - 4}v8m0,-4H${x1}m0,-4v8`));
   context.textAlign = "right";
   context.fillText(text, x0 - 7, y + 4);
   context.textAlign = "left";
@@ -78,10 +74,7 @@ function hoveredWall(context: CanvasRenderingContext2D, camera: Camera, segments
   context.lineWidth = Math.max(values[at + 4] * camera.scale, 1) + 3;
   context.globalAlpha = 0.75;
   context.strokeStyle = themeColour("accent");
-  context.beginPath();
-  context.moveTo(camera.toScreenX(values[at]), camera.toScreenY(values[at + 1]));
-  context.lineTo(camera.toScreenX(values[at + 2]), camera.toScreenY(values[at + 3]));
-  context.stroke();
+  line(context, camera, values[at], values[at + 1], values[at + 2], values[at + 3]);
   context.globalAlpha = 1;
 }
 

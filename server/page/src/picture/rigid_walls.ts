@@ -54,14 +54,9 @@ export function drawRigidWalls(context: CanvasRenderingContext2D, camera: Camera
     const [alongX, alongY] = [-normalY, normalX];
     const half = 0.5 * (Math.abs(alongX) * width + Math.abs(alongY) * height);
     const place = (middleX - x) * alongX + (middleY - y) * alongY;
-    const corner = (along: number, behind: number): [number, number] => [
+    const corners = [[-half, 0], [half, 0], [half, depth], [-half, depth]].map(([along, behind]) => [
       camera.toScreenX(x + (place + along) * alongX - behind * normalX),
-      camera.toScreenY(y + (place + along) * alongY - behind * normalY)];
-    context.beginPath();
-    context.moveTo(...corner(-half, 0));
-    context.lineTo(...corner(half, 0));
-    context.lineTo(...corner(half, depth));
-    context.lineTo(...corner(-half, depth));
-    context.fill();
+      camera.toScreenY(y + (place + along) * alongY - behind * normalY)]);
+    context.fill(new Path2D(`M${corners.join("L")}Z`));
   }
 }

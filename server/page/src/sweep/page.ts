@@ -49,8 +49,7 @@ export class SweepPage implements View {
     this.crushes = new CrushGrid(Number(query.get("strain") ?? NaN));
     this.title = `Sweep ${idOf(name)}`;
     this.axisChoice.addEventListener("change", () => this.draw());
-    this.chart.element.querySelector("figcaption")!.append(h("span", { class: "take-away" }, this.axisChoice,
-      saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`)));
+    this.chart.addTools(this.axisChoice, saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`));
     replaceChildren(this.element,
       h("header", { class: "job-header" },
         h("div", { class: "title-row" }, this.heading, h("span", { class: "spacer" }), this.actions), this.about,

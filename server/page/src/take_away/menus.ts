@@ -3,7 +3,6 @@ import { api } from "../api/clients";
 import { isExported } from "../api/exported";
 import { idOf } from "../api/names";
 import type { Chart } from "../charts/chart";
-import type { Axis } from "../charts/curves";
 import { say } from "../dom/dialog";
 import { csvBlob, download } from "../dom/download";
 import { button, h, setText } from "../dom/element";
@@ -55,8 +54,8 @@ export function saveButton(label: string, what: string,
   return element;
 }
 
-export function takeAwayOfChart(chart: Chart, data: JobData, axis: () => Axis, name: string): HTMLElement {
-  return h("span", { class: "take-away" },
+export function addSaving(chart: Chart, data: JobData, name: string): void {
+  chart.addTools(
     saveChartButton(chart, () => (data.job ? titleOf(data.job) : ""), `job-${idOf(data.name)}-${name}`),
     saveButton("CSV", "Save all samples as a CSV file", async () =>
       download(historyCsv(data.samples), `job-${idOf(data.name)}-history.csv`)));
@@ -76,7 +75,7 @@ async function collect<T extends { data: Uint8Array }>(chunks: AsyncIterable<T>,
 /** A button that saves what a chart shows. */
 export function saveChartButton(chart: Chart, title: () => string, file: string): HTMLElement {
   return saveButton("SVG", "Save the chart as an SVG file", async () => {
-    if (chart.shown) download(chartSvg(chart.shown, title()), `${file}.svg`);
+    if (chart.data) download(chartSvg(chart.data, title()), `${file}.svg`);
   });
 }
 
