@@ -1,9 +1,9 @@
 #include "http/connection.h"
 
+#include <absl/strings/numbers.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -47,11 +47,10 @@ std::string path_of(const google::protobuf::MethodDescriptor& method) {
 
 std::optional<std::chrono::milliseconds> read_timeout(const bhttp::request<bhttp::string_body>& request) {
   constexpr std::size_t kMostDigits = 10;
-  const std::string_view text = request["Connect-Timeout-Ms"];
+  const std::string text(request["Connect-Timeout-Ms"]);
   if (text.empty()) return std::nullopt;
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.size() > kMostDigits || error != std::errc() || end != text.data() + text.size() || value < 0)
+  if (text.size() > kMostDigits || !absl::SimpleAtoi(text, &value) || value < 0)
     throw ServiceError(ServiceError::Kind::invalid, "Connect-Timeout-Ms must be a number of at most 10 digits.");
   return std::chrono::milliseconds(value);
 }

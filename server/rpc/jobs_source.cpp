@@ -1,7 +1,8 @@
 #include "rpc/jobs_source.h"
 
+#include <absl/strings/numbers.h>
+
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <utility>
 
@@ -124,12 +125,7 @@ std::int64_t JobsSource::change_in(const std::string& token) const {
   check_length("resume_token", token, kLongestJobsToken);
   const auto at = token.find('@');
   std::int64_t change = -1;
-  const char* const end = token.data() + token.size();
-  if (at != std::string::npos) {
-    const auto [rest, error] = std::from_chars(token.data() + at + 1, end, change);
-    if (error != std::errc() || rest != end) change = -1;
-  }
-  if (change < 0) {
+  if (at == std::string::npos || !absl::SimpleAtoi(token.substr(at + 1), &change) || change < 0) {
     throw InvalidField("resume_token", "does not come from WatchJobs.",
                        "Use the most recent one, or none to watch from now on.");
   }
@@ -157,11 +153,7 @@ void JobsSource::close() {
 }
 
 bool JobsSource::has_more() const {
-  if (!changes_.empty()) return true;
-  for (const auto& job : watched_) {
-    if (job->has_more()) return true;
-  }
-  return false;
+  return !changes_.empty() || std::ranges::any_of(watched_, [](const auto& job) { return job->has_more(); });
 }
 
 std::optional<JobsSource::Message> JobsSource::next() {
