@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <string>
 
 #include "error.h"
 #include "revision.h"

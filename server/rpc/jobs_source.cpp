@@ -9,7 +9,6 @@
 #include "error_table.h"
 #include "rpc/job_query.h"
 #include "rpc/request_fields.h"
-#include "store/job_filter.h"
 #include "store/job_state.h"
 #include "store/resource_name.h"
 #include "watch/job_source.h"
@@ -103,7 +102,7 @@ v1::WatchJobsResponse JobsSource::WatchedJob::end(const grpc::Status& status) {
   return out;
 }
 
-JobsSource::JobsSource(const Parts& parts, const v1::WatchJobsRequest& request)
+JobsSource::JobsSource(const ServiceParts& parts, const v1::WatchJobsRequest& request)
     : parts_(parts), filter_(filter_of(request.filter())), after_(change_in(request.resume_token())) {
   if (request.jobs_size() > kMostWatchedJobs) {
     throw InvalidField("jobs",
@@ -112,13 +111,13 @@ JobsSource::JobsSource(const Parts& parts, const v1::WatchJobsRequest& request)
                        "Watch fewer jobs in one call.");
   }
   for (const auto& job : request.jobs())
-    watched_.push_back(std::make_unique<WatchedJob>(parts_.journal, parts_.hub, job));
+    watched_.push_back(std::make_unique<WatchedJob>(parts_.reader, parts_.hub, job));
 }
 
 JobsSource::~JobsSource() = default;
 
 // "EPOCH@CHANGE"
-std::string JobsSource::token() const { return parts_.journal.epoch().id + "@" + std::to_string(after_); }
+std::string JobsSource::token() const { return parts_.reader.epoch().id + "@" + std::to_string(after_); }
 
 std::int64_t JobsSource::change_in(const std::string& token) const {
   if (token.empty()) return parts_.changes.last();
@@ -129,9 +128,9 @@ std::int64_t JobsSource::change_in(const std::string& token) const {
     throw InvalidField("resume_token", "does not come from WatchJobs.",
                        "Use the most recent one, or none to watch from now on.");
   }
-  if (!parts_.journal.epoch().admits(token.substr(0, at))) {
+  if (!parts_.reader.epoch().admits(token.substr(0, at))) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "The resume_token comes" + parts_.journal.epoch().of_before() +
+                       "The resume_token comes" + parts_.reader.epoch().of_before() +
                            ": it may now refer to different changes. Watch without a resume_token, and list the jobs.");
   }
   if (change > parts_.changes.last() || !parts_.changes.has_all_after(change)) {
@@ -159,7 +158,7 @@ bool JobsSource::has_more() const {
 std::optional<JobsSource::Message> JobsSource::next() {
   if (!std::exchange(snapshot_sent_, true)) {
     Message out;
-    out.mutable_snapshot()->set_epoch(parts_.journal.epoch().id);
+    out.mutable_snapshot()->set_epoch(parts_.reader.epoch().id);
     out.set_resume_token(token());
     return out;
   }
@@ -204,7 +203,7 @@ std::optional<JobsSource::Message> JobsSource::message_of(const store::Change& c
   Message out;
   switch (change.kind) {
     case store::ChangeKind::job_state: {
-      auto events = parts_.journal.events(change.resource, change.sequence - 1, 1);
+      auto events = parts_.reader.events(change.resource, change.sequence - 1, 1);
       if (events.empty() || events.front().sequence() != change.sequence || !events.front().has_state()) break;
       v1::Job& job = *events.front().mutable_state();
       const bool passes = store::matches(filter_, job);
@@ -255,7 +254,7 @@ std::optional<JobsSource::Message> JobsSource::next_progress() {
 bool JobsSource::is_wanted(std::int64_t job) {
   const auto known = wanted_.find(job);
   if (known != wanted_.end()) return known->second;
-  const auto stored = parts_.journal.find_job(job);
+  const auto stored = parts_.reader.find_job(job);
   if (!stored || store::is_terminal(stored->job.state())) return false;
   return wanted_[job] = store::matches(filter_, stored->job);
 }

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "access/scope.h"
+#include "access/token_file.h"
 #include "error.h"
 #include "store/case_hash.h"
 #include "store/resource_name.h"

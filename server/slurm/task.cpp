@@ -16,7 +16,6 @@
 #include <exception>
 #include <memory>
 #include <stop_token>
-#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
