@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "access/token_file.h"
+#include "cellcrush/v1/jobs_service.pb.h"
+#include "cellcrush/v1/sweeps_service.pb.h"
 #include "error.h"
 #include "store/case_hash.h"
 #include "store/resource_name.h"
@@ -21,14 +23,6 @@ constexpr std::size_t kMostLabels = 64;
 constexpr std::size_t kLongestKey = 63;
 constexpr std::size_t kLongestValue = 255;
 constexpr int kHighestPriority = 100;
-
-template <class Request>
-std::string hash_of_payload(Request& request, const std::string& owner) {
-  request.clear_request_id();
-  request.clear_validate_only();
-  // The form without owners, which journals of earlier versions hold.
-  return store::hash_of(request) + (owner == access::kLocal ? "" : " " + owner);
-}
 
 constexpr int kDefaultPage = 50;
 constexpr int kLargestPage = 1000;
@@ -93,13 +87,15 @@ void check_priority(int priority, const std::string& field) {
                        "Use -100 to 100; higher priorities start first.");
 }
 
-std::string payload_hash(v1::CreateJobRequest request, const std::string& owner) {
-  return hash_of_payload(request, owner);
+template <class Request>
+std::string payload_hash(Request request, const std::string& owner) {
+  request.clear_request_id();
+  request.clear_validate_only();
+  // The form without owners, which journals of earlier versions hold.
+  return store::hash_of(request) + (owner == access::kLocal ? "" : " " + owner);
 }
-
-std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner) {
-  return hash_of_payload(request, owner);
-}
+template std::string payload_hash(v1::CreateJobRequest request, const std::string& owner);
+template std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner);
 
 store::StoredJob find_job(store::JournalReader& journal, const std::string& name) {
   check_length("name", name, kLongestName);
