@@ -8,7 +8,7 @@
 
 #include "error.h"
 #include "revision.h"
-#include "rpc/change_log.h"
+#include "rpc/request_fields.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::rpc {

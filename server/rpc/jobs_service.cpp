@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "error_table.h"
-#include "rpc/change_log.h"
 #include "rpc/job_query.h"
 #include "rpc/request_fields.h"
 #include "store/job_state.h"

@@ -1,5 +1,6 @@
 #include "rpc/request_fields.h"
 
+#include <absl/strings/str_replace.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
 #include "error.h"
+#include "log_format.h"
 #include "store/case_hash.h"
 #include "store/resource_name.h"
 
@@ -121,6 +123,17 @@ Page read_full_page(int page_size, const std::string& page_token_text, const std
 
 std::string page_token(std::int64_t last, const std::string& question) {
   return std::to_string(last) + "-" + mark_of(question);
+}
+
+void log_change(const std::string& name, const std::string& done, const std::string& caller,
+                const std::string& request_id) {
+  const std::string subject = name.empty() ? "the daemon" : name;
+  // In quotes, so that it cannot be mistaken for the rest of the line; the form of the log escapes control characters.
+  const std::string quoted = "\"" + absl::StrReplaceAll(request_id, {{"\"", "\\\""}, {"\\", "\\\\"}}) + "\"";
+  const std::string request = request_id.empty() ? "" : ", request " + quoted;
+  const bool is_sweep = name.starts_with("sweeps/");
+  log_with_fields(spdlog::level::info, subject + " " + done + " by " + caller + request,
+                  {{is_sweep ? "sweep" : "job", name}, {"caller", caller}, {"request", request_id}});
 }
 
 }  // namespace cellcrush::rpc

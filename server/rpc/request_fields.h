@@ -81,4 +81,9 @@ Page read_full_page(int page_size, const std::string& page_token, const std::str
 /// Token of the page after the resource with this number.
 std::string page_token(std::int64_t last, const std::string& question);
 
+/// Logs that a call which changes something was accepted: "jobs/12 made by anna, request \"night 3\"". `name` is the
+/// job or sweep, or empty for the daemon; `request_id` is the caller's, or empty.
+void log_change(const std::string& name, const std::string& done, const std::string& caller,
+                const std::string& request_id = "");
+
 }  // namespace cellcrush::rpc

@@ -12,7 +12,6 @@
 #include "jobs/convergence.h"
 #include "jobs/sweep_plan.h"
 #include "jobs/sweep_points.h"
-#include "rpc/change_log.h"
 #include "rpc/request_fields.h"
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
