@@ -4,7 +4,6 @@
 #include <grpc/support/log.h>
 #include <spdlog/spdlog.h>
 
-#include <string>
 #include <string_view>
 #include <utility>
 

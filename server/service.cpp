@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "jobs/local_process.h"
 #include "rpc/reflection_services.h"
@@ -82,7 +80,7 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
              options.limits.owner.running_jobs,
              {pump, metrics, stream_limits, options.watch_times}},
       cases(shared),
-      health({board, {pump, metrics, health_limits, options.watch_times}}),
+      health(board, {pump, metrics, health_limits, options.watch_times}),
       jobs(shared),
       sweeps(shared),
       admin(shared,

@@ -12,7 +12,6 @@
 #include <string_view>
 #include <vector>
 
-#include "access/scope.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
 #include "limited_log.h"

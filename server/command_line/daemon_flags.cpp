@@ -7,7 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "access/scope.h"
+#include "access/token_file.h"
 #include "command_line/checked_config.h"
 #include "slurm/cluster_options.h"
 

@@ -1,16 +1,14 @@
 #include "http/connection.h"
 
+#include <absl/strings/numbers.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "error_table.h"
 #include "http/browser_rules.h"
-#include "http/connect_protocol.h"
 #include "web/page_files.h"
 
 namespace cellcrush::http {
@@ -28,10 +26,14 @@ constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
     "media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-template <class Response>
-void protect(Response& response) {
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("Referrer-Policy", "no-referrer");
+template <class Body>
+bhttp::response<Body> new_response(unsigned status, bool keep_alive, const char* caching) {
+  bhttp::response<Body> out(static_cast<bhttp::status>(status), 11);
+  out.set("X-Content-Type-Options", "nosniff");
+  out.set("Referrer-Policy", "no-referrer");
+  out.set(Field::cache_control, caching);
+  out.keep_alive(keep_alive);
+  return out;
 }
 
 std::vector<std::string> values_of(const bhttp::fields& fields, Field name) {
@@ -47,11 +49,10 @@ std::string path_of(const google::protobuf::MethodDescriptor& method) {
 
 std::optional<std::chrono::milliseconds> read_timeout(const bhttp::request<bhttp::string_body>& request) {
   constexpr std::size_t kMostDigits = 10;
-  const std::string_view text = request["Connect-Timeout-Ms"];
+  const std::string text(request["Connect-Timeout-Ms"]);
   if (text.empty()) return std::nullopt;
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.size() > kMostDigits || error != std::errc() || end != text.data() + text.size() || value < 0)
+  if (text.size() > kMostDigits || !absl::SimpleAtoi(text, &value) || value < 0)
     throw ServiceError(ServiceError::Kind::invalid, "Connect-Timeout-Ms must be a number of at most 10 digits.");
   return std::chrono::milliseconds(value);
 }
@@ -295,13 +296,10 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
   const std::string_view bytes = small.empty() ? file->bytes : small;
   const std::string tag = web::entity_tag(bytes);
   const bool known = request[Field::if_none_match] == tag;
-  bhttp::response<bhttp::string_body> response(known ? bhttp::status::not_modified : bhttp::status::ok, 11);
-  protect(response);
+  auto response = new_response<bhttp::string_body>(known ? 304 : 200, keep_alive_, "no-cache");
   response.set(Field::etag, tag);
   response.set(Field::vary, "Accept-Encoding");
-  response.set(Field::cache_control, "no-cache");
   response.set("Content-Security-Policy", kContentPolicy);
-  response.keep_alive(keep_alive_);
   if (!known) {
     response.set(Field::content_type, web::content_type_of_file(file->name));
     if (!small.empty()) response.set(Field::content_encoding, "gzip");
@@ -313,12 +311,9 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
 }
 
 asio::awaitable<void> Connection::send(unsigned status, const std::string& type, std::string body) {
-  bhttp::response<bhttp::string_body> response(static_cast<bhttp::status>(status), 11);
-  protect(response);
+  auto response = new_response<bhttp::string_body>(status, keep_alive_, "no-store");
   response.set(Field::content_type, type);
-  response.set(Field::cache_control, "no-store");
   if (status == 405) response.set(Field::allow, "GET, HEAD, POST");
-  response.keep_alive(keep_alive_);
   response.body() = std::move(body);
   response.prepare_payload();
   stream_.plain().expires_after(parts_.limits.idle);
@@ -331,11 +326,8 @@ asio::awaitable<void> Connection::send_error(unsigned status, const grpc::Status
 }
 
 asio::awaitable<void> Connection::send_stream_head(const Encoding& encoding) {
-  bhttp::response<bhttp::empty_body> response(bhttp::status::ok, 11);
-  protect(response);
+  auto response = new_response<bhttp::empty_body>(200, keep_alive_, "no-store");
   response.set(Field::content_type, content_type_of(encoding));
-  response.set(Field::cache_control, "no-store");
-  response.keep_alive(keep_alive_);
   response.chunked(true);
   bhttp::response_serializer<bhttp::empty_body> serializer(response);
   stream_.plain().expires_after(parts_.limits.idle);

@@ -6,8 +6,6 @@
 
 #include <boost/asio.hpp>
 #include <list>
-#include <memory>
-#include <string>
 #include <string_view>
 #include <thread>
 #include <utility>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <queue>
-#include <string>
 
 #include "jobs/waiting_jobs.h"
 #include "store/resource_name.h"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 #include <utility>
 
 #include "error.h"
@@ -293,11 +292,10 @@ void Scheduler::wake() {
   changed_.notify_all();
 }
 
-Scheduler::Running& Scheduler::begin(std::int64_t job) {
+void Scheduler::begin(std::int64_t job) {
   Running& running = running_[job];
   if (low_disk_ && shares_cores()) running.leave.request_stop();
   tell_metrics();
-  return running;
 }
 
 void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) {

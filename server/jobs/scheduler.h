@@ -120,7 +120,7 @@ class Scheduler {
   void wait_for_change(MutexLock& lock, const std::stop_token& stop,
                        const std::optional<Hold::Clock::time_point>& limit) CELLCRUSH_REQUIRES(mutex_);
   /// Records that a job runs.
-  Running& begin(std::int64_t job) CELLCRUSH_REQUIRES(mutex_);
+  void begin(std::int64_t job) CELLCRUSH_REQUIRES(mutex_);
   /// Runs the job on this thread. REQUIRES: `begin` was called for it. Does not throw.
   void run(const store::QueuedJob& taken, const std::stop_token& stop);
   /// Cores for a starting job beside its first.

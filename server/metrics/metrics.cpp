@@ -9,7 +9,6 @@
 #include <exception>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "error.h"

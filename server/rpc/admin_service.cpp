@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <string>
 
 #include "error.h"
 #include "revision.h"
-#include "rpc/change_log.h"
+#include "rpc/request_fields.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::rpc {

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "access/scope.h"
+#include "access/token_file.h"
 #include "mutex.h"
 
 namespace cellcrush::rpc {

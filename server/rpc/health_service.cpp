@@ -51,19 +51,19 @@ std::optional<HealthSource::Message> HealthSource::next() {
 
 grpc::Status HealthService::check(const Call&, const HealthCheckRequest& request, HealthCheckResponse& response) {
   check_length("service", request.service(), kLongestName);
-  response.set_status(parts_.board.find(request.service()));
+  response.set_status(board_.find(request.service()));
   if (response.status() != HealthCheckResponse::SERVICE_UNKNOWN) return grpc::Status::OK;
   return {grpc::StatusCode::NOT_FOUND, "There is no service \"" + request.service() + "\"."};
 }
 
 std::unique_ptr<HealthSource> HealthService::watch(const HealthCheckRequest& request) {
   check_length("service", request.service(), kLongestName);
-  return std::make_unique<HealthSource>(parts_.board, request.service());
+  return std::make_unique<HealthSource>(board_, request.service());
 }
 
 void HealthService::add_methods(MethodTable& table) {
   table.unary("/grpc.health.v1.Health/Check", std::nullopt, nullptr, *this, &HealthService::check);
-  table.stream("/grpc.health.v1.Health/Watch", std::nullopt, parts_.streams, *this, &HealthService::watch);
+  table.stream("/grpc.health.v1.Health/Watch", std::nullopt, streams_, *this, &HealthService::watch);
 }
 
 }  // namespace cellcrush::rpc

@@ -58,13 +58,8 @@ class HealthSource final : public PlainSource<grpc::health::v1::HealthCheckRespo
 /// are counted separately: by peer address, and those over HTTP together. Thread-safe.
 class HealthService {
  public:
-  /// All of it outlives the service.
-  struct Parts {
-    HealthBoard& board;
-    StreamParts streams;
-  };
-
-  explicit HealthService(const Parts& parts) : parts_(parts) {}
+  /// `board` outlives the service.
+  HealthService(HealthBoard& board, const StreamParts& streams) : board_(board), streams_(streams) {}
 
   /// The service outlives the table.
   void add_methods(MethodTable& table);
@@ -74,7 +69,8 @@ class HealthService {
                      grpc::health::v1::HealthCheckResponse& response);
   std::unique_ptr<HealthSource> watch(const grpc::health::v1::HealthCheckRequest& request);
 
-  Parts parts_;
+  HealthBoard& board_;
+  StreamParts streams_;
 };
 
 }  // namespace cellcrush::rpc

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "error_table.h"
-#include "rpc/change_log.h"
 #include "rpc/job_query.h"
 #include "rpc/request_fields.h"
 #include "store/job_state.h"
@@ -164,17 +163,15 @@ std::unique_ptr<watch::JobSource> JobsService::watch_job(const v1::WatchJobReque
 }
 
 std::unique_ptr<JobsSource> JobsService::watch_jobs(const v1::WatchJobsRequest& request) {
-  return std::make_unique<JobsSource>(JobsSource::Parts{parts_.reader, parts_.sweeps, parts_.changes, parts_.hub},
-                                      request);
+  return std::make_unique<JobsSource>(parts_, request);
 }
 
 std::unique_ptr<FrameSeriesSource> JobsService::stream_frames(const v1::StreamFramesRequest& request) {
-  return std::make_unique<FrameSeriesSource>(parts_.folder, parts_.reader, find(request.name()), request);
+  return std::make_unique<FrameSeriesSource>(parts_, find(request.name()), request);
 }
 
 std::unique_ptr<FrameSource> JobsService::get_frame(const v1::GetFrameRequest& request) {
-  return std::make_unique<FrameSource>(FrameSource::Parts{parts_.folder, parts_.reader, parts_.hub},
-                                       find(request.name()), request);
+  return std::make_unique<FrameSource>(parts_, find(request.name()), request);
 }
 
 std::unique_ptr<DownloadSource> JobsService::download(const v1::DownloadResultRequest& request) {

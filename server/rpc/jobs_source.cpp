@@ -1,14 +1,14 @@
 #include "rpc/jobs_source.h"
 
+#include <absl/strings/numbers.h>
+
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <utility>
 
 #include "error_table.h"
 #include "rpc/job_query.h"
 #include "rpc/request_fields.h"
-#include "store/job_filter.h"
 #include "store/job_state.h"
 #include "store/resource_name.h"
 #include "watch/job_source.h"
@@ -102,7 +102,7 @@ v1::WatchJobsResponse JobsSource::WatchedJob::end(const grpc::Status& status) {
   return out;
 }
 
-JobsSource::JobsSource(const Parts& parts, const v1::WatchJobsRequest& request)
+JobsSource::JobsSource(const ServiceParts& parts, const v1::WatchJobsRequest& request)
     : parts_(parts), filter_(filter_of(request.filter())), after_(change_in(request.resume_token())) {
   if (request.jobs_size() > kMostWatchedJobs) {
     throw InvalidField("jobs",
@@ -111,31 +111,26 @@ JobsSource::JobsSource(const Parts& parts, const v1::WatchJobsRequest& request)
                        "Watch fewer jobs in one call.");
   }
   for (const auto& job : request.jobs())
-    watched_.push_back(std::make_unique<WatchedJob>(parts_.journal, parts_.hub, job));
+    watched_.push_back(std::make_unique<WatchedJob>(parts_.reader, parts_.hub, job));
 }
 
 JobsSource::~JobsSource() = default;
 
 // "EPOCH@CHANGE"
-std::string JobsSource::token() const { return parts_.journal.epoch().id + "@" + std::to_string(after_); }
+std::string JobsSource::token() const { return parts_.reader.epoch().id + "@" + std::to_string(after_); }
 
 std::int64_t JobsSource::change_in(const std::string& token) const {
   if (token.empty()) return parts_.changes.last();
   check_length("resume_token", token, kLongestJobsToken);
   const auto at = token.find('@');
   std::int64_t change = -1;
-  const char* const end = token.data() + token.size();
-  if (at != std::string::npos) {
-    const auto [rest, error] = std::from_chars(token.data() + at + 1, end, change);
-    if (error != std::errc() || rest != end) change = -1;
-  }
-  if (change < 0) {
+  if (at == std::string::npos || !absl::SimpleAtoi(token.substr(at + 1), &change) || change < 0) {
     throw InvalidField("resume_token", "does not come from WatchJobs.",
                        "Use the most recent one, or none to watch from now on.");
   }
-  if (!parts_.journal.epoch().admits(token.substr(0, at))) {
+  if (!parts_.reader.epoch().admits(token.substr(0, at))) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "The resume_token comes" + parts_.journal.epoch().of_before() +
+                       "The resume_token comes" + parts_.reader.epoch().of_before() +
                            ": it may now refer to different changes. Watch without a resume_token, and list the jobs.");
   }
   if (change > parts_.changes.last() || !parts_.changes.has_all_after(change)) {
@@ -157,17 +152,13 @@ void JobsSource::close() {
 }
 
 bool JobsSource::has_more() const {
-  if (!changes_.empty()) return true;
-  for (const auto& job : watched_) {
-    if (job->has_more()) return true;
-  }
-  return false;
+  return !changes_.empty() || std::ranges::any_of(watched_, [](const auto& job) { return job->has_more(); });
 }
 
 std::optional<JobsSource::Message> JobsSource::next() {
   if (!std::exchange(snapshot_sent_, true)) {
     Message out;
-    out.mutable_snapshot()->set_epoch(parts_.journal.epoch().id);
+    out.mutable_snapshot()->set_epoch(parts_.reader.epoch().id);
     out.set_resume_token(token());
     return out;
   }
@@ -212,7 +203,7 @@ std::optional<JobsSource::Message> JobsSource::message_of(const store::Change& c
   Message out;
   switch (change.kind) {
     case store::ChangeKind::job_state: {
-      auto events = parts_.journal.events(change.resource, change.sequence - 1, 1);
+      auto events = parts_.reader.events(change.resource, change.sequence - 1, 1);
       if (events.empty() || events.front().sequence() != change.sequence || !events.front().has_state()) break;
       v1::Job& job = *events.front().mutable_state();
       const bool passes = store::matches(filter_, job);
@@ -263,7 +254,7 @@ std::optional<JobsSource::Message> JobsSource::next_progress() {
 bool JobsSource::is_wanted(std::int64_t job) {
   const auto known = wanted_.find(job);
   if (known != wanted_.end()) return known->second;
-  const auto stored = parts_.journal.find_job(job);
+  const auto stored = parts_.reader.find_job(job);
   if (!stored || store::is_terminal(stored->job.state())) return false;
   return wanted_[job] = store::matches(filter_, stored->job);
 }

@@ -10,11 +10,8 @@
 #include <vector>
 
 #include "cellcrush/v1/jobs_service.pb.h"
-#include "store/change_reader.h"
+#include "rpc/service_parts.h"
 #include "store/job_filter.h"
-#include "store/journal_reader.h"
-#include "store/sweep_reader.h"
-#include "watch/hub.h"
 
 namespace cellcrush::rpc {
 
@@ -25,17 +22,9 @@ class JobsSource {
   using Message = v1::WatchJobsResponse;
   static constexpr bool kIsWatch = true;
 
-  /// All of it outlives the source.
-  struct Parts {
-    store::JournalReader& journal;
-    store::SweepReader& sweeps;
-    store::ChangeReader& changes;
-    watch::Hub& hub;
-  };
-
-  /// Throws InvalidField for a filter or token that is not valid, and ServiceError: out_of_range or
-  /// failed_precondition for a token whose changes are gone.
-  JobsSource(const Parts& parts, const v1::WatchJobsRequest& request);
+  /// `parts` outlives the source. Throws InvalidField for a filter or token that is not valid, and ServiceError:
+  /// out_of_range or failed_precondition for a token whose changes are gone.
+  JobsSource(const ServiceParts& parts, const v1::WatchJobsRequest& request);
   ~JobsSource();
   JobsSource(const JobsSource&) = delete;
   JobsSource& operator=(const JobsSource&) = delete;
@@ -65,7 +54,7 @@ class JobsSource {
   std::optional<Message> next_progress();
   bool is_wanted(std::int64_t job);
 
-  Parts parts_;
+  const ServiceParts& parts_;
   store::JobFilter filter_;
   std::int64_t after_;  ///< number of the last change sent or passed over
   bool snapshot_sent_ = false;

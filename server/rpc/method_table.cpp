@@ -4,8 +4,6 @@
 #include <grpcpp/support/server_interceptor.h>
 
 #include <algorithm>
-#include <string>
-#include <string_view>
 
 #include "error.h"
 #include "error_table.h"

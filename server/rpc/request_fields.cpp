@@ -1,5 +1,6 @@
 #include "rpc/request_fields.h"
 
+#include <absl/strings/str_replace.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +9,11 @@
 #include <optional>
 #include <utility>
 
-#include "access/scope.h"
+#include "access/token_file.h"
+#include "cellcrush/v1/jobs_service.pb.h"
+#include "cellcrush/v1/sweeps_service.pb.h"
 #include "error.h"
+#include "log_format.h"
 #include "store/case_hash.h"
 #include "store/resource_name.h"
 
@@ -21,14 +25,6 @@ constexpr std::size_t kMostLabels = 64;
 constexpr std::size_t kLongestKey = 63;
 constexpr std::size_t kLongestValue = 255;
 constexpr int kHighestPriority = 100;
-
-template <class Request>
-std::string hash_of_payload(Request& request, const std::string& owner) {
-  request.clear_request_id();
-  request.clear_validate_only();
-  // The form without owners, which journals of earlier versions hold.
-  return store::hash_of(request) + (owner == access::kLocal ? "" : " " + owner);
-}
 
 constexpr int kDefaultPage = 50;
 constexpr int kLargestPage = 1000;
@@ -93,13 +89,15 @@ void check_priority(int priority, const std::string& field) {
                        "Use -100 to 100; higher priorities start first.");
 }
 
-std::string payload_hash(v1::CreateJobRequest request, const std::string& owner) {
-  return hash_of_payload(request, owner);
+template <class Request>
+std::string payload_hash(Request request, const std::string& owner) {
+  request.clear_request_id();
+  request.clear_validate_only();
+  // The form without owners, which journals of earlier versions hold.
+  return store::hash_of(request) + (owner == access::kLocal ? "" : " " + owner);
 }
-
-std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner) {
-  return hash_of_payload(request, owner);
-}
+template std::string payload_hash(v1::CreateJobRequest request, const std::string& owner);
+template std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner);
 
 store::StoredJob find_job(store::JournalReader& journal, const std::string& name) {
   check_length("name", name, kLongestName);
@@ -125,6 +123,17 @@ Page read_full_page(int page_size, const std::string& page_token_text, const std
 
 std::string page_token(std::int64_t last, const std::string& question) {
   return std::to_string(last) + "-" + mark_of(question);
+}
+
+void log_change(const std::string& name, const std::string& done, const std::string& caller,
+                const std::string& request_id) {
+  const std::string subject = name.empty() ? "the daemon" : name;
+  // In quotes, so that it cannot be mistaken for the rest of the line; the form of the log escapes control characters.
+  const std::string quoted = "\"" + absl::StrReplaceAll(request_id, {{"\"", "\\\""}, {"\\", "\\\\"}}) + "\"";
+  const std::string request = request_id.empty() ? "" : ", request " + quoted;
+  const bool is_sweep = name.starts_with("sweeps/");
+  log_with_fields(spdlog::level::info, subject + " " + done + " by " + caller + request,
+                  {{is_sweep ? "sweep" : "job", name}, {"caller", caller}, {"request", request_id}});
 }
 
 }  // namespace cellcrush::rpc

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <string>
 
-#include "cellcrush/v1/jobs_service.pb.h"
-#include "cellcrush/v1/sweeps_service.pb.h"
 #include "store/epoch.h"
 #include "store/journal_reader.h"
 #include "store/page_room.h"
@@ -52,9 +50,10 @@ void check_request(const std::string& request_id, const google::protobuf::Map<st
 /// Throws InvalidField unless the priority is -100 to 100.
 void check_priority(int priority, const std::string& field);
 
-/// Hash of a request and its owner, without the id: equal for a repetition of the call by the same owner.
-std::string payload_hash(v1::CreateJobRequest request, const std::string& owner);
-std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner);
+/// Hash of a CreateJobRequest or CreateSweepRequest and its owner, without the id: equal for a repetition of the call by
+/// the same owner.
+template <class Request>
+std::string payload_hash(Request request, const std::string& owner);
 
 /// The job with that name. Throws ServiceError (not_found) if there is none, and InvalidField if the name is too long.
 store::StoredJob find_job(store::JournalReader& journal, const std::string& name);
@@ -81,5 +80,10 @@ Page read_full_page(int page_size, const std::string& page_token, const std::str
 
 /// Token of the page after the resource with this number.
 std::string page_token(std::int64_t last, const std::string& question);
+
+/// Logs that a call which changes something was accepted: "jobs/12 made by anna, request \"night 3\"". `name` is the
+/// job or sweep, or empty for the daemon; `request_id` is the caller's, or empty.
+void log_change(const std::string& name, const std::string& done, const std::string& caller,
+                const std::string& request_id = "");
 
 }  // namespace cellcrush::rpc

@@ -52,7 +52,7 @@ v1::FieldFrame read_frame(const store::ResultReader& result, const v1::GetFrameR
   return result.frame(last);
 }
 
-FrameSource::FrameSource(const Parts& parts, store::StoredJob job, v1::GetFrameRequest request)
+FrameSource::FrameSource(const ServiceParts& parts, store::StoredJob job, v1::GetFrameRequest request)
     : parts_(parts), job_(std::move(job)), request_(std::move(request)) {
   if ((request_.has_strain() && !std::isfinite(request_.strain())) ||
       (request_.has_time_s() && !std::isfinite(request_.time_s())))
@@ -83,14 +83,14 @@ void FrameSource::read() {
   is_read_ = true;
 }
 
-FrameSeriesSource::FrameSeriesSource(const store::DataFolder& folder, store::JournalReader& reader,
-                                     store::StoredJob job, const v1::StreamFramesRequest& request)
-    : folder_(folder), reader_(reader), job_(std::move(job)), request_(request) {
+FrameSeriesSource::FrameSeriesSource(const ServiceParts& parts, store::StoredJob job,
+                                     const v1::StreamFramesRequest& request)
+    : parts_(parts), job_(std::move(job)), request_(request) {
   check(request_);
 }
 
 void FrameSeriesSource::begin() {
-  series_ = jobs::open_frame_series(folder_.job_folder(job_.number));
+  series_ = jobs::open_frame_series(parts_.folder.job_folder(job_.number));
   const int count = series_ ? static_cast<int>(series_->times().time_s_size()) : 0;
   if (count == 0) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
@@ -105,7 +105,7 @@ void FrameSeriesSource::begin() {
   next_ = request_.from();
   last_ = request_.has_to() ? std::min(request_.to(), count - 1) : count - 1;
   *messages_.emplace_back().mutable_times() = series_->times();
-  mesh_ = reader_.mesh(job_.number);
+  mesh_ = parts_.reader.mesh(job_.number);
   if (!mesh_) return;
   for (auto& chunk : watch::chunks_of(*mesh_)) *messages_.emplace_back().mutable_mesh() = std::move(chunk);
 }

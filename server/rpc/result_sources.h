@@ -8,12 +8,10 @@
 
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "jobs/frame_series.h"
+#include "rpc/service_parts.h"
 #include "rpc/stream_state.h"
-#include "store/data_folder.h"
 #include "store/input_file.h"
-#include "store/journal_reader.h"
 #include "store/result_reader.h"
-#include "watch/hub.h"
 
 namespace cellcrush::rpc {
 
@@ -24,15 +22,8 @@ v1::FieldFrame read_frame(const store::ResultReader& result, const v1::GetFrameR
 /// Source of a GetFrame: the mesh and one frame, in parts. Not thread-safe.
 class FrameSource final : public QueuedSource<v1::GetFrameResponse> {
  public:
-  /// All of it outlives the source.
-  struct Parts {
-    const store::DataFolder& folder;
-    store::JournalReader& reader;
-    watch::Hub& hub;
-  };
-
-  /// Throws ServiceError (invalid) for a strain or time that is not a finite number.
-  FrameSource(const Parts& parts, store::StoredJob job, v1::GetFrameRequest request);
+  /// `parts` outlives the source. Throws ServiceError (invalid) for a strain or time that is not a finite number.
+  FrameSource(const ServiceParts& parts, store::StoredJob job, v1::GetFrameRequest request);
 
   [[nodiscard]] static std::string resume_advice() { return "for the frame"; }
 
@@ -42,7 +33,7 @@ class FrameSource final : public QueuedSource<v1::GetFrameResponse> {
   void read() override;
   [[nodiscard]] v1::FieldFrame find_frame() const;
 
-  Parts parts_;
+  const ServiceParts& parts_;
   store::StoredJob job_;
   v1::GetFrameRequest request_;
 };
@@ -51,9 +42,8 @@ class FrameSource final : public QueuedSource<v1::GetFrameResponse> {
 /// thread-safe.
 class FrameSeriesSource final : public QueuedSource<v1::StreamFramesResponse> {
  public:
-  /// Both outlive the source. Throws InvalidField for a request that is not valid.
-  FrameSeriesSource(const store::DataFolder& folder, store::JournalReader& reader, store::StoredJob job,
-                    const v1::StreamFramesRequest& request);
+  /// `parts` outlives the source. Throws InvalidField for a request that is not valid.
+  FrameSeriesSource(const ServiceParts& parts, store::StoredJob job, const v1::StreamFramesRequest& request);
 
   [[nodiscard]] std::string resume_advice() const { return "from frame " + std::to_string(next_); }
 
@@ -64,8 +54,7 @@ class FrameSeriesSource final : public QueuedSource<v1::StreamFramesResponse> {
   void begin();
   void queue_frame();
 
-  const store::DataFolder& folder_;
-  store::JournalReader& reader_;
+  const ServiceParts& parts_;
   store::StoredJob job_;
   v1::StreamFramesRequest request_;
   std::unique_ptr<jobs::FrameSeries> series_;  ///< null before the first message

@@ -1,18 +1,17 @@
 #include "rpc/sweeps_service.h"
 
+#include <absl/cleanup/cleanup.h>
 #include <malloc.h>
 
 #include <limits>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "error_table.h"
 #include "jobs/convergence.h"
 #include "jobs/sweep_plan.h"
 #include "jobs/sweep_points.h"
-#include "rpc/change_log.h"
 #include "rpc/request_fields.h"
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
@@ -50,15 +49,6 @@ std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& cr
   }
   return out;
 }
-
-// Returns the memory of all that is destroyed before it to the system. The cases of 100,000 jobs have 400 MB, most of
-// which the C library would keep.
-struct HeapReturn {
-  HeapReturn() = default;
-  ~HeapReturn() { malloc_trim(0); }
-  HeapReturn(const HeapReturn&) = delete;
-  HeapReturn& operator=(const HeapReturn&) = delete;
-};
 
 double predicted_seconds_of(const jobs::SweepPlan& plan, double step_cost) {
   double element_steps = 0.0;
@@ -98,7 +88,8 @@ grpc::Status SweepsService::create_sweep(const Call& call, const v1::CreateSweep
   const std::string hash = payload_hash(request, owner);
   request.mutable_sweep()->set_owner(owner);
   const auto given_up = [&call] { return call.is_cancelled(); };
-  const HeapReturn heap_return;
+  // The cases of 100,000 jobs have 400 MB, most of which the C library would keep.
+  const absl::Cleanup return_heap = [] { malloc_trim(0); };
   auto plan = jobs::plan_sweep(request.sweep(), {parts_.places, parts_.check_threads, given_up});
   if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
   const auto answer_with = [&](v1::Sweep answer) {

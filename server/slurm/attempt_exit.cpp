@@ -1,5 +1,7 @@
 #include "slurm/attempt_exit.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "slurm/cluster_view.h"
@@ -9,21 +11,26 @@ namespace {
 
 using ExitKind = jobs::WorkerExit::Kind;
 
+constexpr std::array<std::pair<Ended::Kind, ExitKind>, 8> kKinds = {{{Ended::NOT_STARTED, ExitKind::not_started},
+                                                                     {Ended::EXITED, ExitKind::exited},
+                                                                     {Ended::SIGNALLED, ExitKind::signalled},
+                                                                     {Ended::BROKEN, ExitKind::broken},
+                                                                     {Ended::STALLED, ExitKind::stalled},
+                                                                     {Ended::SUSPENDED, ExitKind::suspended},
+                                                                     {Ended::CANCELLED, ExitKind::cancelled},
+                                                                     {Ended::LEFT, ExitKind::stopped}}};
+
 ExitKind kind_of(Ended::Kind kind) {
-  switch (kind) {
-    case Ended::NOT_STARTED: return ExitKind::not_started;
-    case Ended::EXITED: return ExitKind::exited;
-    case Ended::SIGNALLED: return ExitKind::signalled;
-    case Ended::BROKEN: return ExitKind::broken;
-    case Ended::STALLED: return ExitKind::stalled;
-    case Ended::SUSPENDED: return ExitKind::suspended;
-    case Ended::CANCELLED: return ExitKind::cancelled;
-    case Ended::LEFT: return ExitKind::stopped;
-    default: return ExitKind::gone;
-  }
+  const auto* found = std::ranges::find(kKinds, kind, &std::pair<Ended::Kind, ExitKind>::first);
+  return found == kKinds.end() ? ExitKind::gone : found->second;
 }
 
 }  // namespace
+
+Ended::Kind ended_kind(ExitKind kind) {
+  const auto* found = std::ranges::find(kKinds, kind, &std::pair<Ended::Kind, ExitKind>::second);
+  return found == kKinds.end() ? Ended::EXITED : found->first;
+}
 
 std::string slurm_name(const Attempt& attempt) {
   if (attempt.slurm_job() == 0) return "Slurm job " + (kJobPrefix + attempt.batch());

@@ -12,6 +12,9 @@ namespace cellcrush::slurm {
 /// "Slurm job 17_3"; "Slurm job cellcrush-NAME" while its number is unknown.
 std::string slurm_name(const Attempt& attempt);
 
+/// How a task reports the exit of its worker.
+Ended::Kind ended_kind(jobs::WorkerExit::Kind kind);
+
 /// Whether the worker came to the end of the job. It may have been told to leave while it wrote the result.
 bool ends_job(const Ended& ended);
 

@@ -121,6 +121,7 @@ void AttemptFolder::request(Request::Kind kind) const {
 }
 
 Request::Kind AttemptFolder::requested() const {
+  look_again();
   if (const auto found = read_message<Request>(file(kRequest))) return found->kind();
   return exists() ? Request::NONE : Request::ABANDON;
 }

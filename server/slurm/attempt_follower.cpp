@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "error.h"
 #include "slurm/attempt_exit.h"
 #include "slurm/small_file.h"
 

@@ -12,6 +12,7 @@
 
 #include "error.h"
 #include "pause.h"
+#include "slurm/attempt_exit.h"
 #include "slurm/small_file.h"
 
 namespace cellcrush::slurm {
@@ -19,19 +20,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenPasses{500};
 constexpr std::chrono::milliseconds kBetweenBeats{5'000};
-
-Ended::Kind ended_kind(jobs::WorkerExit::Kind kind) {
-  switch (kind) {
-    case jobs::WorkerExit::Kind::not_started: return Ended::NOT_STARTED;
-    case jobs::WorkerExit::Kind::signalled: return Ended::SIGNALLED;
-    case jobs::WorkerExit::Kind::broken: return Ended::BROKEN;
-    case jobs::WorkerExit::Kind::stalled: return Ended::STALLED;
-    case jobs::WorkerExit::Kind::suspended: return Ended::SUSPENDED;
-    case jobs::WorkerExit::Kind::cancelled: return Ended::CANCELLED;
-    case jobs::WorkerExit::Kind::stopped: return Ended::LEFT;
-    default: return Ended::EXITED;
-  }
-}
 
 }  // namespace
 
@@ -88,15 +76,9 @@ void AttemptRun::watch_lease(const std::stop_token& worker_ended) {
   }
 }
 
-// A network file system shows a new file once its folder is opened again.
-Request::Kind AttemptRun::requested() const {
-  shared_.look_again();
-  return shared_.requested();
-}
-
 // False once the attempt is no longer this task's.
 bool AttemptRun::keep_contact() {
-  const auto request = requested();
+  const auto request = shared_.requested();
   obey(request);
   if (request == Request::ABANDON) return false;
   if (Clock::now() - last_beat_ > kBetweenBeats) {
@@ -143,7 +125,7 @@ void AttemptRun::hand_over(const Ended& ended) {
   std::string trouble;
   while (true) {
     try {
-      if (requested() == Request::ABANDON) return;
+      if (shared_.requested() == Request::ABANDON) return;
       mirror_->pass();
       shared_.end(ended);
       return;

@@ -37,7 +37,6 @@ class AttemptRun {
   /// Makes the worker leave once the lease is over, also while a call to the shared file system does not return.
   void watch_lease(const std::stop_token& worker_ended);
   bool keep_contact();
-  Request::Kind requested() const;
   void obey(Request::Kind request);
   Ended last_word_of(const jobs::WorkerExit& exit) const;
   /// Tries until it succeeds or the attempt is no longer this task's.

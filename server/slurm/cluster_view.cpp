@@ -26,8 +26,8 @@ std::optional<ClusterView::Seen> ClusterView::find(std::int64_t job, int task, c
 
 std::optional<std::int64_t> ClusterView::find_job(const std::string& name) {
   const MutexLock lock(mutex_);
-  const auto found = jobs_.find(name);
-  return found == jobs_.end() ? std::nullopt : std::optional(found->second);
+  const auto found = std::ranges::find(tasks_, name, [](const auto& each) { return each.second.report.name; });
+  return found == tasks_.end() ? std::nullopt : std::optional(found->first.first);
 }
 
 std::uint64_t ClusterView::answer_count() {
@@ -80,22 +80,16 @@ void ClusterView::look(const std::set<std::int64_t>& missed) {
     ++answers_;
     for (const auto& report : *listed) {
       tasks_[{report.job, report.task}] = {report, answers_, answers_};
-      jobs_[report.name] = report.job;
     }
   }
   if (accounted) {
     for (const auto& report : *accounted) {
       auto& seen = tasks_[{report.job, report.task}];
       seen = {report, seen.answer, answers_};
-      jobs_[report.name] = report.job;
     }
   }
   std::erase_if(tasks_, [this](const auto& each)
                             CELLCRUSH_REQUIRES(mutex_) { return each.second.heard + kRemembered < answers_; });
-  std::erase_if(jobs_, [this](const auto& each) CELLCRUSH_REQUIRES(mutex_) {
-    return tasks_.lower_bound({each.second, -1}) == tasks_.end() ||
-           tasks_.lower_bound({each.second, -1})->first.first != each.second;
-  });
 }
 
 }  // namespace cellcrush::slurm

@@ -57,7 +57,6 @@ class ClusterView {
   Mutex mutex_;
   std::condition_variable_any changed_;
   std::map<std::pair<std::int64_t, int>, Seen> tasks_ CELLCRUSH_GUARDED_BY(mutex_);
-  std::map<std::string, std::int64_t> jobs_ CELLCRUSH_GUARDED_BY(mutex_);  ///< by name
   std::uint64_t answers_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
   std::string trouble_ CELLCRUSH_GUARDED_BY(mutex_);
   bool is_wanted_ CELLCRUSH_GUARDED_BY(mutex_) = false;

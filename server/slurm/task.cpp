@@ -1,5 +1,6 @@
 #include "slurm/task.h"
 
+#include <absl/strings/numbers.h>
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
 #include <sys/file.h>
@@ -8,7 +9,6 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <climits>
 #include <csignal>
 #include <cstdlib>
@@ -16,7 +16,6 @@
 #include <exception>
 #include <memory>
 #include <stop_token>
-#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -42,18 +41,20 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+std::string host_name() {
+  std::array<char, HOST_NAME_MAX + 1> out{};
+  gethostname(out.data(), out.size() - 1);
+  return out.data();
+}
+
 int own_task() {
-  const std::string text = variable("SLURM_ARRAY_TASK_ID");
   int out = 0;
-  std::from_chars(text.data(), text.data() + text.size(), out);
-  return out;
+  return absl::SimpleAtoi(variable("SLURM_ARRAY_TASK_ID"), &out) ? out : 0;
 }
 
 Claim own_claim() {
-  std::array<char, HOST_NAME_MAX + 1> host{};
-  gethostname(host.data(), host.size() - 1);
   Claim out;
-  out.set_host(host.data());
+  out.set_host(host_name());
   out.set_process(getpid());
   out.set_slurm_job(variable("SLURM_JOB_ID"));
   out.set_restart(variable("SLURM_RESTART_COUNT"));
@@ -144,11 +145,7 @@ void compute(const std::string& id, const AttemptFolder& shared, const TaskOptio
 }
 
 // The locks of a network file system may not reach other nodes, so each node has names of its own.
-std::string prefix_of_node() {
-  std::array<char, HOST_NAME_MAX + 1> host{};
-  gethostname(host.data(), host.size() - 1);
-  return std::string("cellcrush-task-") + host.data() + "@";
-}
+std::string prefix_of_node() { return "cellcrush-task-" + host_name() + "@"; }
 
 int open_folder(const fs::path& path) { return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC); }
 

@@ -1,7 +1,7 @@
 // How jobs are added to the journal and deleted from it.
 #include <utility>
 
-#include "access/scope.h"
+#include "access/token_file.h"
 #include "error.h"
 #include "store/job_inserter.h"
 #include "store/job_removal.h"

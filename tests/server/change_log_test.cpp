@@ -1,4 +1,4 @@
-#include "rpc/change_log.h"
+#include "rpc/request_fields.h"
 
 #include <gmock/gmock.h>
 #include <spdlog/spdlog.h>
