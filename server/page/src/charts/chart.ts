@@ -119,7 +119,7 @@ export class Chart {
       series: [{}, ...data.series.map((series) => this.seriesOf(series))],
       hooks: {
         drawClear: [(plot) => drawShapes(plot, this.data!, bandShapes)],
-        draw: [(plot) => drawShapes(plot, this.data!, markShapes), () => this.moveHead()], // scales are known from here on
+        draw: [(plot) => drawShapes(plot, this.data!, markShapes), () => this.moveHead()], // scales are known by now
         setCursor: [(plot) => {
           this.hoverIndex = plot.cursor.idx ?? null;
           this.showValues();

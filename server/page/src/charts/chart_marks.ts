@@ -1,5 +1,5 @@
-// Bands behind the curves of a chart; points, levels, spreads and marked places over them: as shapes that the screen and
-// an SVG file draw alike.
+// Bands behind the curves of a chart; points, levels, spreads and marked places over them: as shapes that the screen
+// and an SVG file draw alike.
 import type uPlot from "uplot";
 import { themeColour } from "../picture/colours";
 import { markPath, type ChartData } from "./chart_data";

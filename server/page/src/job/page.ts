@@ -232,7 +232,8 @@ export class JobPage implements View {
       h("div", { class: "banner warning" }, h("strong", {}, `${warningWords(warning.kind)}. `),
         `${warning.message} ${warning.remedy}`)));
     this.numbers.hidden = !summary;
-    if (summary) replaceChildren(this.numbers, h("h3", {}, "Result"), resultsList(summary, job.words?.theoryNote ?? ""));
+    const note = job.words?.theoryNote ?? "";
+    if (summary) replaceChildren(this.numbers, h("h3", {}, "Result"), resultsList(summary, note));
     const words = check?.words ?? job.words;
     this.facts.hidden = !words;
     if (words) {

@@ -12,13 +12,14 @@ export interface SummaryNumber {
   text(value: number | undefined): string;
 }
 
-const mpa = (value: number | undefined): string => number(value);
+const plain = (value: number | undefined): string => number(value);
 
 export const kSummaryNumbers: SummaryNumber[] = [
-  { name: "Impact plateau, MPa", field: "plateau_stress_impact_mpa", value: (s) => s.plateauStressImpactMpa, text: mpa },
+  { name: "Impact plateau, MPa", field: "plateau_stress_impact_mpa", value: (s) => s.plateauStressImpactMpa,
+    text: plain },
   { name: "Support plateau, MPa", field: "plateau_stress_support_mpa", value: (s) => s.plateauStressSupportMpa,
-    text: mpa },
-  { name: "Shock theory (Eq. 51), MPa", field: "theory.shock_mpa", value: (s) => s.theory?.shockMpa, text: mpa },
+    text: plain },
+  { name: "Shock theory (Eq. 51), MPa", field: "theory.shock_mpa", value: (s) => s.theory?.shockMpa, text: plain },
   { name: "Densification strain", field: "densification_strain", value: (s) => s.densificationStrain,
     text: strainText },
   { name: "Absorbed energy, J", field: "absorbed_energy_mj", value: (s) => s.absorbedEnergyMj,

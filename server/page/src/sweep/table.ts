@@ -41,12 +41,12 @@ export class SweepTableView {
     const { summary } = row.result ?? {};
     return h("tr", {}, ...row.values.map((value) => h("td", { class: "figure" }, Number(value.toPrecision(6)))),
       h("td", {}, h("a", { href: pathOf(row.job) }, `job ${idOf(row.job)}`)), h("td", {}, chip),
-      ...kSummaryNumbers.map((column) => h("td", { class: "figure" }, summary ? column.text(column.value(summary)) : "")));
+      ...kSummaryNumbers.map(({ text, value }) => h("td", { class: "figure" }, summary ? text(value(summary)) : "")));
   }
 
   csv(): Blob {
     return csvBlob([...this.fields, "job", "state", ...kSummaryNumbers.map((column) => column.field)],
       this.rows.map((row) => [...row.values, row.job, row.result ? Job_State[row.result.state] : "",
-                              ...kSummaryNumbers.map((column) => row.result?.summary && column.value(row.result.summary))]));
+                              ...kSummaryNumbers.map(({ value }) => row.result?.summary && value(row.result.summary))]));
   }
 }
