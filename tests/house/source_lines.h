@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,5 +23,14 @@ std::string resolve_include(const std::filesystem::path& root, const std::string
 
 /// Whether it is a header of the C++ library.
 bool is_standard_header(const std::string& target);
+
+/// Columns of a line of source, its comment included.
+inline constexpr std::size_t kMostColumns = 120;
+
+/// Whether a file, as a path from the root, is held to kMostColumns: C++, protocol buffers, CMake, shell and Python.
+bool has_bounded_lines(const std::filesystem::path& file);
+
+/// Numbers of the lines that are wider. A character of UTF-8 is a column.
+std::vector<int> find_wide_lines(const std::filesystem::path& file);
 
 }  // namespace cellcrush::house

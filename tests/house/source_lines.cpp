@@ -1,7 +1,9 @@
-#include "house/include_line.h"
+#include "house/source_lines.h"
 
 #include <algorithm>
 #include <fstream>
+#include <set>
+#include <string>
 #include <string_view>
 
 namespace cellcrush::house {
@@ -15,6 +17,8 @@ bool take(std::string_view& text, std::string_view word) {
   text.remove_prefix(word.size());
   return true;
 }
+
+bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
 
 }  // namespace
 
@@ -58,6 +62,23 @@ bool is_standard_header(const std::string& target) {
       " stop_token streambuf string string_view strstream syncstream system_error thread tuple type_traits typeindex"
       " typeinfo unordered_map unordered_set utility valarray variant vector version ";
   return target.find(' ') == std::string::npos && kHeaders.find(" " + target + " ") != std::string_view::npos;
+}
+
+bool has_bounded_lines(const std::filesystem::path& file) {
+  static const std::set<std::string> kExtensions{".h", ".hpp", ".inl", ".cpp", ".cc", ".proto", ".cmake", ".sh", ".py"};
+  const bool is_script = *file.begin() == "deploy" && !file.has_extension();
+  return is_script || file.filename() == "CMakeLists.txt" || kExtensions.contains(file.extension().string());
+}
+
+std::vector<int> find_wide_lines(const std::filesystem::path& file) {
+  std::vector<int> wide;
+  std::ifstream stream(file);
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    const auto columns = static_cast<std::size_t>(std::count_if(line.begin(), line.end(), begins_character));
+    if (columns > kMostColumns) wide.push_back(number);
+  }
+  return wide;
 }
 
 }  // namespace cellcrush::house
