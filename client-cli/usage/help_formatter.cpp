@@ -1,16 +1,14 @@
-#include "help/help_formatter.h"
+#include "usage/help_formatter.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "help/wrapped_text.h"
-#include "terminal/terminal.h"
+#include "chart/display_text.h"
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 namespace {
 
-constexpr int kMostHelpColumns = 100;
 // Descriptions stand beside the names, or below them where the terminal is narrow.
 constexpr int kNameColumns = 28;
 constexpr int kNarrowNameColumns = 6;
@@ -21,17 +19,18 @@ std::string wrap_lines(const std::string& text, int width) {
   std::istringstream lines(text);
   std::string out;
   for (std::string line; std::getline(lines, line);) {
-    out += (line.starts_with(' ') || line.empty() ? line : wrap_text(line, width)) + '\n';
+    out += (line.starts_with(' ') || line.empty() ? line : client::wrap_text(line, width)) + '\n';
   }
   return out;
 }
 
 }  // namespace
 
-HelpFormatter::HelpFormatter() : width_(std::min(terminal_width(), kMostHelpColumns)) {
+HelpFormatter::HelpFormatter(int width) : width_(width) {
   column_width(static_cast<std::size_t>(width_ < kNarrow ? kNarrowNameColumns : kNameColumns));
   label("SUBCOMMAND", "COMMAND");
   label("Positionals", "Arguments");
+  label("Subcommands", "Commands");
 }
 
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
@@ -50,13 +49,13 @@ std::string HelpFormatter::option_groups(const CLI::App* app) const {
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-  return wrap_text(option->get_description(), description_columns());
+  return client::wrap_text(option->get_description(), description_columns());
 }
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
   std::ostringstream out;
-  CLI::detail::format_help(out, command->get_name(), wrap_text(command->get_description(), description_columns()),
-                           get_column_width());
+  CLI::detail::format_help(out, command->get_name(),
+                           client::wrap_text(command->get_description(), description_columns()), get_column_width());
   return out.str();
 }
 
@@ -68,4 +67,4 @@ std::string HelpFormatter::make_footer(const CLI::App* app) const { return wrap_
 
 int HelpFormatter::description_columns() const { return std::max(width_ - static_cast<int>(get_column_width()), 20); }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

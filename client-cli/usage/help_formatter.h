@@ -2,13 +2,12 @@
 
 #include <CLI/CLI.hpp>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
-/// Layout of --help: commands before options, one paragraph per group of options, lines as wide as the terminal but at
-/// most 100 columns.
+/// Layout of --help in lines of at most `width` columns: commands before options, one paragraph per group of options.
 class HelpFormatter : public CLI::Formatter {
  public:
-  HelpFormatter();
+  explicit HelpFormatter(int width);
 
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
   std::string make_option_desc(const CLI::Option* option) const override;
@@ -23,4 +22,4 @@ class HelpFormatter : public CLI::Formatter {
   int width_;
 };
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

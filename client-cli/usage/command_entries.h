@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 /// An option as defined in the parser.
 struct OptionEntry {
@@ -15,19 +15,13 @@ struct OptionEntry {
   std::string limits;  ///< of its value, such as "-100 to 100"; empty: none beyond the description
   bool repeatable = false;
   bool required = false;
-  std::vector<std::string> words;  ///< possible values, or prefixes if they end in "="; empty: a file
+  std::vector<std::string> words;  ///< possible values; empty: any
 };
 
 /// A positional argument of a command.
 struct ArgumentEntry {
   std::string name;  ///< such as "CASE" or "NAME...", in brackets if optional
   std::string description;
-};
-
-/// Possible arguments of a command.
-struct ArgumentWords {
-  std::vector<std::string> words;  ///< complete, or prefixes if they end in "/"
-  bool files = false;              ///< or a file
 };
 
 /// The commands listed in the help, without hidden ones.
@@ -41,7 +35,4 @@ std::vector<OptionEntry> option_entries(const CLI::App& app);
 std::vector<ArgumentEntry> argument_entries(const CLI::App& command);
 std::vector<std::string> argument_names(const CLI::App& command);
 
-/// Their possible values, as far as known without a server: presets, prefixes of names, fields of the case.
-ArgumentWords argument_words(const CLI::App& command);
-
-}  // namespace cellcrush::client
+}  // namespace cellcrush

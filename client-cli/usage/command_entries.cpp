@@ -1,12 +1,9 @@
-#include "help/command_entries.h"
+#include "usage/command_entries.h"
 
 #include <regex>
 #include <sstream>
 
-#include "help/case_manual.h"
-#include "help/preset_names.h"
-
-namespace cellcrush::client {
+namespace cellcrush {
 
 namespace {
 
@@ -26,17 +23,6 @@ std::vector<std::string> choices_in(const std::string& type) {
   std::istringstream parts(type.substr(begin + 1, type.find('}') - begin - 1));
   for (std::string choice; std::getline(parts, choice, ',');) choices.push_back(choice);
   return choices;
-}
-
-std::vector<std::string> assignment_beginnings() {
-  std::vector<std::string> words;
-  const std::vector<std::string> paths = case_paths();
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    // A group precedes its fields.
-    const bool is_group = i + 1 < paths.size() && paths[i + 1].starts_with(paths[i] + '.');
-    if (!is_group) words.push_back(paths[i] + '=');
-  }
-  return words;
 }
 
 }  // namespace
@@ -59,7 +45,6 @@ std::vector<OptionEntry> option_entries(const CLI::App& app) {
     for (const std::string& name : option->get_lnames()) entry.names.push_back("--" + name);
     if (option->get_type_size() != 0) entry.value = option->get_type_name();
     entry.words = choices_in(option->get_type_name());
-    if (entry.names.back() == "--set" || entry.names.back() == "--over") entry.words = assignment_beginnings();
     // Limits follow the type, as in "INT:POSITIVE".
     entry.limits = limits_of(entry.value);
     entry.value = entry.value.substr(0, entry.value.find(':'));
@@ -86,26 +71,4 @@ std::vector<std::string> argument_names(const CLI::App& command) {
   return names;
 }
 
-ArgumentWords argument_words(const CLI::App& command) {
-  ArgumentWords out;
-  for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_positional(); })) {
-    const std::string& text = option->get_description();
-    const auto names = [&text](const char* part) { return text.find(part) != std::string::npos; };
-    if (names("preset:NAME")) {
-      for (const char* name : kPresetNames) out.words.push_back(std::string("preset:") + name);
-    }
-    if (option->get_name(true) == "PATH") {
-      const auto paths = case_paths();
-      out.words.insert(out.words.end(), paths.begin(), paths.end());
-    }
-    if (option->get_name(true) == "CASE") {
-      out.files = true;
-      continue;
-    }
-    if (names("job") || names("Job")) out.words.emplace_back("jobs/");
-    if (names("sweep")) out.words.emplace_back("sweeps/");
-  }
-  return out;
-}
-
-}  // namespace cellcrush::client
+}  // namespace cellcrush
