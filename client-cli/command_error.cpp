@@ -9,7 +9,6 @@
 #include "cellcrush/v1/case.pb.h"
 #include "chart/display_text.h"
 #include "google/rpc/status.pb.h"
-#include "terminal/json_text.h"
 #include "terminal/terminal.h"
 
 namespace cellcrush::client {

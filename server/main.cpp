@@ -17,14 +17,14 @@
 #include "access/token_file.h"
 #include "cellcrush/simd.h"
 #include "command_line/daemon_flags.h"
-#include "command_line/help_formatter.h"
-#include "command_line/man_page.h"
 #include "command_line/store_commands.h"
-#include "command_line/usage_message.h"
 #include "daemon.h"
 #include "log_format.h"
 #include "revision.h"
 #include "slurm/task.h"
+#include "usage/help_formatter.h"
+#include "usage/man_page.h"
+#include "usage/suggestion.h"
 #include "worker/worker_main.h"
 
 namespace {
@@ -34,6 +34,15 @@ constexpr const char* kFooter =
     "SIGHUP reloads certificates and tokens.\n"
     "Exit codes: 0 stopped by a signal, or the command is done; 1 failed; 2 usage error.\n"
     "Environment: CELLCRUSH_SIMD names the SIMD kernel to use instead of the fastest one.";
+
+constexpr int kHelpColumns = 80;
+
+const cellcrush::ManPage kManPage = {.section = 8,
+                                     .manual = "System Administration",
+                                     .version = CELLCRUSH_VERSION,
+                                     .summary = "daemon that runs crushing analyses of cellular materials",
+                                     .synopsis = "[OPTIONS] [COMMAND ...]",
+                                     .see_also = "cellcrush (1)"};
 
 // Only main waits for SIGTERM, SIGINT and SIGHUP; they are blocked before another thread exists.
 sigset_t block_signals() {
@@ -96,11 +105,10 @@ int main(int argc, char** argv) {
       "cellcrushd runs crushing analyses: it accepts cases over gRPC, runs them as jobs, and streams their progress "
       "and results.");
   app.name("cellcrushd");
-  app.formatter(std::make_shared<cellcrush::HelpFormatter>());
-  app.failure_message(cellcrush::usage_message);
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app.get_formatter()->label("Positionals", "Arguments");
-  app.get_formatter()->label("Subcommands", "Commands");
+  app.formatter(std::make_shared<cellcrush::HelpFormatter>(kHelpColumns));
+  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+    return "cellcrushd: " + cellcrush::usage_message(*failed, error) + "\n";
+  });
   cellcrush::DaemonFlags flags(app);
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
   std::string token_name;
@@ -138,7 +146,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (man->parsed()) {
-    std::printf("%s", cellcrush::man_page(app, CELLCRUSH_VERSION).c_str());
+    std::printf("%s", cellcrush::man_page(app, kManPage).c_str());
     return 0;
   }
   if (token->parsed()) return print_token(token_name, token_scope);

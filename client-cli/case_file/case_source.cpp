@@ -1,16 +1,21 @@
 #include "case_file/case_source.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <utility>
 #include <vector>
 
-#include "case_file/json_case.h"
+#include "case_file/parse_case.h"
 #include "case_file/set_field.h"
-#include "case_file/suggestion.h"
-#include "case_file/text_case.h"
 #include "command_error.h"
 #include "connection/connection.h"
+#include "usage/suggestion.h"
 
 namespace cellcrush::client {
 
@@ -19,6 +24,23 @@ namespace {
 constexpr std::string_view kPresetPrefix = "preset:";
 // Text is several times longer than the message it encodes; a longer one cannot fit into a message.
 constexpr std::size_t kLargestText = 64 * 1024 * 1024;
+
+// The file in the same folder whose name is nearest to a missing one; empty if none is near.
+std::string find_nearest_file(const std::string& missing) {
+  namespace fs = std::filesystem;
+  const fs::path path(missing);
+  const fs::path folder = path.parent_path();
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    if (!entry->is_directory(error) && name != path.filename()) names.push_back(name.string());
+  }
+  std::sort(names.begin(), names.end());
+  const std::string nearest = find_nearest(path.filename().string(), names);
+  return nearest.empty() ? nearest : (folder / nearest).string();
+}
 
 std::string read_stream(std::istream& stream, const std::string& name) {
   std::string text;
@@ -57,6 +79,16 @@ v1::Case read_file(const std::string& file) {
 }
 
 }  // namespace
+
+std::string open_failure(const std::string& file, std::ifstream& stream) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) return file + ": is a folder";
+  stream.open(file, std::ios::binary);
+  if (stream) return {};
+  const int error = errno;
+  const std::string message = fmt::format("{}: cannot be read: {}", file, std::strerror(error));
+  return error == ENOENT ? with_suggestion(message, find_nearest_file(file)) : message;
+}
 
 std::string preset_name(const std::string& source) {
   return source.starts_with(kPresetPrefix) ? source.substr(kPresetPrefix.size()) : std::string();

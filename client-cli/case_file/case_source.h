@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,5 +21,9 @@ std::optional<v1::Case> read_own_case(const std::string& source, const std::vect
 
 /// NAME of "preset:NAME", or empty.
 std::string preset_name(const std::string& source);
+
+/// Opens a file for reading. Returns an empty text, or the reason for failure, with the nearest name for a missing
+/// file.
+std::string open_failure(const std::string& file, std::ifstream& stream);
 
 }  // namespace cellcrush::client

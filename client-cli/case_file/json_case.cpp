@@ -1,12 +1,11 @@
-#include "case_file/json_case.h"
-
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <regex>
 #include <sstream>
 
-#include "case_file/suggestion.h"
+#include "case_file/field_names.h"
+#include "case_file/parse_case.h"
 #include "command_error.h"
 
 namespace cellcrush::client {

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "case_file/enum_value.h"
-#include "case_file/suggestion.h"
+#include "case_file/field_names.h"
 #include "command_error.h"
 
 namespace cellcrush::client {
@@ -17,11 +16,6 @@ namespace {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
-
-struct PathPart {
-  std::string name;
-  int index = -1;  ///< of an element of a repeated field; -1 without
-};
 
 [[noreturn]] void refuse(std::string_view path, const std::string& message) {
   throw CommandError(ExitCode::refused, fmt::format("--set {}: {}", path, message));
@@ -34,38 +28,26 @@ bool parse_number(std::string_view text, Number& number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-PathPart parse_part(std::string_view path, std::string_view text) {
-  const std::size_t bracket = text.find('[');
-  if (bracket == std::string_view::npos) return {std::string(text), -1};
-  PathPart part{std::string(text.substr(0, bracket)), -1};
-  const std::string_view index = text.substr(bracket + 1);
-  if (!index.ends_with(']') || !parse_number(index.substr(0, index.size() - 1), part.index) || part.index < 0) {
-    refuse(path, fmt::format("\"{}\" is not a list index; write {}[0], counting from 0", text, part.name));
+// The place of an element in its list; -1 without one.
+int index_of(const PathPart& part, std::string_view path) {
+  int index = -1;
+  if (part.has_index() && (!parse_number(part.index, index) || index < 0)) {
+    refuse(path, fmt::format("\"{}\" is not a list index; write {}[0], counting from 0", part.text, part.name));
   }
-  return part;
-}
-
-std::vector<PathPart> parse_path(std::string_view path) {
-  std::vector<PathPart> parts;
-  std::string_view rest = path;
-  while (true) {
-    const std::size_t dot = rest.find('.');
-    parts.push_back(parse_part(path, rest.substr(0, dot)));
-    if (dot == std::string_view::npos) return parts;
-    rest.remove_prefix(dot + 1);
-  }
+  return index;
 }
 
 const FieldDescriptor& find_field(const Message& message, const PathPart& part, std::string_view path) {
+  const int index = index_of(part, path);
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(part.name);
   if (field == nullptr) refuse(path, unknown_field_message(part.name, *message.GetDescriptor()));
-  if (field->is_repeated() && part.index < 0) {
+  if (field->is_repeated() && index < 0) {
     refuse(path, fmt::format("\"{0}\" is a list; name an element such as {0}[0], counting from 0", part.name));
   }
-  if (!field->is_repeated() && part.index >= 0) refuse(path, fmt::format("\"{}\" is not a list", part.name));
+  if (!field->is_repeated() && index >= 0) refuse(path, fmt::format("\"{}\" is not a list", part.name));
   if (field->is_repeated()) {
     const int size = message.GetReflection()->FieldSize(message, field);
-    if (part.index >= size) refuse(path, fmt::format("\"{}\" has {} elements in this case", part.name, size));
+    if (index >= size) refuse(path, fmt::format("\"{}\" has {} elements in this case", part.name, size));
   }
   return *field;
 }
@@ -131,7 +113,7 @@ void set_field(v1::Case& target, std::string_view assignment) {
     refuse(assignment, "expected PATH=VALUE, such as loading.speed_m_per_s=100");
   }
   const std::string_view path = assignment.substr(0, equals);
-  const std::vector<PathPart> parts = parse_path(path);
+  const std::vector<PathPart> parts = split_path(path);
   Message* message = &target;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     const FieldDescriptor& field = find_field(*message, parts[i], path);
@@ -140,12 +122,12 @@ void set_field(v1::Case& target, std::string_view assignment) {
     }
     refuse_other_member(*message, field, path);
     const auto* reflection = message->GetReflection();
-    message = field.is_repeated() ? reflection->MutableRepeatedMessage(message, &field, parts[i].index)
+    message = field.is_repeated() ? reflection->MutableRepeatedMessage(message, &field, index_of(parts[i], path))
                                   : reflection->MutableMessage(message, &field);
   }
   const FieldDescriptor& field = find_field(*message, parts.back(), path);
   refuse_other_member(*message, field, path);
-  set_value(*message, field, parts.back().index, path, assignment.substr(equals + 1));
+  set_value(*message, field, index_of(parts.back(), path), path, assignment.substr(equals + 1));
 }
 
 }  // namespace cellcrush::client

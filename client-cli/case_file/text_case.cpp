@@ -1,5 +1,3 @@
-#include "case_file/text_case.h"
-
 #include <fmt/format.h>
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/text_format.h>
@@ -10,8 +8,8 @@
 #include <regex>
 #include <utility>
 
-#include "case_file/enum_value.h"
-#include "case_file/suggestion.h"
+#include "case_file/field_names.h"
+#include "case_file/parse_case.h"
 #include "command_error.h"
 
 namespace cellcrush::client {

@@ -45,33 +45,24 @@ void draw_marker(cairo_t* context, double x, double y, Marker marker, const Colo
   cairo_set_dash(context, nullptr, 0, 0.0);
   cairo_set_line_width(context, 1.4);
   cairo_new_path(context);
-  if (marker == Marker::disc) {
-    cairo_arc(context, x, y, kMarkerRadius, 0.0, 2.0 * std::numbers::pi);
-    set_colour(context, colour);
-    cairo_fill(context);
-  } else if (marker == Marker::square) {
-    const double half = 0.9 * kMarkerRadius;
-    cairo_rectangle(context, x - half, y - half, 2.0 * half, 2.0 * half);
-    set_colour(context, {1.0, 1.0, 1.0});
-    cairo_fill_preserve(context);
-    set_colour(context, colour);
-    cairo_stroke(context);
-  } else if (marker == Marker::triangle) {
-    draw_polygon(context, x, y, {{0.0, -1.15}, {1.1, 0.85}, {-1.1, 0.85}});
-    set_colour(context, colour);
-    cairo_fill(context);
-  } else if (marker == Marker::diamond) {
-    draw_polygon(context, x, y, {{0.0, -1.25}, {1.25, 0.0}, {0.0, 1.25}, {-1.25, 0.0}});
-    set_colour(context, {1.0, 1.0, 1.0});
-    cairo_fill_preserve(context);
-    set_colour(context, colour);
-    cairo_stroke(context);
-  } else if (marker == Marker::cross) {
-    set_colour(context, colour);
-    for (const double slope : {1.0, -1.0}) {
-      stroke(context, x - kMarkerRadius, y - slope * kMarkerRadius, x + kMarkerRadius, y + slope * kMarkerRadius);
-    }
+  const bool is_open = marker == Marker::square || marker == Marker::diamond;
+  switch (marker) {
+    case Marker::none: return;
+    case Marker::disc: cairo_arc(context, x, y, kMarkerRadius, 0.0, 2.0 * std::numbers::pi); break;
+    case Marker::square: draw_polygon(context, x, y, {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}}); break;
+    case Marker::triangle: draw_polygon(context, x, y, {{0.0, -1.15}, {1.1, 0.85}, {-1.1, 0.85}}); break;
+    case Marker::diamond: draw_polygon(context, x, y, {{0.0, -1.25}, {1.25, 0.0}, {0.0, 1.25}, {-1.25, 0.0}}); break;
+    case Marker::cross:
+      set_colour(context, colour);
+      for (const double slope : {1.0, -1.0}) {
+        stroke(context, x - kMarkerRadius, y - slope * kMarkerRadius, x + kMarkerRadius, y + slope * kMarkerRadius);
+      }
+      return;
   }
+  set_colour(context, is_open ? Colour{1.0, 1.0, 1.0} : colour);
+  cairo_fill_preserve(context);
+  set_colour(context, colour);
+  is_open ? cairo_stroke(context) : cairo_new_path(context);
 }
 
 // Draws the arrow and text of a curve that leaves the chart; `room` units below the upper edge are occupied.

@@ -99,6 +99,21 @@ std::vector<std::string> wrap_words(std::string_view text, int width) {
   return lines;
 }
 
+std::string wrap_text(std::string_view text, int width) {
+  std::string out;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    std::string_view separator;
+    for (const std::string& line : wrap_words(text.substr(0, end), width)) {
+      out.append(separator).append(line);
+      separator = "\n";
+    }
+    if (end == std::string_view::npos) return out;
+    out += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
 std::string wrapped(std::string_view text, int width, std::string_view first, std::string_view next) {
   const int prefix = std::max(display_width(first), display_width(next));
   std::string result;

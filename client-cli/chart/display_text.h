@@ -20,8 +20,11 @@ std::string cut(std::string_view text, int width);
 /// fits, else at the end of the line. At least one line. REQUIRES: width is above 0.
 std::vector<std::string> wrap_words(std::string_view text, int width);
 
-/// The same lines with `first` before the first and `next` before the others, each at most `width` columns in total and
-/// terminated by a line break.
+/// Each line of the text wrapped like that. Adds no line break at the end.
+std::string wrap_text(std::string_view text, int width);
+
+/// The lines of wrap_words() with `first` before the first and `next` before the others, each at most `width` columns
+/// in total and terminated by a line break.
 std::string wrapped(std::string_view text, int width, std::string_view first = {}, std::string_view next = {});
 
 /// `text` with control characters other than line ends, and invalid UTF-8, replaced by escapes such as \x1b, so that

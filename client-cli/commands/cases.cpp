@@ -6,7 +6,7 @@
 #include "case_file/case_source.h"
 #include "commands/commands.h"
 #include "terminal/case_text.h"
-#include "terminal/json_text.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -44,14 +44,11 @@ ExitCode run_check(Session& session, const CaseOptions& options) {
 }  // namespace
 
 void add_case_commands(CLI::App& app, Session& session) {
-  CLI::App* presets = add_command(app, session, "presets", "List the preset cases of the server",
+  CLI::App* presets = add_command(app, session, kCaseCommands, "presets", "List the preset cases of the server",
                                   [&session] { return run_presets(session); });
-  presets->group(kCaseCommands);
   add_examples(*presets, {"cellcrush presets"});
-  const auto options = std::make_shared<CaseOptions>();
-  CLI::App* check = add_command(app, session, "check", "Predict the cost of a case, or report all its problems",
-                                [&session, options] { return run_check(session, *options); });
-  check->group(kCaseCommands);
+  const auto [check, options] = add_command<CaseOptions>(
+      app, session, kCaseCommands, "check", "Predict the cost of a case, or report all its problems", run_check);
   add_case_options(*check, *options);
   add_examples(*check, {"cellcrush check my.txtpb", "cellcrush check preset:type-i --set loading.speed_m_per_s=50"});
 }

@@ -52,9 +52,9 @@ void add_shared_options(CLI::App& app, Session& session) {
       "File with the token for a HOST:PORT (default: $CELLCRUSH_TOKEN_FILE, or the token in $CELLCRUSH_TOKEN)");
 }
 
-CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
-                      std::function<ExitCode()> action) {
-  CLI::App* command = app.add_subcommand(name, description);
+CLI::App* add_command(CLI::App& app, Session& session, const char* group, const std::string& name,
+                      const std::string& description, std::function<ExitCode()> action) {
+  CLI::App* command = app.add_subcommand(name, description)->group(group);
   command->footer(kSharedOptions);
   command->callback([&session, action = std::move(action)] { session.action = action; });
   return command;
@@ -74,12 +74,6 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
                   "lists the fields (may be repeated; default: none)")
       ->group(kCaseOptions)
       ->allow_extra_args(false);
-}
-
-void add_priority_option(CLI::App& command, int& priority) {
-  command.add_option("--priority", priority, "Waiting jobs of higher priority start first; -100 to 100 (default: 0)")
-      ->group(kScheduleOptions)
-      ->check(CLI::Range(-100, 100));
 }
 
 void add_executor_option(CLI::App& command, std::string& name) {
@@ -102,28 +96,6 @@ void add_time_limit_option(CLI::App& command, double& seconds, const std::string
       ->type_name("TIME")
       ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE).description(""))
       ->check(CLI::Range(0.001, 1e9).description(""));
-}
-
-void add_label_option(CLI::App& command, std::vector<std::string>& labels) {
-  command
-      .add_option("--label", labels,
-                  "Label KEY=VALUE for list --filter; KEY up to 63 and VALUE up to 255 characters (may be repeated up "
-                  "to 64 times; "
-                  "default: none)")
-      ->group(kIdentityOptions)
-      ->allow_extra_args(false);
-}
-
-Labels parse_labels(const std::vector<std::string>& texts) {
-  Labels labels;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos) {
-      throw CommandError(ExitCode::refused, "--label " + text + ": expected KEY=VALUE");
-    }
-    labels[text.substr(0, equals)] = text.substr(equals + 1);
-  }
-  return labels;
 }
 
 bool names_sweep(const std::string& name) { return name.starts_with(kSweeps); }

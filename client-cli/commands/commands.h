@@ -6,6 +6,8 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "command_error.h"
@@ -45,8 +47,26 @@ constexpr const char* kOutputOptions = "Output";
 constexpr const char* kSelectionOptions = "Selection";
 
 /// Adds a command that runs `action`; the caller adds its options.
-CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
-                      std::function<ExitCode()> action);
+CLI::App* add_command(CLI::App& app, Session& session, const char* group, const std::string& name,
+                      const std::string& description, std::function<ExitCode()> action);
+
+/// The same with options, which live as long as the command; returns both.
+template <typename Options, typename Run>
+std::pair<CLI::App*, Options*> add_command(CLI::App& app, Session& session, const char* group, const std::string& name,
+                                           const std::string& description, Run run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = add_command(app, session, group, name, description,
+                                  [&session, options, run] { return run(session, std::as_const(*options)); });
+  return {command, options.get()};
+}
+
+/// Adds an option or a flag to a group of a command's options.
+template <typename Value>
+CLI::Option* add_option(CLI::App& command, const char* group, const std::string& names, Value& value,
+                        const std::string& description) {
+  if constexpr (std::is_same_v<Value, bool>) return command.add_flag(names, value, description)->group(group);
+  return command.add_option(names, value, description)->group(group);
+}
 
 /// Appends examples to a command's help, one command line each.
 void add_examples(CLI::App& command, const std::vector<std::string>& examples);
@@ -60,39 +80,24 @@ void add_case_options(CLI::App& command, CaseOptions& options);
 
 void add_case_commands(CLI::App& app, Session& session);  ///< presets, check
 void add_explain_command(CLI::App& app, Session& session);
-void add_show_command(CLI::App& app, Session& session);
+void add_show_commands(CLI::App& app, Session& session);  ///< show, list, table
 void add_run_command(CLI::App& app, Session& session);
-void add_submit_command(CLI::App& app, Session& session);
+void add_submit_commands(CLI::App& app, Session& session);  ///< submit, sweep
 void add_watch_command(CLI::App& app, Session& session);
-void add_list_command(CLI::App& app, Session& session);
-void add_job_commands(CLI::App& app, Session& session);  ///< cancel, suspend, resume
-void add_delete_command(CLI::App& app, Session& session);
+void add_job_commands(CLI::App& app, Session& session);  ///< cancel, suspend, resume, retry, delete
 void add_fetch_command(CLI::App& app, Session& session);
 void add_plot_command(CLI::App& app, Session& session);
 void add_movie_command(CLI::App& app, Session& session);
 void add_export_command(CLI::App& app, Session& session);
 void add_queue_commands(CLI::App& app, Session& session);  ///< queue, drain
-void add_sweep_commands(CLI::App& app, Session& session);  ///< sweep, retry
 void add_converge_command(CLI::App& app, Session& session);
-void add_table_command(CLI::App& app, Session& session);
 void add_shell_commands(CLI::App& app, Session& session);  ///< completion, man
-
-/// Adds --priority to a command.
-void add_priority_option(CLI::App& command, int& priority);
 
 /// Adds --executor to a command. `name` stays empty without the option.
 void add_executor_option(CLI::App& command, std::string& name);
 
 /// Adds --time-limit to a command. `seconds` stays 0 without the option; `default_text` describes that default.
 void add_time_limit_option(CLI::App& command, double& seconds, const std::string& default_text = "the daemon's limit");
-
-using Labels = google::protobuf::Map<std::string, std::string>;
-
-/// Adds --label, which may be repeated, to a command.
-void add_label_option(CLI::App& command, std::vector<std::string>& labels);
-
-/// Parses "KEY=VALUE" texts as labels. Throws CommandError (refused) for another form.
-Labels parse_labels(const std::vector<std::string>& texts);
 
 /// Whether a name from the command line is a sweep's: "sweeps/NAME".
 bool names_sweep(const std::string& name);

@@ -7,7 +7,6 @@
 #include "commands/sweep_axis.h"
 #include "commands/watch.h"
 #include "terminal/convergence_text.h"
-#include "terminal/json_text.h"
 #include "terminal/number_text.h"
 #include "terminal/sweep_text.h"
 #include "terminal/terminal.h"
@@ -32,7 +31,7 @@ v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection&
   v1::Sweep& sweep = *request.mutable_sweep();
   sweep.set_executor(options.executor);
   *sweep.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
-  const v1::Lattice::Imperfection& imperfection = sweep.case_().lattice().imperfection();
+  const v1::Lattice::Imperfection& imperfection = sweep.words().theory_note().imperfection();
   if (options.seeds > 1 && imperfection.amplitude_mm() == 0.0 && imperfection.bow_mm() == 0.0) {
     throw CommandError(ExitCode::refused, fmt::format("{0} and bow_mm are 0, so every seed gives the same "
                                                       "crush: add --set {0}=0.01, or compare the meshes without "
@@ -93,29 +92,23 @@ ExitCode run_converge(Session& session, const ConvergeOptions& options) {
 }  // namespace
 
 void add_converge_command(CLI::App& app, Session& session) {
-  const auto options = std::make_shared<ConvergeOptions>();
-  CLI::App* converge = add_command(app, session, "converge", "Estimate the mesh error of a case",
-                                   [&session, options] { return run_converge(session, *options); });
-  converge->group(kJobCommands);
+  const auto [converge, options] = add_command<ConvergeOptions>(app, session, kJobCommands, "converge",
+                                                                "Estimate the mesh error of a case", run_converge);
   add_case_options(*converge, options->scene);
   converge->get_option("CASE")->description(
       "A case file, - for stdin, or preset:NAME; or sweeps/NAME, to print the estimates of a sweep over meshes again");
-  converge->add_option("--meshes", options->meshes, "Elements per wall of the meshes to compare (default: 2,4,8)")
-      ->group(kCaseOptions)
+  add_option(*converge, kCaseOptions, "--meshes", options->meshes,
+             "Elements per wall of the meshes to compare (default: 2,4,8)")
       ->delimiter(',')
       ->check(CLI::Range(1, 64));
-  converge
-      ->add_option("--seeds", options->seeds,
-                   "Number of runs with each mesh, with seeds 1 to N of the imperfection (default: 5)")
-      ->group(kCaseOptions)
+  add_option(*converge, kCaseOptions, "--seeds", options->seeds,
+             "Number of runs with each mesh, with seeds 1 to N of the imperfection (default: 5)")
       ->check(CLI::Range(1, 100));
-  converge
-      ->add_option("--error", options->wanted_error,
-                   "Relative error that the plateau stresses may have, above 0 and at most 1 (default: 0.05)")
-      ->group(kOutputOptions)
+  add_option(*converge, kOutputOptions, "--error", options->wanted_error,
+             "Relative error that the plateau stresses may have, above 0 and at most 1 (default: 0.05)")
       ->check(CLI::Range(1e-6, 1.0));
   add_executor_option(*converge, options->executor);
-  converge->add_flag("--cost", options->only_cost, "Print the predicted cost and queue nothing")->group(kOutputOptions);
+  add_option(*converge, kOutputOptions, "--cost", options->only_cost, "Print the predicted cost and queue nothing");
   add_examples(*converge, {"cellcrush converge preset:hexagon-small --set lattice.imperfection.amplitude_mm=0.01",
                            "cellcrush converge my.txtpb --meshes 4,8,16 --seeds 8 --cost",
                            "cellcrush converge sweeps/3 --error 0.02"});

@@ -5,8 +5,7 @@
 
 #include "commands/commands.h"
 #include "help/case_manual.h"
-#include "help/wrapped_text.h"
-#include "terminal/json_text.h"
+#include "terminal/table.h"
 #include "terminal/terminal.h"
 
 namespace cellcrush::client {
@@ -15,31 +14,11 @@ namespace {
 
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-std::string indented(const std::string& text, std::size_t columns) {
-  std::string out;
-  for (const char character : text) {
-    out += character;
-    if (character == '\n') out.append(columns, ' ');
-  }
-  return out;
-}
-
 // One line per name and text, with the texts aligned.
 std::string two_columns(const NamedTexts& entries, int width) {
-  std::size_t longest = 0;
-  for (const auto& [name, text] : entries) longest = std::max(longest, name.size());
-  const std::size_t column = longest + 4;
-  constexpr int kLeast = 20;
-  constexpr int kBelow = 6;
-  const int room = width - static_cast<int>(column);
-  std::string out;
-  for (const auto& [name, text] : entries) {
-    // If there is no room beside the names, the texts go below them.
-    out += room < kLeast ? fmt::format("  {}\n{}{}\n", name, std::string(kBelow, ' '),
-                                       indented(wrap_text(text, std::max(width - kBelow, 1)), kBelow))
-                         : fmt::format("  {:<{}}  {}\n", name, longest, indented(wrap_text(text, room), column));
-  }
-  return out;
+  Table table({Table::Align::left, Table::Align::left});
+  for (const auto& [name, text] : entries) table.add({name, text});
+  return table.text(2, width);
 }
 
 std::string manual_text(const FieldManual& manual, int width) {
@@ -90,10 +69,9 @@ ExitCode run_explain(const Session& session, const std::string& path) {
 
 void add_explain_command(CLI::App& app, Session& session) {
   const auto path = std::make_shared<std::string>();
-  CLI::App* command =
-      add_command(app, session, "explain", "Describe a field of a case: its type, unit, default and limits",
-                  [&session, path] { return run_explain(session, *path); });
-  command->group(kCaseCommands);
+  CLI::App* command = add_command(app, session, kCaseCommands, "explain",
+                                  "Describe a field of a case: its type, unit, default and limits",
+                                  [&session, path] { return run_explain(session, *path); });
   command->add_option("PATH", *path, "Field path, such as loading.speed_m_per_s (default: the whole case)");
   add_examples(*command, {"cellcrush explain", "cellcrush explain loading", "cellcrush explain loading.ramp_strain"});
 }

@@ -1,13 +1,12 @@
 #include <fmt/format.h>
-#include <google/protobuf/struct.pb.h>
 
 #include <chrono>
 #include <cstdint>
 
 #include "commands/commands.h"
-#include "terminal/json_text.h"
 #include "terminal/number_text.h"
 #include "terminal/output_file.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -30,32 +29,22 @@ struct Exported {
 };
 
 Exported download_page(Connection& connection, const v1::ExportJobRequest& request, OutputFile& file) {
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(10));
-  const auto reader = connection.jobs().ExportJob(&context, request);
-  v1::ExportJobResponse chunk;
   Exported out;
-  while (reader->Read(&chunk)) {
+  const auto take = [&](const v1::ExportJobResponse& chunk) {
     file.write(chunk.data());
     out.bytes += static_cast<std::int64_t>(chunk.data().size());
     out.frame_count = chunk.frame_count();
     out.job_frame_count = chunk.job_frame_count();
-  }
-  const grpc::Status status = reader->Finish();
+    return true;
+  };
+  const grpc::Status status =
+      connection.read(connection.jobs(), &v1::Jobs::Stub::ExportJob, request, std::chrono::minutes(10), take);
   if (status.ok()) return out;
   if (out.bytes > 0 && exit_code_of(status.error_code()) == ExitCode::no_connection) {
     throw CommandError(ExitCode::cut_off,
                        fmt::format("the export broke off at byte {}: {}", out.bytes, status.error_message()));
   }
   throw error_of(status);
-}
-
-void print_exported_json(const std::string& path, const Exported& exported) {
-  google::protobuf::Struct json;
-  (*json.mutable_fields())["path"].set_string_value(path);
-  (*json.mutable_fields())["frame_count"].set_number_value(exported.frame_count);
-  (*json.mutable_fields())["job_frame_count"].set_number_value(exported.job_frame_count);
-  print_json(json);
 }
 
 ExitCode run_export(Session& session, const ExportOptions& options) {
@@ -67,7 +56,8 @@ ExitCode run_export(Session& session, const ExportOptions& options) {
   const Exported exported = download_page(session.connection(), request, file);
   file.commit();
   if (session.json) {
-    print_exported_json(options.file, exported);
+    print_file_json(options.file,
+                    {{"frame_count", exported.frame_count}, {"job_frame_count", exported.job_frame_count}});
     return ExitCode::done;
   }
   fmt::print("{}  {}", options.file, size_text(exported.bytes));
@@ -81,17 +71,13 @@ ExitCode run_export(Session& session, const ExportOptions& options) {
 }  // namespace
 
 void add_export_command(CLI::App& app, Session& session) {
-  const auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      add_command(app, session, "export", "Save an ended job as one HTML file that opens without a daemon",
-                  [&session, options] { return run_export(session, *options); });
-  command->group(kResultCommands);
+  const auto [command, options] =
+      add_command<ExportOptions>(app, session, kResultCommands, "export",
+                                 "Save an ended job as one HTML file that opens without a daemon", run_export);
   command->add_option("NAME", options->name, "Job name")->required();
-  command->add_option("-o,--output", options->file, "HTML file, such as FILE.html")->required()->group(kOutputOptions);
-  command
-      ->add_option("--max-size", options->megabytes,
-                   "Approximate size of the file, in MB; limits the number of frames (default: 20)")
-      ->group(kOutputOptions)
+  add_option(*command, kOutputOptions, "-o,--output", options->file, "HTML file, such as FILE.html")->required();
+  add_option(*command, kOutputOptions, "--max-size", options->megabytes,
+             "Approximate size of the file, in MB; limits the number of frames (default: 20)")
       ->check(CLI::Range(1.0, 1e4));
   add_examples(*command,
                {"cellcrush export jobs/12 -o crush.html", "cellcrush export jobs/12 -o crush.html --max-size 100"});

@@ -10,9 +10,9 @@
 #include "commands/history_csv.h"
 #include "connection/pages.h"
 #include "terminal/case_text.h"
-#include "terminal/json_text.h"
 #include "terminal/number_text.h"
 #include "terminal/output_file.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -33,14 +33,6 @@ struct FetchOptions {
   std::string folder;
   std::vector<double> frame_times;
 };
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error)) {
-    throw CommandError(ExitCode::refused, folder.string() + ": cannot create this folder: " + error.message());
-  }
-}
 
 // Files that appear under their names once all are complete; until then the folder is unchanged.
 class FetchedFiles {
@@ -73,20 +65,20 @@ class FetchedFiles {
 // Appends chunks to the file; returns whether the end was reached.
 grpc::Status download_from(Connection& connection, v1::DownloadResultRequest& request, OutputFile& file,
                            std::int64_t& total) {
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(10));
-  const auto reader = connection.jobs().DownloadResult(&context, request);
-  v1::DownloadResultResponse chunk;
-  while (reader->Read(&chunk)) {
-    if (chunk.offset() != request.offset()) {
-      context.TryCancel();
-      return {grpc::StatusCode::DATA_LOSS, fmt::format("bytes are missing from offset {}", request.offset())};
-    }
+  bool is_whole = true;
+  const auto take = [&](const v1::DownloadResultResponse& chunk) {
+    is_whole = is_whole && chunk.offset() == request.offset();
+    if (!is_whole) return false;
     file.write(chunk.data());
     request.set_offset(chunk.offset() + static_cast<std::int64_t>(chunk.data().size()));
     total = chunk.total_size();
-  }
-  return reader->Finish();
+    return true;
+  };
+  const v1::DownloadResultRequest from = request;
+  const grpc::Status status =
+      connection.read(connection.jobs(), &v1::Jobs::Stub::DownloadResult, from, std::chrono::minutes(10), take);
+  if (is_whole) return status;
+  return {grpc::StatusCode::DATA_LOSS, fmt::format("bytes are missing from offset {}", request.offset())};
 }
 
 void download_result(Connection& connection, const std::string& name, OutputFile& file) {
@@ -116,9 +108,7 @@ std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string
                                        const std::vector<fs::path>& written) {
   const fs::path case_file = folder / "case.txtpb";
   std::error_code error;
-  const bool is_other_job = begins_with_one_of(case_file, {kCaseSignature}) &&
-                            !(fs::file_size(case_file, error) == case_text.size() &&
-                              begins_with_one_of(case_file, {std::string_view(case_text)}));
+  const bool is_other_job = begins_with_one_of(case_file, {kCaseSignature}) && !holds_text(case_file, case_text);
   std::vector<fs::path> stale;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
@@ -139,9 +129,7 @@ fs::path frame_path(const fs::path& folder, const MeshFrame& frame) {
 
 ExitCode run_fetch(Session& session, const FetchOptions& options) {
   Connection& connection = session.connection();
-  v1::GetJobRequest get;
-  get.set_name(job_name(options.name));
-  const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, get);
+  const auto job = fetch_job(connection, job_name(options.name));
   const auto files = write_results(connection, job, options.folder, options.frame_times);
   if (session.json) {
     print_json(job);
@@ -180,10 +168,8 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
     files.add(folder / "rigid_walls.csv", {rigid_walls_header()}).write(walls);
   }
   for (const double time : frame_times) {
-    v1::GetFrameRequest request;
-    request.set_name(job.name());
-    request.set_time_s(time);
-    const MeshFrame frame = fetch_frame(connection, request);
+    const MeshFrame frame =
+        fetch_frame(connection, job.name(), [time](v1::GetFrameRequest& request) { request.set_time_s(time); });
     files.add(frame_path(folder, frame), {frame_header()}).write(frame_csv(frame));
   }
   download_result(connection, job.name(), result);
@@ -200,19 +186,13 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
 }
 
 void add_fetch_command(CLI::App& app, Session& session) {
-  const auto options = std::make_shared<FetchOptions>();
-  CLI::App* command = add_command(app, session, "fetch",
-                                  "Download a job's result.h5, history.csv, nodes.csv, rigid_walls.csv and case.txtpb",
-                                  [&session, options] { return run_fetch(session, *options); });
-  command->group(kResultCommands);
+  const auto [command, options] = add_command<FetchOptions>(
+      app, session, kResultCommands, "fetch",
+      "Download a job's result.h5, history.csv, nodes.csv, rigid_walls.csv and case.txtpb", run_fetch);
   command->add_option("NAME", options->name, "Job name")->required();
-  command->add_option("-o,--output", options->folder, "Output folder, created if missing")
-      ->required()
-      ->group(kOutputOptions);
-  command
-      ->add_option("--frame", options->frame_times,
-                   "Also write the frame nearest to this time, in s, as CSV (may be repeated; default: none)")
-      ->group(kOutputOptions)
+  add_option(*command, kOutputOptions, "-o,--output", options->folder, "Output folder, created if missing")->required();
+  add_option(*command, kOutputOptions, "--frame", options->frame_times,
+             "Also write the frame nearest to this time, in s, as CSV (may be repeated; default: none)")
       ->allow_extra_args(false);
   add_examples(*command, {"cellcrush fetch jobs/12 -o results", "cellcrush fetch jobs/12 -o results --frame 0.0005"});
 }

@@ -6,9 +6,10 @@
 #include <string>
 
 #include "commands/commands.h"
-#include "terminal/json_text.h"
+#include "connection/pages.h"
 #include "terminal/sweep_text.h"
 #include "terminal/table.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -21,29 +22,29 @@ using JobMethod = grpc::Status (v1::Jobs::Stub::*)(grpc::ClientContext*, const R
 template <typename Request>
 void change_job(Session& session, const std::string& name, JobMethod<Request> method) {
   Connection& connection = session.connection();
-  Request request;
-  request.set_name(job_name(name));
-  const v1::Job job = connection.call(connection.jobs(), method, request);
+  const v1::Job job = connection.call_for(job_name(name), connection.jobs(), method);
   session.json ? print_json(job) : fmt::print("{} {}\n", printable(job.name()), v1::Job::State_Name(job.state()));
 }
 
-void cancel_sweep(Session& session, const std::string& name) {
+template <typename Request>
+using SweepMethod = grpc::Status (v1::Sweeps::Stub::*)(grpc::ClientContext*, const Request&, v1::Sweep*);
+
+// The same for a sweep.
+template <typename Request>
+void change_sweep(Session& session, const std::string& name, SweepMethod<Request> method) {
   Connection& connection = session.connection();
-  v1::CancelSweepRequest request;
-  request.set_name(name);
-  const v1::Sweep sweep = connection.call(connection.sweeps(), &v1::Sweeps::Stub::CancelSweep, request);
+  const v1::Sweep sweep = connection.call_for(sweep_name(name), connection.sweeps(), method);
   session.json ? print_json(sweep) : fmt::print("{}", sweep_line(sweep));
 }
 
 CLI::App* add_named_command(CLI::App& app, Session& session, const char* command_name, const char* description,
-                            const char* name_help, void (*action)(Session&, const std::string&)) {
+                            const char* argument, const char* name_help, void (*action)(Session&, const std::string&)) {
   const auto name = std::make_shared<std::string>();
-  CLI::App* command = add_command(app, session, command_name, description, [&session, name, action] {
+  CLI::App* command = add_command(app, session, kJobCommands, command_name, description, [&session, name, action] {
     action(session, *name);
     return ExitCode::done;
   });
-  command->group(kJobCommands);
-  command->add_option("NAME", *name, name_help)->required();
+  command->add_option(argument, *name, name_help)->required();
   return command;
 }
 
@@ -63,17 +64,13 @@ struct DeleteOptions {
 };
 
 std::string job_question(Connection& connection, const std::string& name) {
-  v1::GetJobRequest request;
-  request.set_name(name);
-  const v1::Job job = connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, request);
+  const v1::Job job = fetch_job(connection, name);
   const std::string title = job.case_().title().empty() ? "" : ", " + printable(job.case_().title());
   return fmt::format("Delete {} ({}{}) and its results?", name, v1::Job::State_Name(job.state()), title);
 }
 
 std::string sweep_question(Connection& connection, const std::string& name) {
-  v1::GetSweepRequest request;
-  request.set_name(name);
-  const v1::Sweep sweep = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweep, request);
+  const v1::Sweep sweep = fetch_sweep(connection, name);
   return fmt::format("Delete {} with its {} jobs and their results?", name, sweep.jobs_size());
 }
 
@@ -86,9 +83,7 @@ ExitCode ask_and_delete(Session& session, Stub& stub,
   if (!yes && !confirm([&] { return question(connection, name); })) {
     throw CommandError(ExitCode::refused, name + " was not deleted");
   }
-  Request request;
-  request.set_name(name);
-  const Response response = connection.call(stub, method, request);
+  const Response response = connection.call_for(name, stub, method);
   session.json ? print_json(response) : fmt::print("{} deleted\n", name);
   return ExitCode::done;
 }
@@ -107,26 +102,26 @@ ExitCode run_delete(Session& session, const DeleteOptions& options) {
 
 void add_job_commands(CLI::App& app, Session& session) {
   CLI::App* cancel =
-      add_named_command(app, session, "cancel", "Cancel a job, or all jobs of a sweep; results so far are kept",
+      add_named_command(app, session, "cancel", "Cancel a job, or all jobs of a sweep; results so far are kept", "NAME",
                         "Name of a job or a sweep", [](Session& s, const std::string& name) {
-                          names_sweep(name) ? cancel_sweep(s, name) : change_job(s, name, &v1::Jobs::Stub::CancelJob);
+                          names_sweep(name) ? change_sweep(s, name, &v1::Sweeps::Stub::CancelSweep)
+                                            : change_job(s, name, &v1::Jobs::Stub::CancelJob);
                         });
   add_examples(*cancel, {"cellcrush cancel jobs/12", "cellcrush cancel sweeps/3"});
   CLI::App* suspend =
-      add_named_command(app, session, "suspend", "Stop a job at a checkpoint; resume continues it", "Job name",
+      add_named_command(app, session, "suspend", "Stop a job at a checkpoint; resume continues it", "NAME", "Job name",
                         [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::SuspendJob); });
   add_examples(*suspend, {"cellcrush suspend jobs/12"});
   CLI::App* resume =
-      add_named_command(app, session, "resume", "Continue a suspended job", "Job name",
+      add_named_command(app, session, "resume", "Continue a suspended job", "NAME", "Job name",
                         [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::ResumeJob); });
   add_examples(*resume, {"cellcrush resume jobs/12"});
-}
-
-void add_delete_command(CLI::App& app, Session& session) {
-  const auto options = std::make_shared<DeleteOptions>();
-  CLI::App* command = add_command(app, session, "delete", "Delete a job, or a sweep with all its jobs; asks first",
-                                  [&session, options] { return run_delete(session, *options); });
-  command->group(kJobCommands);
+  CLI::App* retry = add_named_command(
+      app, session, "retry", "Queue the failed jobs of a sweep again", "SWEEP", "Name of a sweep",
+      [](Session& s, const std::string& name) { change_sweep(s, name, &v1::Sweeps::Stub::RetryFailedJobs); });
+  add_examples(*retry, {"cellcrush retry sweeps/3"});
+  const auto [command, options] = add_command<DeleteOptions>(
+      app, session, kJobCommands, "delete", "Delete a job, or a sweep with all its jobs; asks first", run_delete);
   command->add_option("NAME", options->name, "Job name, or sweeps/NAME")->required();
   command->add_flag("-y,--yes", options->yes,
                     "Delete without asking, as also happens when standard input is not a terminal");

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <google/protobuf/struct.pb.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,8 +15,8 @@
 #include "commands/commands.h"
 #include "connection/frames.h"
 #include "plots/job_picture.h"
-#include "terminal/json_text.h"
 #include "terminal/output_file.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -39,18 +38,10 @@ void check_ffmpeg() {
 // Encodes frame_00000.png and so on of a folder as a movie, in the format of the file's name. Throws CommandError
 // (refused) when ffmpeg fails.
 void encode_movie(const std::filesystem::path& frames, int frames_per_second, const std::filesystem::path& movie) {
-  std::vector<std::string> words = {"ffmpeg",
-                                    "-nostdin",
-                                    "-y",
-                                    "-loglevel",
-                                    "error",
-                                    "-framerate",
-                                    std::to_string(frames_per_second),
-                                    "-i",
-                                    (frames / "frame_%05d.png").string(),
-                                    "-pix_fmt",
-                                    "yuv420p",
-                                    movie.string()};
+  const std::string rate = std::to_string(frames_per_second);
+  const std::string pattern = frames / "frame_%05d.png";
+  std::vector<std::string> words = {"ffmpeg", "-nostdin", "-y",    "-loglevel", "error",   "-framerate",
+                                    rate,     "-i",       pattern, "-pix_fmt",  "yuv420p", movie.string()};
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
@@ -93,50 +84,29 @@ class TemporaryFolder {
   std::string path_;
 };
 
-MeshFrame fetch_frame_number(Connection& connection, const std::string& name, int number) {
-  v1::GetFrameRequest request;
-  request.set_name(name);
-  request.set_index(number);
-  return fetch_frame(connection, request);
-}
-
-void save_file(const fs::path& path, std::string_view bytes) {
-  OutputFile file(path);
-  file.write(bytes);
-  file.commit();
-}
-
 // Draws all frames of a job as frame_00000.png and so on; returns their number. Fetches them twice, for the common box
 // and for drawing, because the frames of a large lattice do not fit into memory together.
 int draw_frames(Connection& connection, const std::string& name, const fs::path& folder) {
-  const MeshFrame last = fetch_frame_number(connection, name, -1);
+  const MeshFrame last = fetch_frame(connection, name, -1);
   const int count = last.frame.index() + 1;
   Box box = find_box({lattice_stage(last)});
   for (int i = 0; i + 1 < count; ++i) {
-    const Box other = find_box({lattice_stage(fetch_frame_number(connection, name, i))});
+    const Box other = find_box({lattice_stage(fetch_frame(connection, name, i))});
     box = {std::min(box.low_x, other.low_x), std::max(box.high_x, other.high_x), std::min(box.low_y, other.low_y),
            std::max(box.high_y, other.high_y)};
   }
   for (int i = 0; i < count; ++i) {
-    const MeshFrame frame = i + 1 < count ? fetch_frame_number(connection, name, i) : last;
-    save_file(folder / fmt::format("frame_{:05}.png", i), render_movie_frame(lattice_stage(frame), box));
+    const MeshFrame frame = i + 1 < count ? fetch_frame(connection, name, i) : last;
+    write_file(folder / fmt::format("frame_{:05}.png", i), render_movie_frame(lattice_stage(frame), box));
   }
   return count;
 }
 
-void print_movie_json(const std::string& path, int frames) {
-  google::protobuf::Struct json;
-  (*json.mutable_fields())["path"].set_string_value(path);
-  (*json.mutable_fields())["frame_count"].set_number_value(frames);
-  print_json(json);
-}
-
 void keep_frames(Session& session, const MovieOptions& options) {
-  std::error_code error;
-  fs::create_directories(options.folder, error);
-  if (error) throw CommandError(ExitCode::refused, options.folder + ": cannot create this folder: " + error.message());
+  make_folder(options.folder);
   const int count = draw_frames(session.connection(), job_name(options.name), options.folder);
-  session.json ? print_movie_json(options.folder, count) : fmt::print("{}  {} frames\n", options.folder, count);
+  session.json ? print_file_json(options.folder, {{"frame_count", count}})
+               : fmt::print("{}  {} frames\n", options.folder, count);
 }
 
 void make_movie(Session& session, const MovieOptions& options) {
@@ -147,8 +117,8 @@ void make_movie(Session& session, const MovieOptions& options) {
   encode_movie(folder.path(), options.frames_per_second, movie);
   std::ostringstream bytes;
   bytes << std::ifstream(movie, std::ios::binary).rdbuf();
-  save_file(options.file, bytes.str());
-  session.json ? print_movie_json(options.file, count) : fmt::print("{}\n", options.file);
+  write_file(options.file, bytes.str());
+  session.json ? print_file_json(options.file, {{"frame_count", count}}) : fmt::print("{}\n", options.file);
 }
 
 ExitCode run_movie(Session& session, const MovieOptions& options) {
@@ -162,23 +132,15 @@ ExitCode run_movie(Session& session, const MovieOptions& options) {
 }  // namespace
 
 void add_movie_command(CLI::App& app, Session& session) {
-  const auto options = std::make_shared<MovieOptions>();
-  CLI::App* command = add_command(app, session, "movie", "Render the frames of a job as a movie; requires ffmpeg",
-                                  [&session, options] { return run_movie(session, *options); });
-  command->group(kResultCommands);
+  const auto [command, options] = add_command<MovieOptions>(
+      app, session, kResultCommands, "movie", "Render the frames of a job as a movie; requires ffmpeg", run_movie);
   command->add_option("NAME", options->name, "Job name")->required();
-  command
-      ->add_option("-o,--output", options->file,
-                   "Movie file, such as FILE.mp4 (default: none; required without --frames)")
-      ->group(kOutputOptions);
-  command
-      ->add_option(
-          "--frames", options->folder,
-          "Write the frames to this folder instead, as numbered PNG files of one size; does not require ffmpeg "
-          "(default: none)")
-      ->group(kOutputOptions);
-  command->add_option("--fps", options->frames_per_second, "Frames per second (default: 10)")
-      ->group(kOutputOptions)
+  add_option(*command, kOutputOptions, "-o,--output", options->file,
+             "Movie file, such as FILE.mp4 (default: none; required without --frames)");
+  add_option(*command, kOutputOptions, "--frames", options->folder,
+             "Write the frames to this folder instead, as numbered PNG files of one size; does not require ffmpeg "
+             "(default: none)");
+  add_option(*command, kOutputOptions, "--fps", options->frames_per_second, "Frames per second (default: 10)")
       ->check(CLI::Range(1, 120));
   add_examples(*command, {"cellcrush movie jobs/12 -o crush.mp4", "cellcrush movie jobs/12 --frames frames"});
 }

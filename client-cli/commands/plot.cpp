@@ -7,8 +7,8 @@
 #include "connection/frames.h"
 #include "connection/pages.h"
 #include "plots/job_picture.h"
-#include "terminal/json_text.h"
 #include "terminal/output_file.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -26,12 +26,6 @@ struct PlotOptions {
   std::string logarithmic;  ///< the letters of the axes
 };
 
-v1::Job fetch_job(Connection& connection, const std::string& name) {
-  v1::GetJobRequest request;
-  request.set_name(name);
-  return connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, request);
-}
-
 JobHistory fetch_drawable_history(Connection& connection, const v1::Job& job) {
   const auto samples = fetch_history(connection, job.name());
   if (samples.samples_size() == 0) {
@@ -46,12 +40,6 @@ std::vector<MeshFrame> fetch_stages(Connection& connection, const std::string& n
                                        : fetch_stages_at(connection, name, options.frame_strains);
 }
 
-void write_picture(const std::string& path, const std::string& picture) {
-  OutputFile file(path);
-  file.write(picture);
-  file.commit();
-}
-
 void plot_sweeps(Session& session, const PlotOptions& options) {
   const PictureFormat format = picture_format(options.file);
   Connection& connection = session.connection();
@@ -60,7 +48,7 @@ void plot_sweeps(Session& session, const PlotOptions& options) {
     sweeps.push_back({fetch_sweep(connection, name), fetch_table(connection, name)});
   }
   const auto has = [&](char axis) { return options.logarithmic.find(axis) != std::string::npos; };
-  write_picture(options.file, render_sweep_picture(format, sweeps, {has('x'), has('y')}));
+  write_file(options.file, render_sweep_picture(format, sweeps, {has('x'), has('y')}));
   if (session.json) {
     for (const SweepResults& results : sweeps) print_json(results.table);
   } else {
@@ -87,7 +75,7 @@ void plot_jobs(Session& session, const PlotOptions& options) {
   Connection& connection = session.connection();
   v1::ListJobsResponse jobs;
   for (const std::string& name : options.names) *jobs.add_jobs() = fetch_job(connection, job_name(name));
-  write_picture(options.file, render_jobs(connection, format, jobs, options));
+  write_file(options.file, render_jobs(connection, format, jobs, options));
   session.json ? print_json(jobs) : fmt::print("{}\n", options.file);
 }
 
@@ -115,32 +103,25 @@ ExitCode run_plot(Session& session, const PlotOptions& options) {
 }  // namespace
 
 void add_plot_command(CLI::App& app, Session& session) {
-  const auto options = std::make_shared<PlotOptions>();
-  CLI::App* command = add_command(app, session, "plot",
-                                  "Plot a job's frames and stress-strain curve, compare several jobs, or plot sweeps",
-                                  [&session, options] { return run_plot(session, *options); });
-  command->group(kResultCommands);
+  const auto [command, options] = add_command<PlotOptions>(
+      app, session, kResultCommands, "plot",
+      "Plot a job's frames and stress-strain curve, compare several jobs, or plot sweeps", run_plot);
   command->add_option("NAME", options->names, "Names of jobs, or of sweeps over the same field")->required();
-  command->add_option("-o,--output", options->file, "Picture file: FILE.svg, FILE.pdf or FILE.png")
-      ->required()
-      ->group(kOutputOptions);
-  command
-      ->add_option("--frame-strain", options->frame_strains,
-                   "Show the frame nearest to this nominal strain (may be repeated; default: 0.2, 0.4 and the end)")
-      ->group(kFrameOptions)
+  add_option(*command, kOutputOptions, "-o,--output", options->file, "Picture file: FILE.svg, FILE.pdf or FILE.png")
+      ->required();
+  add_option(*command, kFrameOptions, "--frame-strain", options->frame_strains,
+             "Show the frame nearest to this nominal strain (may be repeated; default: 0.2, 0.4 and the end)")
       ->allow_extra_args(false);
-  command
-      ->add_option("--strip", options->strip,
-                   "Show this many frames, evenly spaced over the run (default: the frames of --frame-strain)")
-      ->group(kFrameOptions)
+  add_option(*command, kFrameOptions, "--strip", options->strip,
+             "Show this many frames, evenly spaced over the run (default: the frames of --frame-strain)")
       ->check(CLI::Range(1, 100));
-  command->add_option("--log", options->logarithmic, "Logarithmic axes of a sweep plot: x, y or xy (default: none)")
-      ->group(kOutputOptions)
+  add_option(*command, kOutputOptions, "--log", options->logarithmic,
+             "Logarithmic axes of a sweep plot: x, y or xy (default: none)")
       ->check(CLI::IsMember({"x", "y", "xy"}));
-  command->add_flag("--frames-only", options->frames_only, "Draw the frames alone, without title and curve")
-      ->group(kFrameOptions);
-  command->add_flag("--wide", options->wide, "Draw the frames beside the stress curves, as for a slide")
-      ->group(kFrameOptions);
+  add_option(*command, kFrameOptions, "--frames-only", options->frames_only,
+             "Draw the frames alone, without title and curve");
+  add_option(*command, kFrameOptions, "--wide", options->wide,
+             "Draw the frames beside the stress curves, as for a slide");
   add_examples(*command, {"cellcrush plot jobs/12 -o crush.png", "cellcrush plot jobs/12 jobs/13 -o compared.svg",
                           "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf"});
 }

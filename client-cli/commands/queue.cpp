@@ -8,7 +8,7 @@
 #include "commands/commands.h"
 #include "connection/interruption.h"
 #include "terminal/job_list_text.h"
-#include "terminal/json_text.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -47,7 +47,7 @@ ExitCode run_queue(Session& session) {
 // Whether the drained server has ended: nobody answers, or a server that was not drained.
 bool has_ended(Connection& connection) {
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kToAnswer);
+  connection.prepare(context, kToAnswer);
   v1::Capabilities capabilities;
   const auto status = connection.admin().GetCapabilities(&context, v1::GetCapabilitiesRequest(), &capabilities);
   if (status.ok()) return !capabilities.draining();
@@ -79,14 +79,14 @@ ExitCode run_drain(Session& session, bool wait) {
 }  // namespace
 
 void add_queue_commands(CLI::App& app, Session& session) {
-  CLI::App* queue = add_command(app, session, "queue", "List the waiting jobs in starting order, and why they wait",
-                                [&session] { return run_queue(session); });
-  queue->group(kServerCommands);
+  CLI::App* queue =
+      add_command(app, session, kServerCommands, "queue", "List the waiting jobs in starting order, and why they wait",
+                  [&session] { return run_queue(session); });
   add_examples(*queue, {"cellcrush queue"});
   const auto wait = std::make_shared<bool>(false);
-  CLI::App* drain = add_command(app, session, "drain", "Shut the server down; it checkpoints its running jobs",
-                                [&session, wait] { return run_drain(session, *wait); });
-  drain->group(kServerCommands);
+  CLI::App* drain =
+      add_command(app, session, kServerCommands, "drain", "Shut the server down; it checkpoints its running jobs",
+                  [&session, wait] { return run_drain(session, *wait); });
   drain->add_flag("--wait", *wait, "Wait until the server has exited; Ctrl-C ends the wait, not the shutdown");
   add_examples(*drain, {"cellcrush drain --wait"});
 }

@@ -12,7 +12,8 @@
 #include "commands/watch.h"
 #include "connection/private_daemon.h"
 #include "terminal/case_text.h"
-#include "terminal/json_text.h"
+#include "terminal/output_file.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 namespace {
@@ -34,9 +35,8 @@ struct RunOptions {
 class PrivateData {
  public:
   explicit PrivateData(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)), is_kept_(was_there_) {
+    make_folder(path_);
     std::error_code error;
-    fs::create_directories(path_, error);
-    if (error) throw CommandError(ExitCode::refused, path_.string() + ": cannot be created: " + error.message());
     fs::permissions(path_, fs::perms::owner_all, error);
   }
   ~PrivateData() {
@@ -64,13 +64,6 @@ std::optional<v1::Job> find_unfinished(Connection& connection) {
 
 std::string text_of(const v1::Case& scene) { return case_file_text(scene, std::string("Case of ") + kJob); }
 
-bool has_text(const fs::path& path, const std::string& text) {
-  std::error_code error;
-  if (fs::file_size(path, error) != text.size() || error) return false;
-  std::ifstream file(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(file), {}) == text;
-}
-
 // The job to run: a new one, or the unfinished one of the same case.
 void start_job(Session& session, const v1::Case& scene, const RunOptions& options) {
   Connection& connection = session.connection();
@@ -92,7 +85,7 @@ void start_job(Session& session, const v1::Case& scene, const RunOptions& option
 
 // Whether the folder has the result of a complete run of the case. A failed run leaves no case.txtpb.
 bool holds_result(const fs::path& folder, const v1::Case& scene) {
-  return has_text(folder / "case.txtpb", text_of(scene)) && fs::exists(folder / "result.h5");
+  return holds_text(folder / "case.txtpb", text_of(scene)) && fs::exists(folder / "result.h5");
 }
 
 // Rewords the error of a broken watch: nobody else can reach this daemon.
@@ -161,10 +154,8 @@ ExitCode run_case(Session& session, const RunOptions& options) {
 }  // namespace
 
 void add_run_command(CLI::App& app, Session& session) {
-  const auto options = std::make_shared<RunOptions>();
-  CLI::App* command = add_command(app, session, "run", "Run a case in the foreground, without a daemon",
-                                  [&session, options] { return run_case(session, *options); });
-  command->group(kJobCommands);
+  const auto [command, options] = add_command<RunOptions>(app, session, kJobCommands, "run",
+                                                          "Run a case in the foreground, without a daemon", run_case);
   add_case_options(*command, options->scene);
   command
       ->add_option("-o,--output", options->folder,

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "case_file/case_source.h"
 #include "commands/commands.h"
 #include "connection/pages.h"
 #include "terminal/case_text.h"
+#include "terminal/job_list_text.h"
 #include "terminal/job_text.h"
-#include "terminal/json_text.h"
+#include "terminal/sweep_table.h"
 #include "terminal/sweep_text.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -14,17 +18,12 @@ namespace {
 
 void show_preset(Session& session, const std::string& name) {
   Connection& connection = session.connection();
-  v1::GetPresetRequest request;
-  request.set_name(name);
-  const auto preset = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request);
+  const auto preset = connection.call_for(name, connection.cases(), &v1::Cases::Stub::GetPreset);
   session.json ? print_json(preset) : fmt::print("{}", case_file_text(preset.case_(), preset_heading(preset)));
 }
 
 void show_job(Session& session, const std::string& name) {
-  Connection& connection = session.connection();
-  v1::GetJobRequest request;
-  request.set_name(job_name(name));
-  const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, request);
+  const auto job = fetch_job(session.connection(), job_name(name));
   session.json ? print_json(job) : fmt::print("{}", description_text(job));
 }
 
@@ -33,22 +32,110 @@ void show_sweep(Session& session, const std::string& name) {
   session.json ? print_json(sweep) : fmt::print("{}", description_text(sweep));
 }
 
+constexpr int kListPage = 1000;
+
+struct ListOptions {
+  std::string filter;
+  std::string order;
+  int limit = 0;  ///< 0: all
+  bool sweeps = false;
+};
+
+// Sets the size of the next page, given the `size` entries received; false if that is enough.
+template <typename Request>
+bool ask_for_more(const ListOptions& options, int size, Request& request) {
+  request.set_page_size(options.limit > 0 ? std::min(kListPage, options.limit - size) : kListPage);
+  return options.limit == 0 || size < options.limit;
+}
+
+void list_jobs(Session& session, const ListOptions& options) {
+  Connection& connection = session.connection();
+  v1::ListJobsRequest request;
+  request.set_filter(options.filter);
+  request.set_order_by(options.order);
+  const auto all = call_for_pages(connection, connection.jobs(), &v1::Jobs::Stub::ListJobs, request,
+                                  [&](const v1::ListJobsResponse& so_far, v1::ListJobsRequest& next) {
+                                    return ask_for_more(options, so_far.jobs_size(), next);
+                                  });
+  session.json ? print_json(all) : fmt::print("{}", job_list_text({all.jobs().begin(), all.jobs().end()}));
+}
+
+void list_sweeps(Session& session, const ListOptions& options) {
+  if (!options.filter.empty() || !options.order.empty()) {
+    throw CommandError(ExitCode::refused,
+                       "list: --filter and --order apply to jobs only; leave them out with --sweeps");
+  }
+  Connection& connection = session.connection();
+  const auto all =
+      call_for_pages(connection, connection.sweeps(), &v1::Sweeps::Stub::ListSweeps, v1::ListSweepsRequest(),
+                     [&](const v1::ListSweepsResponse& so_far, v1::ListSweepsRequest& next) {
+                       return ask_for_more(options, so_far.sweeps_size(), next);
+                     });
+  session.json ? print_json(all) : fmt::print("{}", sweep_list_text({all.sweeps().begin(), all.sweeps().end()}));
+}
+
+struct TableOptions {
+  std::string name;
+  bool csv = false;
+  int digits = kTableDigits;
+};
+
+ExitCode run_table(Session& session, const TableOptions& options) {
+  if (options.csv && session.json) throw CommandError(ExitCode::refused, "table: give either --csv or --json");
+  Connection& connection = session.connection();
+  const std::string name = sweep_name(options.name);
+  const auto table = fetch_table(connection, name);
+  if (session.json) {
+    print_json(table);
+  } else if (options.csv) {
+    fmt::print("{}", sweep_table_csv(table));
+  } else {
+    const auto sweep = fetch_sweep(connection, name);
+    fmt::print("{}", sweep_table_text(table, sweep.words().theory_note(), options.digits));
+  }
+  return ExitCode::done;
+}
+
 }  // namespace
 
-void add_show_command(CLI::App& app, Session& session) {
+void add_show_commands(CLI::App& app, Session& session) {
   const auto name = std::make_shared<std::string>();
-  CLI::App* command = add_command(
-      app, session, "show", "Print a preset as a complete case file, or describe a job or a sweep", [&session, name] {
-        if (const std::string preset = preset_name(*name); !preset.empty()) {
-          show_preset(session, preset);
-        } else {
-          names_sweep(*name) ? show_sweep(session, *name) : show_job(session, *name);
-        }
-        return ExitCode::done;
-      });
-  command->group(kCaseCommands);
+  CLI::App* command =
+      add_command(app, session, kCaseCommands, "show",
+                  "Print a preset as a complete case file, or describe a job or a sweep", [&session, name] {
+                    if (const std::string preset = preset_name(*name); !preset.empty()) {
+                      show_preset(session, preset);
+                    } else {
+                      names_sweep(*name) ? show_sweep(session, *name) : show_job(session, *name);
+                    }
+                    return ExitCode::done;
+                  });
   command->add_option("NAME", *name, "preset:NAME, or the name of a job or a sweep")->required();
   add_examples(*command, {"cellcrush show preset:type-i > my.txtpb", "cellcrush show jobs/12"});
+  const auto list_options = std::make_shared<ListOptions>();
+  CLI::App* list =
+      add_command(app, session, kJobCommands, "list", "List jobs or sweeps, newest first", [&session, list_options] {
+        list_options->sweeps ? list_sweeps(session, *list_options) : list_jobs(session, *list_options);
+        return ExitCode::done;
+      });
+  add_option(*list, kSelectionOptions, "--filter", list_options->filter,
+             "Only jobs that match: state = STATE, owner = \"NAME\", label.KEY = \"value\" or title : \"text\", "
+             "joined by AND; up to 4096 characters (default: all jobs)");
+  add_option(*list, kSelectionOptions, "--order,--order-by", list_options->order,
+             "Sort jobs by create_time or name; append desc to reverse the order (default: create_time desc)");
+  add_option(*list, kSelectionOptions, "--limit", list_options->limit, "Maximum number of entries (default: all)")
+      ->check(CLI::PositiveNumber);
+  add_option(*list, kSelectionOptions, "--sweeps", list_options->sweeps, "List sweeps instead of jobs");
+  add_examples(*list, {"cellcrush list --limit 10", "cellcrush list --filter 'state = RUNNING'",
+                       "cellcrush list --sweeps --json"});
+  const auto [table, table_options] = add_command<TableOptions>(
+      app, session, kResultCommands, "table", "Print the results of a sweep, one row per job", run_table);
+  table->add_option("SWEEP", table_options->name, "Name of a sweep")->required();
+  add_option(*table, kOutputOptions, "--digits", table_options->digits,
+             "Significant digits of the results; varied values are printed in full (default: 3)")
+      ->check(CLI::Range(1, 17));
+  add_option(*table, kOutputOptions, "--csv", table_options->csv, "Print CSV with all digits");
+  add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv"});
 }
 
 }  // namespace cellcrush::client

@@ -8,9 +8,9 @@
 #include "commands/commands.h"
 #include "connection/pages.h"
 #include "terminal/job_text.h"
-#include "terminal/json_text.h"
 #include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_table.h"
+#include "terminal/terminal.h"
 #include "terminal/watch_display.h"
 
 namespace cellcrush::client {
@@ -27,8 +27,8 @@ ExitCode say_interrupted(const std::string& name, bool ended) {
 
 WatchedJob show_job_to_its_end(Session& session, const std::string& name, const Interruption& interruption,
                                const std::string& time_limit_remedy) {
-  const auto display = make_watch_display(session.json, find_terminal());
-  const bool complete = follow_job(session.connection(), name, false, interruption, *display);
+  const auto display = make_job_display(session.json, find_terminal());
+  const bool complete = follow_job(session.connection(), name, interruption, *display);
   v1::Job job = display->view().job();
   if (job.cause() == v1::Job::TIME_LIMIT && !time_limit_remedy.empty()) job.set_remedy(time_limit_remedy);
   if (complete) {
@@ -68,12 +68,12 @@ ExitCode watch_sweep(Session& session, const std::string& name, const Interrupti
 
 void add_watch_command(CLI::App& app, Session& session) {
   const auto name = std::make_shared<std::string>();
-  CLI::App* command = add_command(app, session, "watch", "Follow a job or a sweep to its end", [&session, name] {
-    const Interruption interruption;
-    return names_sweep(*name) ? watch_sweep(session, *name, interruption)
-                              : watch_job(session, job_name(*name), interruption);
-  });
-  command->group(kJobCommands);
+  CLI::App* command =
+      add_command(app, session, kJobCommands, "watch", "Follow a job or a sweep to its end", [&session, name] {
+        const Interruption interruption;
+        return names_sweep(*name) ? watch_sweep(session, *name, interruption)
+                                  : watch_job(session, job_name(*name), interruption);
+      });
   command->add_option("NAME", *name, "Name of a job or a sweep")->required();
   add_examples(*command, {"cellcrush watch jobs/12", "cellcrush watch sweeps/3"});
 }

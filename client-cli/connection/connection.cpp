@@ -9,57 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "case_file/suggestion.h"
 #include "cellcrush/v1/cases_service.grpc.pb.h"
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "connection/credentials.h"
+#include "usage/suggestion.h"
 
 namespace cellcrush::client {
 
 namespace {
 
 constexpr std::string_view kPreset = "preset:";
-constexpr std::chrono::seconds kProbePatience{5};
-
-// A call that may fail: whether it went well.
-template <typename Stub, typename Request, typename Response>
-bool probe(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
-           const Request& request, Response& response) {
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kProbePatience);
-  return (stub.*method)(&context, request, &response).ok();
-}
-
-std::string find_nearest_preset(const std::string& word, v1::Cases::Stub& cases) {
-  v1::ListPresetsResponse presets;
-  if (!probe(cases, &v1::Cases::Stub::ListPresets, v1::ListPresetsRequest(), presets)) return {};
-  std::vector<std::string> names;
-  for (const v1::Preset& preset : presets.presets()) names.push_back(preset.name());
-  const std::string nearest = find_nearest(word, names);
-  return nearest.empty() ? nearest : std::string(kPreset) + nearest;
-}
-
-// An existing name similar to `name`, which does not exist. For "preset:NAME" a similar preset; otherwise the job or
-// sweep with the same number ("job/3", "jobs3"), or a preset given without its prefix. Empty if there is none. Failed
-// calls count as not found.
-std::string find_nearest_name(const std::string& name, v1::Cases::Stub& cases, v1::Jobs::Stub& jobs,
-                              v1::Sweeps::Stub& sweeps) {
-  if (name.starts_with(kPreset)) return find_nearest_preset(name.substr(kPreset.size()), cases);
-  const std::string number = name.substr(name.find_last_not_of("0123456789") + 1);
-  if (number.empty()) return find_nearest_preset(name.substr(name.rfind('/') + 1), cases);
-  std::vector<std::string> names;
-  v1::GetJobRequest job;
-  job.set_name("jobs/" + number);
-  v1::Job found_job;
-  if (probe(jobs, &v1::Jobs::Stub::GetJob, job, found_job)) names.push_back(job.name());
-  v1::GetSweepRequest sweep;
-  sweep.set_name("sweeps/" + number);
-  v1::Sweep found_sweep;
-  if (probe(sweeps, &v1::Sweeps::Stub::GetSweep, sweep, found_sweep)) names.push_back(sweep.name());
-  return names.size() == 1 ? names.front() : find_nearest(name, names);
-}
-
 bool has_part(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 std::string host_of(const std::string& address) { return address.substr(0, address.rfind(':')); }
@@ -114,6 +74,12 @@ std::string connection_failure_text(const std::string& address, const Credential
 constexpr std::chrono::milliseconds kHandshakePatience{600};
 constexpr std::chrono::milliseconds kConnectPatience{900};
 constexpr std::chrono::milliseconds kReasonPatience{200};
+constexpr std::chrono::seconds kProbePatience{5};
+
+std::shared_ptr<grpc::ChannelCredentials> channel_credentials(const Credentials& credentials) {
+  if (!credentials.tls) return grpc::InsecureChannelCredentials();
+  return grpc::SslCredentials({credentials.authority, credentials.key, credentials.certificate});
+}
 
 grpc::ChannelArguments channel_arguments() {
   grpc::ChannelArguments arguments;
@@ -133,40 +99,58 @@ grpc::ChannelArguments channel_arguments() {
 Connection::Connection(std::string address, Credentials credentials)
     : address_(std::move(address)),
       credentials_(std::move(credentials)),
-      channel_(open_channel(address_, credentials_, channel_arguments())),
+      channel_(grpc::CreateCustomChannel(address_, channel_credentials(credentials_), channel_arguments())),
       cases_(v1::Cases::NewStub(channel_)),
       jobs_(v1::Jobs::NewStub(channel_)),
       sweeps_(v1::Sweeps::NewStub(channel_)),
       admin_(v1::Admin::NewStub(channel_)) {}
 
-v1::Cases::Stub& Connection::cases() {
-  require_server();
-  return *cases_;
-}
-
-v1::Jobs::Stub& Connection::jobs() {
-  require_server();
-  return *jobs_;
-}
-
-v1::Sweeps::Stub& Connection::sweeps() {
-  require_server();
-  return *sweeps_;
-}
-
-v1::Admin::Stub& Connection::admin() {
-  require_server();
-  return *admin_;
-}
-
 bool Connection::wait(std::chrono::milliseconds patience) {
   return channel_->WaitForConnected(std::chrono::system_clock::now() + patience);
+}
+
+void Connection::prepare(grpc::ClientContext& context, std::chrono::milliseconds patience) const {
+  if (!credentials_.token.empty()) context.AddMetadata("authorization", "Bearer " + credentials_.token);
+  if (patience.count() > 0) context.set_deadline(std::chrono::system_clock::now() + patience);
 }
 
 CommandError Connection::error_about(const std::string& name, const grpc::Status& status) {
   CommandError error = error_of(status);
   if (error.code() != ExitCode::not_found || name.empty()) return error;
-  return {error.code(), with_suggestion(error.message(), find_nearest_name(name, *cases_, *jobs_, *sweeps_))};
+  return {error.code(), with_suggestion(error.message(), find_nearest_name(name))};
+}
+
+template <typename Stub, typename Request, typename Response>
+bool Connection::probe(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                       const Request& request, Response& response) const {
+  grpc::ClientContext context;
+  prepare(context, kProbePatience);
+  return (stub.*method)(&context, request, &response).ok();
+}
+
+std::string Connection::find_nearest_preset(const std::string& word) const {
+  v1::ListPresetsResponse presets;
+  if (!probe(*cases_, &v1::Cases::Stub::ListPresets, v1::ListPresetsRequest(), presets)) return {};
+  std::vector<std::string> names;
+  for (const v1::Preset& preset : presets.presets()) names.push_back(preset.name());
+  const std::string nearest = find_nearest(word, names);
+  return nearest.empty() ? nearest : std::string(kPreset) + nearest;
+}
+
+std::string Connection::find_nearest_name(const std::string& name) const {
+  if (name.starts_with(kPreset)) return find_nearest_preset(name.substr(kPreset.size()));
+  const std::string number = name.substr(name.find_last_not_of("0123456789") + 1);
+  if (number.empty()) return find_nearest_preset(name.substr(name.rfind('/') + 1));
+  std::vector<std::string> names;
+  v1::GetJobRequest job;
+  job.set_name("jobs/" + number);
+  v1::Job found_job;
+  if (probe(*jobs_, &v1::Jobs::Stub::GetJob, job, found_job)) names.push_back(job.name());
+  v1::GetSweepRequest sweep;
+  sweep.set_name("sweeps/" + number);
+  v1::Sweep found_sweep;
+  if (probe(*sweeps_, &v1::Sweeps::Stub::GetSweep, sweep, found_sweep)) names.push_back(sweep.name());
+  return names.size() == 1 ? names.front() : find_nearest(name, names);
 }
 
 void Connection::check_request_size(std::int64_t size) {
@@ -182,7 +166,7 @@ void Connection::check_request_size(std::int64_t size) {
 std::string Connection::last_failure() {
   // A call on a channel that cannot connect fails at once with the reason.
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kReasonPatience);
+  prepare(context, kReasonPatience);
   v1::Capabilities response;
   return admin_->GetCapabilities(&context, v1::GetCapabilitiesRequest(), &response).error_message();
 }

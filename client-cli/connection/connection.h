@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -25,13 +26,16 @@ class Connection {
   /// `address` has the form of find_server_address.
   explicit Connection(std::string address, Credentials credentials = {});
 
-  v1::Cases::Stub& cases();
-  v1::Jobs::Stub& jobs();
-  v1::Sweeps::Stub& sweeps();
-  v1::Admin::Stub& admin();
+  v1::Cases::Stub& cases() { return require_server(), *cases_; }
+  v1::Jobs::Stub& jobs() { return require_server(), *jobs_; }
+  v1::Sweeps::Stub& sweeps() { return require_server(), *sweeps_; }
+  v1::Admin::Stub& admin() { return require_server(), *admin_; }
 
   /// Whether the server answers within `patience`.
   bool wait(std::chrono::milliseconds patience);
+
+  /// Gives a call the credentials and, if it is above 0, a time limit.
+  void prepare(grpc::ClientContext& context, std::chrono::milliseconds patience = {}) const;
 
   /// One unary call. Throws CommandError if it fails, takes longer than `patience`, or exceeds the size that a server
   /// accepts.
@@ -40,11 +44,36 @@ class Connection {
                 const Request& request, std::chrono::seconds patience = kPatience) {
     check_request_size(static_cast<std::int64_t>(request.ByteSizeLong()));
     grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + patience);
+    prepare(context, patience);
     Response response;
     const grpc::Status status = (stub.*method)(&context, request, &response);
     if (!status.ok()) throw error_about(name_in(request), status);
     return response;
+  }
+
+  /// The same for a request that only names something.
+  template <typename Stub, typename Request, typename Response>
+  Response call_for(const std::string& name, Stub& stub,
+                    grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*)) {
+    Request request;
+    request.set_name(name);
+    return call(stub, method, request);
+  }
+
+  /// Reads a stream to its end, at most for `patience`; `take` returns false to cancel it. Returns how it ended.
+  template <typename Stub, typename Request, typename Part>
+  grpc::Status read(Stub& stub,
+                    std::unique_ptr<grpc::ClientReader<Part>> (Stub::*method)(grpc::ClientContext*, const Request&),
+                    const Request& request, std::chrono::seconds patience,
+                    const std::function<bool(const std::type_identity_t<Part>& part)>& take) {
+    grpc::ClientContext context;
+    prepare(context, patience);
+    const auto reader = (stub.*method)(&context, request);
+    Part part;
+    while (reader->Read(&part)) {
+      if (!take(part)) context.TryCancel();
+    }
+    return reader->Finish();
   }
 
   /// The error for a failed call about `name`: a job, a sweep or "preset:NAME". If the name does not exist, asks the
@@ -62,6 +91,16 @@ class Connection {
     if constexpr (requires { request.name(); }) return request.name();
     return {};
   }
+
+  /// A call that may fail: whether it went well.
+  template <typename Stub, typename Request, typename Response>
+  bool probe(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+             const Request& request, Response& response) const;
+  /// An existing name similar to `name`, which does not exist. For "preset:NAME" a similar preset; otherwise the job or
+  /// sweep with the same number ("job/3", "jobs3"), or a preset given without its prefix. Empty if there is none.
+  /// Failed calls count as not found.
+  [[nodiscard]] std::string find_nearest_name(const std::string& name) const;
+  [[nodiscard]] std::string find_nearest_preset(const std::string& word) const;
 
   static void check_request_size(std::int64_t size);
   void require_server();

@@ -11,14 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "case_file/suggestion.h"
+#include "case_file/case_source.h"
 #include "command_error.h"
 
 namespace cellcrush::client {
 
 namespace {
-
-using grpc::experimental::InterceptionHookPoints;
 
 // The option, else the variable, with its name for messages.
 struct NamedText {
@@ -76,33 +74,6 @@ bool is_this_machine(const std::string& address) {
   return host == "localhost" || host == "[::1]" ||
          (inet_pton(AF_INET, host.c_str(), &ipv4) == 1 && (ntohl(ipv4.s_addr) >> 24U) == 127U);
 }
-
-// Adds the token to the metadata of each call.
-class TokenSender final : public grpc::experimental::Interceptor {
- public:
-  explicit TokenSender(std::string value) : value_(std::move(value)) {}
-
-  void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
-    if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_INITIAL_METADATA))
-      methods->GetSendInitialMetadata()->emplace("authorization", value_);
-    methods->Proceed();
-  }
-
- private:
-  std::string value_;
-};
-
-class TokenSenderFactory final : public grpc::experimental::ClientInterceptorFactoryInterface {
- public:
-  explicit TokenSenderFactory(const std::string& token) : value_("Bearer " + token) {}
-
-  grpc::experimental::Interceptor* CreateClientInterceptor(grpc::experimental::ClientRpcInfo*) override {
-    return new TokenSender(value_);
-  }
-
- private:
-  std::string value_;
-};
 
 constexpr const char* kDefaultAddress = "127.0.0.1:50551";
 
@@ -162,18 +133,6 @@ Credentials read_credentials(const CredentialFiles& files, const std::string& ad
                            "CELLCRUSH_TLS_CA");
   }
   return out;
-}
-
-std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Credentials& credentials,
-                                            const grpc::ChannelArguments& arguments) {
-  auto channel_credentials = grpc::InsecureChannelCredentials();
-  if (credentials.tls) {
-    channel_credentials = grpc::SslCredentials({credentials.authority, credentials.key, credentials.certificate});
-  }
-  std::vector<std::unique_ptr<grpc::experimental::ClientInterceptorFactoryInterface>> interceptors;
-  if (!credentials.token.empty()) interceptors.push_back(std::make_unique<TokenSenderFactory>(credentials.token));
-  return grpc::experimental::CreateCustomChannelWithInterceptors(address, channel_credentials, arguments,
-                                                                 std::move(interceptors));
 }
 
 std::string find_server_address(const std::string& option) {

@@ -30,10 +30,6 @@ struct Credentials {
 /// authority, or a token would be sent in plain text to another host.
 Credentials read_credentials(const CredentialFiles& files, const std::string& address);
 
-/// A channel with these credentials; every call carries the token.
-std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Credentials& credentials,
-                                            const grpc::ChannelArguments& arguments);
-
 /// The server to use: `option` if not empty, else $CELLCRUSH_SERVER, else the daemon's default socket
 /// ($XDG_DATA_HOME/cellcrush/cellcrushd.sock or ~/.local/share/cellcrush/cellcrushd.sock) if it exists, else
 /// 127.0.0.1:50551. Returns "unix:PATH" or "HOST:PORT"; throws CommandError (refused) for another form.

@@ -17,53 +17,42 @@ bool fits_together(const MeshFrame& whole) {
          std::all_of(mesh.element_nodes().begin(), mesh.element_nodes().end(), known);
 }
 
-MeshFrame fetch_frame_at(Connection& connection, const std::string& name, double strain) {
-  v1::GetFrameRequest request;
-  request.set_name(name);
-  request.set_strain(strain);
-  return fetch_frame(connection, request);
-}
-
-MeshFrame fetch_last_frame(Connection& connection, const std::string& name) {
-  v1::GetFrameRequest request;
-  request.set_name(name);
-  request.set_index(-1);
-  return fetch_frame(connection, request);
-}
-
 // The frame nearest to a share of the run: by strain, or by time for a frame without plates.
 MeshFrame fetch_frame_of_share(Connection& connection, const std::string& name, const MeshFrame& last, double share) {
-  if (last.has_plates()) return fetch_frame_at(connection, name, share * last.frame.strain());
-  v1::GetFrameRequest request;
-  request.set_name(name);
-  request.set_time_s(share * last.frame.time_s());
-  return fetch_frame(connection, request);
+  return fetch_frame(connection, name, [&](v1::GetFrameRequest& which) {
+    last.has_plates() ? which.set_strain(share * last.frame.strain()) : which.set_time_s(share * last.frame.time_s());
+  });
 }
 
 }  // namespace
 
-MeshFrame fetch_frame(Connection& connection, const v1::GetFrameRequest& request) {
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + Connection::kPatience);
-  const auto reader = connection.jobs().GetFrame(&context, request);
+MeshFrame fetch_frame(Connection& connection, const std::string& name,
+                      const std::function<void(v1::GetFrameRequest& request)>& choose) {
+  v1::GetFrameRequest request;
+  request.set_name(name);
+  choose(request);
   MeshFrame whole;
-  v1::GetFrameResponse part;
-  while (reader->Read(&part)) {
-    // Repeated fields are appended by MergeFrom, as the parts of a mesh and of a frame are.
-    whole.mesh.MergeFrom(part.mesh().mesh());
-    whole.frame.MergeFrom(part.chunk().frame());
-  }
-  const grpc::Status status = reader->Finish();
+  const grpc::Status status = connection.read(connection.jobs(), &v1::Jobs::Stub::GetFrame, request,
+                                              Connection::kPatience, [&](const v1::GetFrameResponse& part) {
+                                                // MergeFrom appends repeated fields, the parts of a mesh and a frame.
+                                                whole.mesh.MergeFrom(part.mesh().mesh());
+                                                whole.frame.MergeFrom(part.chunk().frame());
+                                                return true;
+                                              });
   if (!status.ok()) throw error_of(status);
   if (!fits_together(whole)) {
-    throw CommandError(ExitCode::cut_off, "received an incomplete frame of " + request.name() +
+    throw CommandError(ExitCode::cut_off, "received an incomplete frame of " + name +
                                               ": its mesh, positions and plastic fractions do not match");
   }
   return whole;
 }
 
+MeshFrame fetch_frame(Connection& connection, const std::string& name, int index) {
+  return fetch_frame(connection, name, [index](v1::GetFrameRequest& request) { request.set_index(index); });
+}
+
 std::vector<MeshFrame> fetch_strip(Connection& connection, const std::string& name, int count) {
-  const MeshFrame last = fetch_last_frame(connection, name);
+  const MeshFrame last = fetch_frame(connection, name, -1);
   std::vector<MeshFrame> stages;
   for (int i = 0; i + 1 < count; ++i) {
     MeshFrame stage = fetch_frame_of_share(connection, name, last, static_cast<double>(i) / (count - 1));
@@ -76,7 +65,7 @@ std::vector<MeshFrame> fetch_strip(Connection& connection, const std::string& na
 
 std::vector<MeshFrame> fetch_default_stages(Connection& connection, const std::string& name) {
   constexpr double kApart = 0.05;
-  const MeshFrame last = fetch_last_frame(connection, name);
+  const MeshFrame last = fetch_frame(connection, name, -1);
   const double end = last.has_plates() ? last.frame.strain() : 0.6;
   std::vector<MeshFrame> stages;
   for (const double strain : {0.2, 0.4}) {
@@ -93,7 +82,10 @@ std::vector<MeshFrame> fetch_stages_at(Connection& connection, const std::string
                                        const std::vector<double>& strains) {
   std::vector<MeshFrame> stages;
   stages.reserve(strains.size());
-  for (const double strain : strains) stages.push_back(fetch_frame_at(connection, name, strain));
+  for (const double strain : strains) {
+    stages.push_back(
+        fetch_frame(connection, name, [strain](v1::GetFrameRequest& request) { request.set_strain(strain); }));
+  }
   return stages;
 }
 

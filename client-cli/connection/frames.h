@@ -17,8 +17,11 @@ struct MeshFrame {
   [[nodiscard]] bool has_plates() const { return mesh.support_plate_mm() > mesh.impact_plate_mm(); }
 };
 
-/// Fetches the requested frame and joins its parts. Throws CommandError, also if the parts are inconsistent (cut_off).
-MeshFrame fetch_frame(Connection& connection, const v1::GetFrameRequest& request);
+/// Fetches the frame of a job that `choose` asks for, or that of an index (-1: the last), and joins its parts. Throws
+/// CommandError, also if the parts are inconsistent (cut_off).
+MeshFrame fetch_frame(Connection& connection, const std::string& name,
+                      const std::function<void(v1::GetFrameRequest& request)>& choose);
+MeshFrame fetch_frame(Connection& connection, const std::string& name, int index);
 
 // The frames of a job that a picture shows, in chronological order. All throw CommandError.
 

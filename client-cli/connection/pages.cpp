@@ -8,10 +8,12 @@ v1::GetHistoryResponse fetch_history(Connection& connection, const std::string& 
   return call_for_pages(connection, connection.jobs(), &v1::Jobs::Stub::GetHistory, request);
 }
 
+v1::Job fetch_job(Connection& connection, const std::string& name) {
+  return connection.call_for(name, connection.jobs(), &v1::Jobs::Stub::GetJob);
+}
+
 v1::Sweep fetch_sweep(Connection& connection, const std::string& name) {
-  v1::GetSweepRequest request;
-  request.set_name(name);
-  return connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweep, request);
+  return connection.call_for(name, connection.sweeps(), &v1::Sweeps::Stub::GetSweep);
 }
 
 v1::SweepTable fetch_table(Connection& connection, const std::string& sweep) {

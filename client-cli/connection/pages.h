@@ -30,7 +30,8 @@ Response call_for_pages(Connection& connection, Stub& stub,
 /// All samples of a job.
 v1::GetHistoryResponse fetch_history(Connection& connection, const std::string& job);
 
-/// A sweep.
+/// A job, a sweep.
+v1::Job fetch_job(Connection& connection, const std::string& name);
 v1::Sweep fetch_sweep(Connection& connection, const std::string& name);
 
 /// The whole table of a sweep.

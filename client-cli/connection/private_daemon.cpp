@@ -115,9 +115,9 @@ PrivateDaemon::PrivateDaemon(const fs::path& data, double time_limit_s)
   if (pid_ > 0) {
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
+    pid_ = -1;
   }
-  std::error_code none;
-  fs::remove_all(folder_, none);
+  static_cast<void>(has_ended());  // removes the socket's folder
   throw CommandError(ExitCode::refused, words[0] + " does not start: " + why);
 }
 
@@ -141,7 +141,7 @@ void PrivateDaemon::stop() {
   if (pid_ < 0) return;
   kill(pid_, SIGTERM);
   const auto limit = Clock::now() + kPatience;
-  while (waitpid(pid_, nullptr, WNOHANG) == 0) {
+  while (!has_ended()) {
     if (Clock::now() > limit) {
       throw CommandError(ExitCode::refused, fmt::format("cellcrushd (process {}) did not exit within {} s. End it with "
                                                         "`kill {}` before you continue.",
@@ -149,9 +149,6 @@ void PrivateDaemon::stop() {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  pid_ = -1;
-  std::error_code none;
-  fs::remove_all(folder_, none);
 }
 
 }  // namespace cellcrush::client

@@ -4,6 +4,8 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <memory>
 #include <set>
 #include <stop_token>
 #include <thread>
@@ -40,12 +42,6 @@ bool may_recover(grpc::StatusCode code) {
   return exit == ExitCode::no_connection || exit == ExitCode::cut_off || code == grpc::StatusCode::RESOURCE_EXHAUSTED;
 }
 
-StreamReading read_once(const FollowedStream& stream, const Interruption& interruption) {
-  grpc::ClientContext context;
-  CallGuard guard(context, interruption);
-  return stream.read(context, [&guard] { guard.heard(); });
-}
-
 const v1::Job* job_in(const v1::JobEvent& event) {
   if (event.has_snapshot()) return &event.snapshot().job();
   return event.has_state() ? &event.state() : nullptr;
@@ -75,82 +71,82 @@ class Remaining {
   std::set<std::string> ended_;
 };
 
-}  // namespace
+// A stream that can be resumed after the last message received.
+template <typename Event>
+struct FollowedStream {
+  std::string name;  // of the job or sweep
+  std::function<std::unique_ptr<grpc::ClientReader<Event>>(grpc::ClientContext&)> open;
+  std::function<bool(const Event&)> take;  // whether the event is a new one
+  std::function<bool()> is_complete;       // everything expected was received
+};
 
-bool follow_stream(const FollowedStream& stream, const Interruption& interruption) {
-  std::size_t attempt = 0;
-  while (true) {
-    const StreamReading reading = read_once(stream, interruption);
-    if (reading.status.ok() && reading.complete) return true;
+template <typename Event>
+bool follow(Connection& connection, const FollowedStream<Event>& stream, const Interruption& interruption,
+            Watcher<Event>& watcher) {
+  for (std::size_t attempt = 0;; ++attempt) {
+    grpc::ClientContext context;
+    connection.prepare(context);
+    CallGuard guard(context, interruption);
+    const auto reader = stream.open(context);
+    Event event;
+    while (reader->Read(&event)) {
+      guard.heard();
+      if (stream.take(event)) attempt = 0;
+      watcher.on_event(event);
+    }
+    const grpc::Status status = reader->Finish();
+    if (status.ok() && stream.is_complete()) return true;
     if (interruption.requested()) return false;
-    if (!reading.status.ok() && !may_recover(reading.status.error_code())) throw stream.refusal(reading.status);
-    const std::string reason = reading.status.ok() ? "the server closed the stream before " + stream.name + " ended"
-                                                   : error_of(reading.status).message();
-    if (reading.advanced) attempt = 0;
+    if (!status.ok() && !may_recover(status.error_code())) throw connection.error_about(stream.name, status);
+    const std::string reason =
+        status.ok() ? "the server closed the stream before " + stream.name + " ended" : error_of(status).message();
     if (attempt == kPauses.size()) {
       throw CommandError(ExitCode::cut_off, "lost the watch of " + stream.name + ": " + reason +
                                                 "; it may still be running: `cellcrush watch " + stream.name +
                                                 "` shows it again");
     }
-    if (attempt == 0) stream.on_break(reason);
-    if (interruption.wait_for(kPauses[attempt++])) return false;
+    if (attempt == 0) watcher.on_break(reason);
+    if (interruption.wait_for(kPauses[attempt])) return false;
   }
 }
 
-bool follow_job(Connection& connection, const std::string& name, bool frames, const Interruption& interruption,
-                JobWatcher& watcher) {
+}  // namespace
+
+bool follow_job(Connection& connection, const std::string& name, const Interruption& interruption,
+                Watcher<v1::JobEvent>& watcher) {
   v1::Jobs::Stub& jobs = connection.jobs();
   v1::WatchJobRequest request;
   request.set_name(name);
-  request.set_frames(frames);
   v1::Job::State state = v1::Job::JOB_STATE_UNSPECIFIED;
-  const auto read = [&](grpc::ClientContext& context, const std::function<void()>& heard) {
-    StreamReading reading;
-    const auto reader = jobs.WatchJob(&context, request);
-    v1::JobEvent event;
-    while (reader->Read(&event)) {
-      heard();
-      reading.advanced = reading.advanced || event.sequence() > request.after_sequence();
-      request.set_after_sequence(std::max(request.after_sequence(), event.sequence()));
-      if (event.has_snapshot()) request.set_epoch(event.snapshot().epoch());
-      if (const v1::Job* job = job_in(event)) state = job->state();
-      watcher.on_event(event);
-    }
-    reading.status = reader->Finish();
-    reading.complete = is_final(state);
-    return reading;
+  const auto take = [&](const v1::JobEvent& event) {
+    const bool is_new = event.sequence() > request.after_sequence();
+    request.set_after_sequence(std::max(request.after_sequence(), event.sequence()));
+    if (event.has_snapshot()) request.set_epoch(event.snapshot().epoch());
+    if (const v1::Job* job = job_in(event)) state = job->state();
+    return is_new;
   };
-  const auto on_break = [&](const std::string& reason) { watcher.on_break(reason); };
-  const auto refusal = [&](const grpc::Status& status) { return connection.error_about(name, status); };
-  return follow_stream({name, read, on_break, refusal}, interruption);
+  const FollowedStream<v1::JobEvent> stream{
+      name, [&](grpc::ClientContext& context) { return jobs.WatchJob(&context, request); }, take,
+      [&] { return is_final(state); }};
+  return follow(connection, stream, interruption, watcher);
 }
 
 bool follow_sweep(Connection& connection, const std::string& name, const Interruption& interruption,
-                  SweepWatcher& watcher) {
+                  Watcher<v1::WatchSweepResponse>& watcher) {
   v1::Sweeps::Stub& sweeps = connection.sweeps();
   v1::WatchSweepRequest request;
   request.set_name(name);
   Remaining remaining;
-  const auto read = [&](grpc::ClientContext& context, const std::function<void()>& heard) {
-    StreamReading reading;
-    const auto reader = sweeps.WatchSweep(&context, request);
-    v1::WatchSweepResponse response;
-    while (reader->Read(&response)) {
-      heard();
-      if (!response.resume_token().empty() && response.resume_token() != request.resume_token()) {
-        request.set_resume_token(response.resume_token());
-        reading.advanced = true;
-      }
-      remaining.apply(response);
-      watcher.on_response(response);
-    }
-    reading.status = reader->Finish();
-    reading.complete = remaining.none();
-    return reading;
+  const auto take = [&](const v1::WatchSweepResponse& response) {
+    const bool is_new = !response.resume_token().empty() && response.resume_token() != request.resume_token();
+    if (is_new) request.set_resume_token(response.resume_token());
+    remaining.apply(response);
+    return is_new;
   };
-  const auto on_break = [&](const std::string& reason) { watcher.on_break(reason); };
-  const auto refusal = [&](const grpc::Status& status) { return connection.error_about(name, status); };
-  return follow_stream({name, read, on_break, refusal}, interruption);
+  const FollowedStream<v1::WatchSweepResponse> stream{
+      name, [&](grpc::ClientContext& context) { return sweeps.WatchSweep(&context, request); }, take,
+      [&] { return remaining.none(); }};
+  return follow(connection, stream, interruption, watcher);
 }
 
 }  // namespace cellcrush::client

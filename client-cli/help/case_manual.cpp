@@ -1,13 +1,13 @@
 #include "help/case_manual.h"
 
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor.pb.h>
 
 #include <sstream>
 #include <stdexcept>
 
-#include "case_file/suggestion.h"
+#include "case_file/field_names.h"
 #include "command_error.h"
-#include "help/case_descriptor.h"
 #include "help/field_rules.h"
 
 namespace cellcrush::client {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <google/protobuf/descriptor.h>
-
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,5 +25,8 @@ FieldManual find_field_manual(const std::string& path);
 
 /// Paths of all fields, including messages, each before its own fields.
 std::vector<std::string> case_paths();
+
+/// case.proto with its comments, compiled by protoc at build time: a serialized google.protobuf.FileDescriptorSet.
+std::string_view case_descriptor();
 
 }  // namespace cellcrush::client

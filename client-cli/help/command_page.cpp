@@ -1,5 +1,3 @@
-#include "help/command_page.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,8 +7,8 @@
 #include <vector>
 
 #include "chart/display_text.h"
-#include "help/command_entries.h"
-#include "help/wrapped_text.h"
+#include "help/shell_files.h"
+#include "usage/command_entries.h"
 
 namespace cellcrush::client {
 
@@ -19,7 +17,8 @@ namespace {
 constexpr int kPageColumns = 120;
 
 constexpr const char* kHead =
-    "<!-- Generated from the program. CELLCRUSH_WRITE_PAGES=1 build/ci/bin/commands_page_test writes this page. -->\n"
+    "<!-- Generated from the program. After a build, write this page again with\n"
+    "     CELLCRUSH_WRITE_PAGES=1 build/ci/bin/docs_test --gtest_filter='CommandsPage.*' -->\n"
     "# Commands\n\n"
     "Reference of every command of `cellcrush`. It is made from the definition that the program parses with, as are\n"
     "`cellcrush COMMAND --help` and the man page `cellcrush(1)`. [README.md](README.md) lists the pages that show the\n"

@@ -1,18 +1,65 @@
-#include "help/completion.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <set>
 #include <string_view>
 #include <vector>
 
 #include "help/case_manual.h"
-#include "help/command_entries.h"
+#include "help/shell_files.h"
+#include "usage/command_entries.h"
 
 namespace cellcrush::client {
 
 namespace {
+
+// The server's presets, for completion without a server; a test compares them with `cellcrush presets`.
+constexpr std::array kPresetNames = {
+    "hexagon-small",     "papka-kyriakides-1", "papka-kyriakides-2", "type-i",
+    "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated", "type-iii-as-counted",
+    "inclusions-0",      "inclusions-2",       "inclusions-6"};
+
+// The values of an option, or prefixes if they end in "="; empty: a file.
+std::vector<std::string> words_of(const OptionEntry& option) {
+  if (option.names.back() != "--set" && option.names.back() != "--over") return option.words;
+  std::vector<std::string> words;
+  const std::vector<std::string> paths = case_paths();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    // A group precedes its fields.
+    const bool is_group = i + 1 < paths.size() && paths[i + 1].starts_with(paths[i] + '.');
+    if (!is_group) words.push_back(paths[i] + '=');
+  }
+  return words;
+}
+
+// Possible arguments of a command, as far as known without a server.
+struct ArgumentWords {
+  std::vector<std::string> words;  ///< presets, fields of the case, or prefixes of names if they end in "/"
+  bool files = false;              ///< or a file
+};
+
+ArgumentWords argument_words(const CLI::App& command) {
+  ArgumentWords out;
+  for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_positional(); })) {
+    const std::string& text = option->get_description();
+    const auto names = [&text](const char* part) { return text.find(part) != std::string::npos; };
+    if (names("preset:NAME")) {
+      for (const char* name : kPresetNames) out.words.push_back(std::string("preset:") + name);
+    }
+    if (option->get_name(true) == "PATH") {
+      const auto paths = case_paths();
+      out.words.insert(out.words.end(), paths.begin(), paths.end());
+    }
+    if (option->get_name(true) == "CASE") {
+      out.files = true;
+      continue;
+    }
+    if (names("job") || names("Job")) out.words.emplace_back("jobs/");
+    if (names("sweep")) out.words.emplace_back("sweeps/");
+  }
+  return out;
+}
 
 // `text` with a backslash before each of `characters`.
 std::string with_backslashes(std::string_view text, std::string_view characters) {
@@ -47,8 +94,9 @@ std::string bash_values(const CLI::App& app) {
   const auto add = [&](const CLI::App& one) {
     for (const OptionEntry& option : option_entries(one)) {
       if (option.value.empty() || !seen.insert(option.names.back()).second) continue;
+      const std::vector<std::string> words = words_of(option);
       text += fmt::format("    {}) {} ;;\n", fmt::join(option.names, "|"),
-                          option.words.empty() ? "return" : "words='" + joined(option.words) + "'");
+                          words.empty() ? "return" : "words='" + joined(words) + "'");
     }
   };
   add(app);
@@ -67,7 +115,7 @@ std::string zsh_options(const CLI::App& app, std::string_view indent) {
   for (const OptionEntry& option : option_entries(app)) {
     const std::string description = with_backslashes(option.description, "[]:\\");
     for (const std::string& name : option.names) {
-      const std::string value = option.value.empty() ? "" : ":" + option.value + ":" + zsh_values(option.words);
+      const std::string value = option.value.empty() ? "" : ":" + option.value + ":" + zsh_values(words_of(option));
       const std::string specification =
           fmt::format("{}{}[{}]{}", option.repeatable ? "*" : "", name, description, value);
       text += fmt::format("{}{}\n", indent, in_single_quotes(specification));
@@ -83,7 +131,8 @@ std::string fish_options(const CLI::App& app, const std::string& condition) {
     for (const std::string& name : option.names) {
       text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     }
-    if (!option.value.empty()) text += option.words.empty() ? " -r" : " -x -a '" + joined(option.words) + "'";
+    const std::vector<std::string> words = words_of(option);
+    if (!option.value.empty()) text += words.empty() ? " -r" : " -x -a '" + joined(words) + "'";
     text += fmt::format(" -d '{}'\n", with_backslashes(option.description, "\\'"));
   }
   return text;

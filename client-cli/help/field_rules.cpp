@@ -92,12 +92,13 @@ std::string join_comment(const std::string& lines) {
   return text;
 }
 
-std::string unit_of(std::string_view field_name) {
-  const std::string name = "_" + std::string(field_name);
+FieldUnit find_unit(std::string_view field_name) {
   for (const auto& [suffix, unit] : kUnits) {
-    if (name.ends_with(suffix)) return std::string(unit);
+    if (field_name.ends_with(suffix) || field_name == suffix.substr(1)) return {suffix, unit};
   }
   return {};
 }
+
+std::string unit_of(std::string_view field_name) { return std::string(find_unit(field_name).unit); }
 
 }  // namespace cellcrush::client

@@ -105,47 +105,47 @@ Chart build_job_chart(const JobHistory& history) {
   const v1::Summary& summary = history.job.summary();
   Chart chart = empty_chart(last_strain(raw), find_top(history, smooth), highest(raw));
   chart.note += "; thin: every sample";
-  const auto faint = [](Colour colour) {
-    colour.opacity = 0.28;
-    return LineStyle{colour, 0.7, {}};
+  struct Plate {
+    const char* name;
+    const std::vector<double>& raw;
+    const std::vector<double>& smooth;
+    Colour colour;
+    bool has_plateau;
+    double plateau;
   };
-  chart.curves.push_back({raw.strain, raw.impact, faint(kImpactColour), ""});
-  chart.curves.push_back({raw.strain, raw.support, faint(kSupportColour), ""});
-  chart.curves.push_back(
-      {smooth.strain,
-       smooth.impact,
-       {kImpactColour, 2.0, {}},
-       with_plateau("impact plate", summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa())});
-  chart.curves.push_back(
-      {smooth.strain,
-       smooth.support,
-       {kSupportColour, 2.0, {}},
-       with_plateau("support plate", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa())});
-  add_overshoot(chart, smooth.strain, smooth.impact, kImpactColour);
-  add_overshoot(chart, smooth.strain, smooth.support, kSupportColour);
-  if (summary.plateau_window_high() > summary.plateau_window_low()) {
-    const double low = summary.plateau_window_low();
-    const double high = summary.plateau_window_high();
+  const Plate plates[] = {{"impact plate", raw.impact, smooth.impact, kImpactColour,
+                           summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa()},
+                          {"support plate", raw.support, smooth.support, kSupportColour,
+                           summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa()}};
+  for (const Plate& plate : plates) {
+    Colour faint = plate.colour;
+    faint.opacity = 0.28;
+    chart.curves.push_back({raw.strain, plate.raw, {faint, 0.7, {}}, ""});
+  }
+  for (const Plate& plate : plates) {
+    chart.curves.push_back({smooth.strain,
+                            plate.smooth,
+                            {plate.colour, 2.0, {}},
+                            with_plateau(plate.name, plate.has_plateau, plate.plateau)});
+    add_overshoot(chart, smooth.strain, plate.smooth, plate.colour);
+  }
+  const double low = summary.plateau_window_low();
+  const double high = summary.plateau_window_high();
+  if (high > low) {
     chart.bands.push_back({low, high, "plateau window"});
-    if (summary.has_plateau_stress_impact_mpa()) {
-      chart.curves.push_back(level_curve(summary.plateau_stress_impact_mpa(), low, high, {kInk, 1.8, {}}, ""));
-    }
-    if (summary.has_plateau_stress_support_mpa()) {
-      chart.curves.push_back(level_curve(summary.plateau_stress_support_mpa(), low, high, {kInk, 1.8, {}}, ""));
+    for (const Plate& plate : plates) {
+      if (plate.has_plateau) chart.curves.push_back(level_curve(plate.plateau, low, high, {kInk, 1.8, {}}, ""));
     }
   }
   if (summary.theory().shock_mpa() > 0.0) {
-    const v1::Theory& theory = summary.theory();
-    chart.curves.push_back(level_curve(theory.shock_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {8.0, 4.0}},
-                                       theory_name("shock theory (Eq. 51)", theory.shock_mpa(), chart)));
-    if (summary.has_front()) {
-      const double shock = summary.front().shock_mpa();
-      chart.curves.push_back(level_curve(shock, 0.0, chart.x.high, {kMutedInk, 1.4, {10.0, 3.0, 2.0, 3.0}},
-                                         theory_name("shock theory, measured jumps (Eq. 52)", shock, chart)));
-    }
-    chart.curves.push_back(
-        level_curve(theory.gibson_ashby_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {2.0, 3.0}},
-                    theory_name("quasi-static theory (Gibson-Ashby)", theory.gibson_ashby_mpa(), chart)));
+    const auto add_theory = [&](const char* name, double stress, std::vector<double> dashes) {
+      chart.curves.push_back(level_curve(stress, 0.0, chart.x.high, {kMutedInk, 1.4, std::move(dashes)},
+                                         theory_name(name, stress, chart)));
+    };
+    add_theory("shock theory (Eq. 51)", summary.theory().shock_mpa(), {8.0, 4.0});
+    if (summary.has_front())
+      add_theory("shock theory, measured jumps (Eq. 52)", summary.front().shock_mpa(), {10.0, 3.0, 2.0, 3.0});
+    add_theory("quasi-static theory (Gibson-Ashby)", summary.theory().gibson_ashby_mpa(), {2.0, 3.0});
   }
   return chart;
 }

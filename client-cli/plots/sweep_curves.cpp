@@ -12,7 +12,6 @@
 
 #include "chart/palette.h"
 #include "command_error.h"
-#include "results/case_differences.h"
 #include "results/field_value.h"
 #include "results/sweep_results.h"
 
@@ -113,35 +112,28 @@ void add_measured_shock(Chart& chart, const ResultSeries& series, const Colour& 
   if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
 }
 
-// The plateau at the impact plate: marks, and as a line the fit where there is one.
-void add_impact(Chart& chart, const ResultSeries& series, const std::optional<QuadraticFit>& fit, const Colour& colour,
-                const std::string& name) {
-  chart.curves.push_back({series.x, values_of(series, impact), {colour, fit ? 0.0 : 1.6, {}}, name, Marker::disc});
-}
-
-void add_only_series(Chart& chart, const ResultSeries& series, bool speed) {
+// The plateaus of one series of a sweep with theory: named and in the colours of the plates if it is the only one.
+void add_series(Chart& chart, const ResultSeries& series, bool speed, bool is_only, const Colour& colour) {
   const auto fit = speed ? find_plateau_fit(series) : std::nullopt;
-  add_impact(chart, series, fit, kImpactColour, "impact plate");
-  chart.curves.push_back(
-      {series.x, values_of(series, support), {kSupportColour, 1.2, {}}, "support plate", Marker::square});
-  const LineStyle solid{kImpactColour, 1.6, {}};
-  if (fit)
-    chart.curves.push_back(
-        sampled(*fit, series.x.front(), series.x.back(), chart.x.logarithmic, solid, fit_name(*fit)));
-  add_theory(chart, series, speed, kMutedInk, true);
-  add_measured_shock(chart, series, kInk, "shock theory, measured jumps (Eq. 52)");
-}
-
-void add_series(Chart& chart, const ResultSeries& series, bool speed, const Colour& colour) {
-  const auto fit = speed ? find_plateau_fit(series) : std::nullopt;
-  add_impact(chart, series, fit, colour, series.name);
-  chart.curves.push_back({series.x, values_of(series, support), {colour, 0.9, {}}, "", Marker::square});
-  const LineStyle solid{colour, 1.6, {}};
-  if (fit) chart.curves.push_back(sampled(*fit, series.x.front(), series.x.back(), chart.x.logarithmic, solid, ""));
+  const Colour impact_colour = is_only ? kImpactColour : colour;
+  chart.curves.push_back({series.x,
+                          values_of(series, impact),
+                          {impact_colour, fit ? 0.0 : 1.6, {}},
+                          is_only ? "impact plate" : series.name,
+                          Marker::disc});
+  chart.curves.push_back({series.x,
+                          values_of(series, support),
+                          {is_only ? kSupportColour : colour, is_only ? 1.2 : 0.9, {}},
+                          is_only ? "support plate" : "",
+                          Marker::square});
+  if (fit) {
+    chart.curves.push_back(sampled(*fit, series.x.front(), series.x.back(), chart.x.logarithmic,
+                                   {impact_colour, 1.6, {}}, is_only ? fit_name(*fit) : ""));
+  }
   Colour faint = colour;
   faint.opacity = 0.55;
-  add_theory(chart, series, speed, faint, false);
-  add_measured_shock(chart, series, colour, "");
+  add_theory(chart, series, speed, is_only ? kMutedInk : faint, is_only);
+  add_measured_shock(chart, series, is_only ? kInk : colour, is_only ? "shock theory, measured jumps (Eq. 52)" : "");
 }
 
 // The plateau of one of several sweeps, with its own mark and colour; shock theory dashed.
@@ -242,10 +234,10 @@ Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const Logarithm
     for (std::size_t i = 0; i < all.size(); ++i) add_sweep(chart, all[i], speed, i);
     add_note(chart, "impact plate; dashed: shock theory (Eq. 51)");
   } else if (all.size() == 1) {
-    add_only_series(chart, all.front(), speed);
+    add_series(chart, all.front(), speed, true, kImpactColour);
   } else {
     for (std::size_t i = 0; i < all.size(); ++i)
-      add_series(chart, all[i], speed, kSeriesColours[i % kSeriesColours.size()]);
+      add_series(chart, all[i], speed, false, kSeriesColours[i % kSeriesColours.size()]);
     chart.note = "discs: impact plate; squares: support plate; ";
     if (speed) chart.note += "solid: quadratic fit; ";
     chart.note += "dashed: Eq. 51; crosses: Eq. 52; dotted: Gibson-Ashby";

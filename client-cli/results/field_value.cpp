@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <string>
-#include <utility>
+
+#include "case_file/field_names.h"
+#include "help/field_rules.h"
 
 namespace cellcrush::client {
 
 using google::protobuf::FieldDescriptor;
 
 namespace {
-
-std::string_view last_part(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
 std::string scalar_text(const google::protobuf::Message& message, const FieldDescriptor& field) {
   const auto* reflection = message.GetReflection();
@@ -38,48 +38,52 @@ const google::protobuf::Message* find_message(const google::protobuf::Message& m
   return at < reflection->FieldSize(message, &field) ? &reflection->GetRepeatedMessage(message, &field, at) : nullptr;
 }
 
+using google::protobuf::Descriptor;
+
+// Paths of all fields outside of lists.
+void collect_paths(const Descriptor& message, const std::string& prefix, std::vector<std::string>& paths) {
+  for (int i = 0; i < message.field_count(); ++i) {
+    const FieldDescriptor& field = *message.field(i);
+    if (field.is_repeated()) continue;
+    const std::string path = prefix + field.name();
+    if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+      collect_paths(*field.message_type(), path + '.', paths);
+    } else {
+      paths.push_back(path);
+    }
+  }
+}
+
+bool is_path_character(char letter) {
+  return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '_' || letter == '.' ||
+         letter == '[' || letter == ']';
+}
+
 }  // namespace
 
 std::string field_value_text(const v1::Case& scene, std::string_view path) {
   const google::protobuf::Message* message = &scene;
-  while (message != nullptr) {
-    const std::size_t dot = path.find('.');
-    std::string name(path.substr(0, dot));
-    std::string index;
-    if (const std::size_t bracket = name.find('['); bracket != std::string::npos && name.back() == ']') {
-      index = name.substr(bracket + 1, name.size() - bracket - 2);
-      name.resize(bracket);
+  const std::vector<PathPart> parts = split_path(path);
+  for (std::size_t i = 0; message != nullptr; ++i) {
+    const FieldDescriptor* field = message->GetDescriptor()->FindFieldByName(parts[i].name);
+    const bool is_last = i + 1 == parts.size();
+    if (field == nullptr || (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) == is_last) return {};
+    if (!is_last) {
+      message = find_message(*message, *field, parts[i].index);
+      continue;
     }
-    const FieldDescriptor* field = message->GetDescriptor()->FindFieldByName(name);
-    if (field == nullptr) return {};
-    const bool group = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
-    if (group != (dot != std::string_view::npos)) return {};
-    if (!group) {
-      const bool there = !field->is_repeated() && index.empty() && message->GetReflection()->HasField(*message, field);
-      return there ? scalar_text(*message, *field) : std::string();
-    }
-    message = find_message(*message, *field, index);
-    path.remove_prefix(dot + 1);
+    const bool is_there =
+        !field->is_repeated() && !parts[i].has_index() && message->GetReflection()->HasField(*message, field);
+    return is_there ? scalar_text(*message, *field) : std::string();
   }
   return {};
 }
 
 FieldWords words_of(std::string_view path) {
-  // Longer endings first: "_m_per_s" ends in "_s" too.
-  constexpr std::array<std::pair<std::string_view, const char*>, 7> kUnits = {{{"_kg_per_m3", "kg/m³"},
-                                                                               {"_m_per_s2", "m/s²"},
-                                                                               {"_m_per_s", "m/s"},
-                                                                               {"_per_s", "1/s"},
-                                                                               {"_mpa", "MPa"},
-                                                                               {"_mm", "mm"},
-                                                                               {"_s", "s"}}};
-  FieldWords words{std::string(last_part(path)), {}};
-  for (const auto& [ending, unit] : kUnits) {
-    if (!words.name.ends_with(ending)) continue;
-    words.name.resize(words.name.size() - ending.size());
-    words.unit = unit;
-    break;
-  }
+  FieldWords words{std::string(path.substr(path.rfind('.') + 1)), {}};
+  const auto [suffix, unit] = find_unit(words.name);
+  words.name.resize(words.name.size() - std::min(suffix.size(), words.name.size()));
+  for (const char letter : unit) words.unit += letter == '2' ? "²" : letter == '3' ? "³" : std::string(1, letter);
   std::replace(words.name.begin(), words.name.end(), '_', ' ');
   return words;
 }
@@ -92,6 +96,74 @@ FieldWords words_among(std::string_view path, const std::vector<std::string>& ot
   const std::size_t dot = path.rfind('.');
   if (taken && dot != std::string_view::npos) words.name = words_of(path.substr(0, dot)).name + ' ' + words.name;
   return words;
+}
+
+std::string equation_text(std::string_view path, const std::string& value, const std::vector<std::string>& others) {
+  const FieldWords words = words_among(path, others);
+  return fmt::format("{} = {}{}{}", words.name, value, words.unit.empty() ? "" : " ", words.unit);
+}
+
+void append_words(const std::vector<std::string>& fields, std::vector<std::string>& names,
+                  std::vector<std::string>& units) {
+  for (const std::string& field : fields) {
+    const FieldWords words = words_among(field, fields);
+    names.push_back(words.name);
+    units.push_back(words.unit);
+  }
+}
+
+std::string base_title(const std::string& title) {
+  std::string base = title;
+  while (true) {
+    const std::size_t comma = base.rfind(", ");
+    const std::size_t equals = base.rfind(" = ");
+    if (comma == std::string::npos || equals == std::string::npos || equals < comma + 2) return base;
+    const bool path = std::all_of(base.begin() + static_cast<std::ptrdiff_t>(comma + 2),
+                                  base.begin() + static_cast<std::ptrdiff_t>(equals), is_path_character);
+    if (!path) return base;
+    base.resize(comma);
+  }
+}
+
+std::vector<std::string> find_differences(const std::vector<const v1::Case*>& cases) {
+  static const std::vector<std::string> kPaths = [] {
+    std::vector<std::string> paths;
+    collect_paths(*v1::Case::descriptor(), "", paths);
+    return paths;
+  }();
+  std::vector<std::string> differences;
+  for (const std::string& path : kPaths) {
+    const auto differs = [&](const v1::Case* scene) {
+      return field_value_text(*scene, path) != field_value_text(*cases.front(), path);
+    };
+    if (path != "title" && std::any_of(cases.begin(), cases.end(), differs)) differences.push_back(path);
+  }
+  return differences;
+}
+
+std::vector<std::string> find_varied_fields(const std::vector<const v1::Case*>& cases) {
+  std::map<std::string, std::vector<const v1::Case*>> groups;
+  for (const v1::Case* scene : cases) groups[base_title(scene->title())].push_back(scene);
+  std::map<std::string, std::size_t> uses;
+  for (const auto& [title, group] : groups) {
+    for (const std::string& field : find_differences(group)) uses[field] += group.size();
+  }
+  std::vector<std::string> fields;
+  fields.reserve(uses.size());
+  for (const auto& [field, count] : uses) fields.push_back(field);
+  std::stable_sort(fields.begin(), fields.end(),
+                   [&](const std::string& a, const std::string& b) { return uses[a] > uses[b]; });
+  return fields;
+}
+
+std::string field_values_text(const v1::Case& scene, const std::vector<std::string>& fields) {
+  std::string text;
+  for (const std::string& field : fields) {
+    const std::string value = field_value_text(scene, field);
+    if (value.empty()) continue;
+    text += (text.empty() ? "" : ", ") + equation_text(field, value, fields);
+  }
+  return text;
 }
 
 }  // namespace cellcrush::client

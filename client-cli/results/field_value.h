@@ -22,4 +22,24 @@ FieldWords words_of(std::string_view path);
 /// The same among other fields: with its group if another field has the same name, "plates friction".
 FieldWords words_among(std::string_view path, const std::vector<std::string>& others);
 
+/// A field with its value among other fields: "speed = 50 m/s".
+std::string equation_text(std::string_view path, const std::string& value, const std::vector<std::string>& others);
+
+/// Appends the words of fields to the two lines of a table's heading.
+void append_words(const std::vector<std::string>& fields, std::vector<std::string>& names,
+                  std::vector<std::string>& units);
+
+/// A case's title without the values that a sweep appended: "Type I" of "Type I, loading.speed_m_per_s = 50".
+std::string base_title(const std::string& title);
+
+/// Paths of the numbers and enums in which the cases differ, in the order of the case's fields, excluding title and
+/// lists.
+std::vector<std::string> find_differences(const std::vector<const v1::Case*>& cases);
+
+/// The same among cases with equal titles, sorted by the number of cases concerned.
+std::vector<std::string> find_varied_fields(const std::vector<const v1::Case*>& cases);
+
+/// Values of a case's fields as text: "speed = 50 m/s, wall thickness = 0.3 mm"; absent fields are omitted.
+std::string field_values_text(const v1::Case& scene, const std::vector<std::string>& fields);
+
 }  // namespace cellcrush::client

@@ -7,7 +7,6 @@
 #include <map>
 #include <utility>
 
-#include "results/case_differences.h"
 #include "results/field_value.h"
 #include "terminal/job_text.h"
 #include "terminal/number_text.h"
@@ -43,27 +42,39 @@ std::string hold_text(const v1::Queue::Hold& hold) {
   return text;
 }
 
-// The first fields in which the jobs of the queue differ.
-std::vector<std::string> find_shown_fields(const std::vector<v1::Job>& jobs) {
-  constexpr std::size_t kMost = 4;
+constexpr std::size_t kMostFields = 4;
+
+// The fields in which jobs of one title differ.
+std::vector<std::string> varied_fields_of(const std::vector<v1::Job>& jobs) {
   std::vector<const v1::Case*> cases;
   cases.reserve(jobs.size());
   for (const v1::Job& job : jobs) cases.push_back(&job.case_());
-  std::vector<std::string> fields = find_varied_fields(cases);
-  fields.resize(std::min(fields.size(), kMost));
-  return fields;
+  return find_varied_fields(cases);
 }
+
+// A table whose rows stand below the titles of their cases.
+class TitledRows {
+ public:
+  explicit TitledRows(Table& table) : table_(table) {}
+
+  void add(const std::string& case_title, std::vector<std::string> cells) {
+    const std::string title = base_title(case_title);
+    if (title != above_) table_.add_title(title.empty() ? "untitled" : title);
+    above_ = title;
+    table_.add(std::move(cells));
+  }
+
+ private:
+  Table& table_;
+  std::string above_;
+};
 
 }  // namespace
 
 std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
-  constexpr std::size_t kMostFields = 4;
   constexpr std::size_t kHeadings = 2;
   if (jobs.empty()) return "no jobs\n";
-  std::vector<const v1::Case*> cases;
-  cases.reserve(jobs.size());
-  for (const v1::Job& job : jobs) cases.push_back(&job.case_());
-  const auto varied = find_varied_fields(cases);
+  const auto varied = varied_fields_of(jobs);
   const std::vector<std::string> fields(varied.begin(), varied.begin() + std::min(varied.size(), kMostFields));
   std::vector<Align> columns = {Align::left, Align::left, Align::right, Align::right};
   columns.insert(columns.end(), fields.size(), Align::right);
@@ -71,19 +82,12 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   Table table(columns);
   std::vector<std::string> headings = {"NAME", "STATE", "DONE", "PLATEAU"};
   std::vector<std::string> units = {"", "", "", "MPa"};
-  for (const std::string& field : fields) {
-    const FieldWords words = words_among(field, fields);
-    headings.push_back(words.name);
-    units.push_back(words.unit);
-  }
+  append_words(fields, headings, units);
   headings.insert(headings.end(), {"PRIORITY", "EXECUTOR", "PLACE", "LABELS", "CREATED"});
   table.add(std::move(headings));
   table.add(std::move(units));
-  std::string title_above;
+  TitledRows rows(table);
   for (const v1::Job& job : jobs) {
-    const std::string title = base_title(job.case_().title());
-    if (title != title_above) table.add_title(title.empty() ? "untitled" : title);
-    title_above = title;
     const bool plateau = job.summary().has_plateau_stress_impact_mpa();
     const bool started = job.state() != v1::Job::PENDING && job.has_progress();
     const double done = job.state() == v1::Job::SUCCEEDED ? 1.0 : job.progress().fraction();
@@ -94,7 +98,7 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
     cells.insert(cells.end(),
                  {job.priority() != 0 ? std::to_string(job.priority()) : "", executor_text(job.executor()), job.place(),
                   labels_text(job.labels()), job.has_create_time() ? time_text(job.create_time()) : ""});
-    table.add(std::move(cells));
+    rows.add(job.case_().title(), std::move(cells));
   }
   const std::string constants = constants_text(table.remove_constant_columns(2, kHeadings), width);
   return table.text(0, width) + constants + also_varied_text(varied, fields.size(), width);
@@ -104,7 +108,8 @@ std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs,
   std::string held;
   for (const auto& hold : queue.holds()) held += wrapped(hold_text(hold), width);
   if (queue.entries_size() == 0) return held + "the queue is empty\n";
-  const std::vector<std::string> fields = find_shown_fields(jobs);
+  std::vector<std::string> fields = varied_fields_of(jobs);
+  fields.resize(std::min(fields.size(), kMostFields));
   std::map<std::string, const v1::Case*> cases;
   for (const v1::Job& job : jobs) cases[job.name()] = &job.case_();
   const bool priorities = std::any_of(queue.entries().begin(), queue.entries().end(),
@@ -118,23 +123,16 @@ std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs,
   Table table(columns);
   std::vector<std::string> headings = {"JOB"};
   std::vector<std::string> units = {""};
-  for (const std::string& field : fields) {
-    const FieldWords words = words_among(field, fields);
-    headings.push_back(words.name);
-    units.push_back(words.unit);
-  }
+  append_words(fields, headings, units);
   headings.emplace_back("STARTS IN");
   if (priorities) headings.emplace_back("PRIORITY");
   if (executors) headings.emplace_back("EXECUTOR");
   headings.emplace_back("REASON");
   table.add(std::move(headings));
   table.add(std::move(units));
-  std::string title_above;
+  TitledRows rows(table);
   for (const auto& entry : queue.entries()) {
     const auto known = cases.find(entry.job());
-    const std::string title = known == cases.end() ? std::string() : base_title(known->second->title());
-    if (title != title_above) table.add_title(title.empty() ? "untitled" : title);
-    title_above = title;
     std::vector<std::string> cells = {entry.job()};
     for (const std::string& field : fields)
       cells.push_back(known == cases.end() ? std::string() : field_value_text(*known->second, field));
@@ -142,7 +140,7 @@ std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs,
     if (priorities) cells.push_back(entry.priority() != 0 ? std::to_string(entry.priority()) : "");
     if (executors) cells.push_back(entry.executor());
     cells.push_back(entry.reason());
-    table.add(std::move(cells));
+    rows.add(known == cases.end() ? "" : known->second->title(), std::move(cells));
   }
   std::string text = held + table.text(0, width);
   if (queue.more_count() > 0) text += fmt::format("and {} more\n", count_text(queue.more_count()));

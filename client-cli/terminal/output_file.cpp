@@ -63,6 +63,20 @@ void OutputFile::fail(const char* what) const {
   throw CommandError(ExitCode::refused, path_.string() + ": " + what + ": " + std::strerror(errno));
 }
 
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder, error)) {
+    throw CommandError(ExitCode::refused, folder.string() + ": cannot create this folder: " + error.message());
+  }
+}
+
 bool begins_with_one_of(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures) {
   std::error_code error;
   const auto status = std::filesystem::symlink_status(path, error);
@@ -72,6 +86,13 @@ bool begins_with_one_of(const std::filesystem::path& path, std::initializer_list
   std::ifstream file(path, std::ios::binary);
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   return std::ranges::any_of(signatures, [&](std::string_view signature) { return begin.starts_with(signature); });
+}
+
+bool holds_text(const std::filesystem::path& path, const std::string& text) {
+  std::error_code error;
+  if (std::filesystem::file_size(path, error) != text.size() || error) return false;
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {}) == text;
 }
 
 void check_may_overwrite(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures) {

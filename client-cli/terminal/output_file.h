@@ -31,8 +31,17 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
+/// Writes a whole file of that kind.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Creates a folder and those that it is in. Throws CommandError (refused) if it cannot.
+void make_folder(const std::filesystem::path& folder);
+
 /// Whether `path` is a regular file that begins with one of `signatures`.
 bool begins_with_one_of(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures);
+
+/// Whether a file holds this text and nothing else.
+bool holds_text(const std::filesystem::path& path, const std::string& text);
 
 /// Throws CommandError (refused) if `path` exists and does not begin with one of `signatures`, so that no foreign file
 /// is overwritten.

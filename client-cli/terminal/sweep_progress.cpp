@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "command_error.h"
-#include "results/case_differences.h"
 #include "results/field_value.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
@@ -83,11 +82,7 @@ std::vector<std::string> job_rows(const SweepView& view, const std::vector<const
   Table table(columns);
   std::vector<std::string> names;
   std::vector<std::string> units;
-  for (const std::string& field : fields) {
-    const FieldWords words = words_among(field, fields);
-    names.push_back(words.name);
-    units.push_back(words.unit);
-  }
+  append_words(fields, names, units);
   names.insert(names.end(), {"state", "done", "plateau", "strain", "job"});
   units.insert(units.end(), {"", "", "MPa", "", ""});
   table.add(std::move(names));

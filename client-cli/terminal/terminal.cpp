@@ -1,11 +1,14 @@
 #include "terminal/terminal.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -63,6 +66,28 @@ void Redraw::show(const std::vector<std::string>& lines) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
   lines_ = static_cast<int>(lines.size());
+}
+
+std::string json_text(const google::protobuf::Message& message) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.preserve_proto_field_names = true;
+  options.always_print_primitive_fields = true;
+  std::string text;
+  const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
+  if (!status.ok()) throw std::runtime_error("a message of the server has no JSON form: " + status.ToString());
+  return text;
+}
+
+void print_json(const google::protobuf::Message& message) {
+  fmt::print("{}\n", json_text(message));
+  std::fflush(stdout);
+}
+
+void print_file_json(const std::string& path, const std::map<std::string, int>& counts) {
+  google::protobuf::Struct json;
+  (*json.mutable_fields())["path"].set_string_value(path);
+  for (const auto& [name, count] : counts) (*json.mutable_fields())[name].set_number_value(count);
+  print_json(json);
 }
 
 }  // namespace cellcrush::client

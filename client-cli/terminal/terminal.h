@@ -1,5 +1,8 @@
 #pragma once
 
+#include <google/protobuf/message.h>
+
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,5 +31,14 @@ class Redraw {
  private:
   int lines_ = 0;  ///< lines of the last redraw above the cursor
 };
+
+/// A message as protobuf JSON on one line, with the proto's own field names, including zeros.
+std::string json_text(const google::protobuf::Message& message);
+
+/// Prints the same on stdout as one line, and flushes it.
+void print_json(const google::protobuf::Message& message);
+
+/// Prints {"path": PATH, NAME: COUNT...} of a file that a command wrote.
+void print_file_json(const std::string& path, const std::map<std::string, int>& counts);
 
 }  // namespace cellcrush::client

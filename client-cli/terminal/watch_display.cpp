@@ -6,9 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "terminal/json_text.h"
 #include "terminal/table.h"
-#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -17,11 +15,39 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
+// What differs between a job and a sweep.
+const std::string& name_of(const JobView& view) { return view.job().name(); }
+const std::string& name_of(const SweepView& view) { return view.sweep().name(); }
+
+v1::Job::State state_of(const JobView& view) { return view.job().state(); }
+v1::Job::State state_of(const SweepView&) { return v1::Job::JOB_STATE_UNSPECIFIED; }
+
+bool is_bookmark(const v1::JobEvent& event) { return event.has_bookmark(); }
+bool is_bookmark(const v1::WatchSweepResponse& response) { return response.event().has_bookmark(); }
+
+std::string line_of(const JobView& view) { return progress_line(view); }
+std::string line_of(const SweepView& view) { return sweep_progress_line(view); }
+
+std::vector<std::string> lines_of(const JobView& view, int width, const Terminal& terminal) {
+  return progress_lines(view, width, terminal);
+}
+std::vector<std::string> lines_of(const SweepView& view, int width, const Terminal& terminal) {
+  return sweep_progress_lines(view, width, terminal_height() - 1, terminal);
+}
+
+// The line above the display of a job; that of a sweep begins with its name.
+std::string heading_of(const JobView& view) {
+  const std::string& title = view.job().case_().title();
+  return printable(name_of(view)) + (title.empty() ? "" : "  " + printable(title));
+}
+std::string heading_of(const SweepView&) { return {}; }
+
 // Every event as one line of JSON.
-class JobJsonDisplay : public WatchDisplay {
+template <typename Event, typename View>
+class JsonDisplay : public Display<Event, View> {
  public:
-  void on_event(const v1::JobEvent& event) override {
-    view_.apply(event);
+  void on_event(const Event& event) override {
+    this->view_.apply(event);
     print_json(event);
   }
   void on_break(const std::string& reason) override {
@@ -31,16 +57,17 @@ class JobJsonDisplay : public WatchDisplay {
 };
 
 // A line when the state changes, and otherwise at most one a second.
-class JobLineDisplay : public WatchDisplay {
+template <typename Event, typename View>
+class LineDisplay : public Display<Event, View> {
  public:
-  void on_event(const v1::JobEvent& event) override {
-    const v1::Job::State before = view_.job().state();
-    view_.apply(event);
-    pending_ = !event.has_bookmark();
-    if (view_.job().state() != before || (pending_ && Clock::now() - printed_ >= 1s)) print();
+  void on_event(const Event& event) override {
+    const v1::Job::State before = state_of(this->view_);
+    this->view_.apply(event);
+    pending_ = pending_ || !is_bookmark(event);
+    if (state_of(this->view_) != before || (pending_ && Clock::now() - printed_ >= 1s)) print();
   }
   void on_break(const std::string& reason) override {
-    fmt::print("{}  stream interrupted ({}); reconnecting\n", view_.job().name(), reason);
+    fmt::print("{}  stream interrupted ({}); reconnecting\n", printable(name_of(this->view_)), reason);
     std::fflush(stdout);
   }
   void finish() override {
@@ -49,7 +76,7 @@ class JobLineDisplay : public WatchDisplay {
 
  private:
   void print() {
-    fmt::print("{}\n", progress_line(view_));
+    fmt::print("{}\n", line_of(this->view_));
     std::fflush(stdout);
     printed_ = Clock::now();
     pending_ = false;
@@ -59,123 +86,51 @@ class JobLineDisplay : public WatchDisplay {
   bool pending_ = false;  ///< something came since the last line
 };
 
-// Lines redrawn in place at most ten times a second, each redraw in one write.
-class JobLiveDisplay : public WatchDisplay {
+// Lines redrawn in place at most ten times a second, each redraw in one write. The last column stays free: some
+// terminals wrap when it is filled.
+template <typename Event, typename View>
+class LiveDisplay : public Display<Event, View> {
  public:
-  explicit JobLiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
+  explicit LiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
 
-  void on_event(const v1::JobEvent& event) override {
-    const v1::Job::State before = view_.job().state();
-    view_.apply(event);
-    if (!headed_) fmt::print("{}\n", cut(heading(), terminal_width() - 1));
+  void on_event(const Event& event) override {
+    const v1::Job::State before = state_of(this->view_);
+    this->view_.apply(event);
+    const std::string heading = headed_ ? "" : heading_of(this->view_);
+    if (!heading.empty()) fmt::print("{}\n", cut(heading, terminal_width() - 1));
     headed_ = true;
-    if (view_.job().state() != before || Clock::now() - drawn_ >= 100ms) draw();
+    if (state_of(this->view_) != before || Clock::now() - drawn_ >= 100ms) finish();
   }
   void on_break(const std::string& reason) override {
     redraw_.show({cut("stream interrupted (" + reason + "); reconnecting", terminal_width() - 1)});
   }
-  void finish() override { draw(); }
-
- private:
-  [[nodiscard]] std::string heading() const {
-    const v1::Job& job = view_.job();
-    return printable(job.name()) + (job.case_().title().empty() ? "" : "  " + printable(job.case_().title()));
-  }
-
-  // The last column stays free: some terminals wrap when it is filled.
-  void draw() {
-    redraw_.show(progress_lines(view_, terminal_width() - 1, terminal_));
+  void finish() override {
+    redraw_.show(lines_of(this->view_, terminal_width() - 1, terminal_));
     drawn_ = Clock::now();
   }
 
+ private:
   Terminal terminal_;
   Redraw redraw_;
   Clock::time_point drawn_;
   bool headed_ = false;
 };
 
-using Clock = std::chrono::steady_clock;
-using namespace std::chrono_literals;
-
-// Every response as one line of JSON.
-class SweepJsonDisplay : public SweepDisplay {
- public:
-  void on_response(const v1::WatchSweepResponse& response) override {
-    view_.apply(response);
-    print_json(response);
-  }
-  void on_break(const std::string& reason) override {
-    fmt::print(stderr, "cellcrush: stream interrupted ({}); reconnecting\n", reason);
-  }
-  void finish() override {}
-};
-
-// At most a line a second, and one at the end.
-class SweepLineDisplay : public SweepDisplay {
- public:
-  void on_response(const v1::WatchSweepResponse& response) override {
-    view_.apply(response);
-    pending_ = pending_ || !response.event().has_bookmark();
-    if (pending_ && Clock::now() - printed_ >= 1s) print();
-  }
-  void on_break(const std::string& reason) override {
-    fmt::print("{}  stream interrupted ({}); reconnecting\n", printable(view_.sweep().name()), reason);
-    std::fflush(stdout);
-  }
-  void finish() override {
-    if (pending_) print();
-  }
-
- private:
-  void print() {
-    fmt::print("{}\n", sweep_progress_line(view_));
-    std::fflush(stdout);
-    printed_ = Clock::now();
-    pending_ = false;
-  }
-
-  Clock::time_point printed_;
-  bool pending_ = false;  ///< something came since the last line
-};
-
-// A line a job, redrawn in place at most ten times a second.
-class SweepLiveDisplay : public SweepDisplay {
- public:
-  explicit SweepLiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
-
-  void on_response(const v1::WatchSweepResponse& response) override {
-    view_.apply(response);
-    if (Clock::now() - drawn_ >= 100ms) draw();
-  }
-  // The last column stays free: some terminals wrap when it is filled.
-  void on_break(const std::string& reason) override {
-    redraw_.show({cut("stream interrupted (" + reason + "); reconnecting", terminal_width() - 1)});
-  }
-  void finish() override { draw(); }
-
- private:
-  void draw() {
-    redraw_.show(sweep_progress_lines(view_, terminal_width() - 1, terminal_height() - 1, terminal_));
-    drawn_ = Clock::now();
-  }
-
-  Terminal terminal_;
-  Redraw redraw_;
-  Clock::time_point drawn_;
-};
+template <typename Event, typename View>
+std::unique_ptr<Display<Event, View>> make_display(bool json, const Terminal& terminal) {
+  if (json) return std::make_unique<JsonDisplay<Event, View>>();
+  if (terminal.interactive) return std::make_unique<LiveDisplay<Event, View>>(terminal);
+  return std::make_unique<LineDisplay<Event, View>>();
+}
 
 }  // namespace
 
-std::unique_ptr<WatchDisplay> make_watch_display(bool json, const Terminal& terminal) {
-  if (json) return std::make_unique<JobJsonDisplay>();
-  if (terminal.interactive) return std::make_unique<JobLiveDisplay>(terminal);
-  return std::make_unique<JobLineDisplay>();
+std::unique_ptr<JobDisplay> make_job_display(bool json, const Terminal& terminal) {
+  return make_display<v1::JobEvent, JobView>(json, terminal);
 }
 
 std::unique_ptr<SweepDisplay> make_sweep_display(bool json, const Terminal& terminal) {
-  if (json) return std::make_unique<SweepJsonDisplay>();
-  if (terminal.interactive) return std::make_unique<SweepLiveDisplay>(terminal);
-  return std::make_unique<SweepLineDisplay>();
+  return make_display<v1::WatchSweepResponse, SweepView>(json, terminal);
 }
 
 }  // namespace cellcrush::client

@@ -4,7 +4,8 @@
 
 #include <string>
 
-#include "command_line/nearest_option.h"
+#include "usage/command_entries.h"
+#include "usage/suggestion.h"
 
 namespace cellcrush {
 namespace {
@@ -19,7 +20,9 @@ std::vector<CLI::ConfigItem> CheckedConfig::from_config(std::istream& input) con
   for (const auto& item : found) {
     const std::string key = item.fullname();
     if (is_mark(item) || (item.parents.empty() && app_.get_option_no_throw("--" + key) != nullptr)) continue;
-    const std::string nearest = nearest_option(app_, key);
+    std::vector<std::string> names;
+    for (const OptionEntry& option : option_entries(app_)) names.push_back(option.names.back().substr(2));
+    const std::string nearest = find_nearest(key, names);
     const std::string remedy =
         nearest.empty() ? "cellcrushd --help lists all options." : fmt::format("Did you mean \"{}\"?", nearest);
     throw CLI::ConfigError(fmt::format("the --config file sets \"{}\", which is not an option. {}", key, remedy),

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include "chart/colour_map.h"
 #include "chart/lattice_drawing.h"
 #include "chart/smoothing.h"
+#include "expect_text.h"
 #include "plots/job_curves.h"
 #include "plots/job_picture.h"
 #include "synthetic_crush.h"
@@ -15,6 +17,10 @@
 namespace cellcrush::client {
 namespace {
 
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+using testing::expect_parts_in;
 using testing::synthetic_samples;
 using testing::synthetic_stage;
 
@@ -91,12 +97,6 @@ TEST(LatticeDrawing, TheBoxHoldsAllStagesAndBothPlatesAtTheStart) {
   EXPECT_GT(box.high_y, (1.5 * 4 + 0.5) * 4);
 }
 
-TEST(Picture, TheFileNameChoosesTheFormat) {
-  EXPECT_EQ(picture_format("a.PNG"), PictureFormat::png);
-  EXPECT_EQ(picture_format("b/a.svg"), PictureFormat::svg);
-  EXPECT_THROW(picture_format("a.gif"), std::invalid_argument);
-}
-
 struct Pixels {
   int width = 0;
   int height = 0;
@@ -150,15 +150,6 @@ TEST(Picture, APngShowsLatticeAndCurve) {
   EXPECT_GT(with.colours.size(), without.colours.size() + 200);
 }
 
-TEST(Picture, TheStagesAloneHaveNoCurve) {
-  const std::vector<MeshFrame> stages = {synthetic_stage(20, 6, 0.0), synthetic_stage(20, 6, 0.4)};
-  const Pixels whole = read_png(render_job_picture(PictureFormat::png, make_history(), stages));
-  const Pixels alone = read_png(render_stages_picture(PictureFormat::png, stages));
-  EXPECT_EQ(alone.width, whole.width);
-  EXPECT_LT(alone.height, whole.height - 300 * kPixelsPerUnit);
-  EXPECT_GT(alone.colours.size(), 50U);
-}
-
 TEST(NodeChart, ShowsHowTheWatchedNodesOfAFrameMoved) {
   JobHistory history;
   history.job.mutable_case_()->mutable_lattice()->mutable_frame()->set_end_time_s(0.02);
@@ -183,10 +174,11 @@ TEST(NodeChart, ShowsHowTheWatchedNodesOfAFrameMoved) {
 TEST(Picture, AnSvgHasTextThatCanBeSelectedAndAPdfIsOne) {
   JobHistory history = make_history();
   history.job.mutable_case_()->set_title("Cells < 4 mm & more");
-  const std::string svg = render_job_picture(PictureFormat::svg, history, {});
-  EXPECT_NE(svg.find(">Cells &lt; 4 mm &amp; more (jobs/a)</text>"), std::string::npos);
-  EXPECT_NE(svg.find(">nominal stress (MPa)</text>"), std::string::npos);
-  EXPECT_EQ(svg.find("<symbol"), std::string::npos) << "no glyphs are drawn";
+  const std::string svg = render_job_picture(PictureFormat::svg, history, {synthetic_stage(10, 4, 0.3, true)});
+  expect_parts_in(svg, {"<svg", "<path", "</svg>"});
+  EXPECT_THAT(svg, HasSubstr(">Cells &lt; 4 mm &amp; more (jobs/a)</text>"));
+  EXPECT_THAT(svg, HasSubstr(">nominal stress (MPa)</text>"));
+  EXPECT_THAT(svg, Not(HasSubstr("<symbol"))) << "no glyphs are drawn";
   EXPECT_EQ(render_job_picture(PictureFormat::pdf, history, {}).substr(0, 5), "%PDF-");
 }
 
@@ -204,24 +196,6 @@ TEST(JobChart, TheStressAxisFollowsThePlateauAndAnArrowSaysHowHighTheFirstWaveGo
   ASSERT_EQ(chart.overshoots.size(), 1U);
   EXPECT_EQ(chart.overshoots[0].text, "50 MPa");
   EXPECT_LT(chart.overshoots[0].x, 0.04);
-}
-
-TEST(Picture, FramesOfAMovieHaveOneEvenSize) {
-  const LatticeStage start = lattice_stage(synthetic_stage(20, 6, 0.0));
-  const LatticeStage end = lattice_stage(synthetic_stage(20, 6, 0.7));
-  const Box box = find_box({start, end});
-  const Pixels first = read_png(render_movie_frame(start, box));
-  const Pixels last = read_png(render_movie_frame(end, box));
-  EXPECT_EQ(first.width, last.width);
-  EXPECT_EQ(first.height, last.height);
-  EXPECT_EQ(first.width % 2 + first.height % 2, 0);
-}
-
-TEST(Picture, AnSvgIsMarkupWithPaths) {
-  const std::string svg = render_job_picture(PictureFormat::svg, make_history(), {synthetic_stage(10, 4, 0.3, true)});
-  EXPECT_NE(svg.find("<svg"), std::string::npos);
-  EXPECT_NE(svg.find("<path"), std::string::npos);
-  EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
 TEST(Picture, OddDataIsDrawnAndDoesNoHarm) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
@@ -8,6 +9,8 @@
 
 namespace cellcrush::client::testing {
 namespace {
+
+using ::testing::HasSubstr;
 
 v1::Convergence convergence() {
   v1::Convergence found;
@@ -33,23 +36,17 @@ Script converge_script() {
   return script;
 }
 
-ProgramResult converge_on(const FakeServer& server, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "converge");
-  arguments.insert(arguments.end(), {"--server", server.address()});
-  return run_program(arguments);
-}
-
-const std::vector<std::string> kCase = {"preset:type-i", "--set", "lattice.imperfection.amplitude_mm=0.01"};
+const std::vector<std::string> kCase = {"converge", "preset:type-i", "--set", "lattice.imperfection.amplitude_mm=0.01"};
 
 TEST(Converge, TellsItsCostQueuesMeshesWithSeedsAndPrintsTheEstimates) {
   const FakeServer server(converge_script());
   auto arguments = kCase;
   arguments.insert(arguments.end(), {"--meshes", "2,4", "--seeds", "3", "--error", "0.1", "--executor", "slurm/a"});
-  const ProgramResult result = converge_on(server, arguments);
+  const ProgramResult result = server.run(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_NE(result.errors.find("6 runs, predicted to take 12 s of one core"), std::string::npos) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("6 runs, predicted to take 12 s of one core"));
   EXPECT_EQ(result.output.find("sweeps/test\n"), 0U);
-  EXPECT_NE(result.output.find("With 4 elements per wall, error and interval"), std::string::npos) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("With 4 elements per wall, error and interval"));
   const auto creates = server.asked().sweeps.creates;
   ASSERT_EQ(creates.size(), 2U);
   EXPECT_TRUE(creates[0].validate_only());
@@ -66,7 +63,7 @@ TEST(Converge, ForItsCostAloneNothingIsQueued) {
   const FakeServer server(converge_script());
   auto arguments = kCase;
   arguments.emplace_back("--cost");
-  EXPECT_EQ(converge_on(server, arguments).output, "15 runs, predicted to take 12 s of one core\n");
+  EXPECT_EQ(server.run(arguments).output, "15 runs, predicted to take 12 s of one core\n");
   const auto creates = server.asked().sweeps.creates;
   ASSERT_EQ(creates.size(), 1U);
   EXPECT_TRUE(creates[0].validate_only());
@@ -76,33 +73,34 @@ TEST(Converge, WithoutAnImperfectionSeedsAreRefusedWithARemedy) {
   Script script = converge_script();
   script.preset.mutable_case_()->mutable_lattice()->clear_imperfection();
   const FakeServer server(std::move(script));
-  const ProgramResult refused = converge_on(server, {"preset:type-i"});
+  const ProgramResult refused = server.run({"converge", "preset:type-i"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("--set lattice.imperfection.amplitude_mm=0.01"), std::string::npos) << refused.errors;
-  EXPECT_EQ(converge_on(server, {"preset:type-i", "--seeds", "1"}).exit_code, 0);
+  EXPECT_THAT(refused.errors, HasSubstr("--set lattice.imperfection.amplitude_mm=0.01"));
+  EXPECT_EQ(server.run({"converge", "preset:type-i", "--seeds", "1"}).exit_code, 0);
   EXPECT_EQ(server.asked().sweeps.creates.back().sweep().axes_size(), 1);
 }
 
 TEST(Converge, OfASweepPrintsItsEstimatesAgain) {
   const FakeServer server(converge_script());
-  EXPECT_EQ(converge_on(server, {"sweeps/test", "--error", "0.1"}).output, convergence_text(convergence(), 80));
+  EXPECT_EQ(server.run({"converge", "sweeps/test", "--error", "0.1"}).output, convergence_text(convergence(), 80));
   v1::Convergence found;
   ASSERT_TRUE(
-      google::protobuf::util::JsonStringToMessage(converge_on(server, {"sweeps/test", "--json"}).output, &found).ok());
+      google::protobuf::util::JsonStringToMessage(server.run({"converge", "sweeps/test", "--json"}).output, &found)
+          .ok());
   EXPECT_EQ(found.quantities_size(), 2);
-  EXPECT_EQ(converge_on(server, {"sweeps/none"}).exit_code, 5);
+  EXPECT_EQ(server.run({"converge", "sweeps/none"}).exit_code, 5);
   EXPECT_TRUE(server.asked().sweeps.creates.empty());
 }
 
 TEST(ConvergenceText, SaysWhyNoMeshMeetsTheError) {
   v1::Convergence found = convergence();
   found.clear_elements_per_wall();
-  EXPECT_NE(convergence_text(found, 200).find("cannot be told: this takes two seeds"), std::string::npos);
+  EXPECT_THAT(convergence_text(found, 200), HasSubstr("cannot be told: this takes two seeds"));
   v1::Convergence::Quantity& support = *found.mutable_quantities(0);
   support.mutable_meshes(1)->set_uncertainty_relative(0.01);
   *found.mutable_quantities(1) = support;
   found.mutable_quantities(1)->set_field("plateau_stress_impact_mpa");
-  EXPECT_NE(convergence_text(found, 200).find("add a finer mesh"), std::string::npos);
+  EXPECT_THAT(convergence_text(found, 200), HasSubstr("add a finer mesh"));
 }
 
 TEST(ConvergenceText, HasARowAMeshAndNoIntervalOfASingleRun) {
@@ -114,7 +112,7 @@ TEST(ConvergenceText, HasARowAMeshAndNoIntervalOfASingleRun) {
       "  absorbed energy, J\n"
       "                  2     3   40.7                0.0 % ± ?\n\n";
   EXPECT_EQ(convergence_text(convergence(), 100).substr(0, rows.size()), rows);
-  EXPECT_NE(convergence_text(convergence(), 100).find("they have not succeeded: 2 runs."), std::string::npos);
+  EXPECT_THAT(convergence_text(convergence(), 100), HasSubstr("they have not succeeded: 2 runs."));
   EXPECT_EQ(convergence_text({}, 100),
             "No estimate yet: at least one run must have succeeded with each of two meshes.\n");
 }

@@ -1,4 +1,5 @@
 // Deleting asks first, on a terminal.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fake_server.h"
@@ -6,6 +7,9 @@
 
 namespace cellcrush::client::testing {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 Script deletable_script() {
   Script script;
@@ -34,7 +38,7 @@ TEST(Delete, AnyOtherAnswerDeletesNothing) {
     program.type(answer);
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.output.find("sweeps/test was not deleted"), std::string::npos) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("sweeps/test was not deleted"));
   }
   EXPECT_TRUE(server.asked().sweeps.deleted.empty());
 }
@@ -44,7 +48,7 @@ TEST(Delete, DoesNotAskAfterYesOrWithoutATerminal) {
   const ProgramResult yes = Program({"delete", "jobs/test", "--yes", "--server", server.address()}, 120).wait();
   EXPECT_EQ(yes.exit_code, 0);
   EXPECT_EQ(yes.output, "jobs/test deleted\r\n");
-  const ProgramResult script = run_program({"delete", "sweeps/test", "--server", server.address()});
+  const ProgramResult script = server.run({"delete", "sweeps/test"});
   EXPECT_EQ(script.exit_code, 0);
   EXPECT_EQ(script.output, "sweeps/test deleted\n");
   EXPECT_EQ(script.errors, "");
@@ -54,7 +58,7 @@ TEST(Delete, DoesNotAskAboutWhatIsNotThere) {
   const FakeServer server(deletable_script());
   const ProgramResult result = Program({"delete", "jobs/none", "--server", server.address()}, 120).wait();
   EXPECT_EQ(result.exit_code, 5);
-  EXPECT_EQ(result.output.find("[y/N]"), std::string::npos) << result.output;
+  EXPECT_THAT(result.output, Not(HasSubstr("[y/N]")));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,6 +10,8 @@
 namespace cellcrush::client::testing {
 namespace {
 
+using ::testing::HasSubstr;
+
 namespace fs = std::filesystem;
 
 Script script_with_page() {
@@ -19,9 +22,8 @@ Script script_with_page() {
 }
 
 ProgramResult export_to(const FakeServer& server, const fs::path& file, std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {"export", "test", "-o", file, "--server", server.address()};
-  words.insert(words.end(), more.begin(), more.end());
-  return run_program(words);
+  more.insert(more.begin(), {"export", "test", "-o", file});
+  return server.run(more);
 }
 
 TEST(Export, WritesThePageAndSaysWhichFramesItHas) {
@@ -34,7 +36,7 @@ TEST(Export, WritesThePageAndSaysWhichFramesItHas) {
   const std::string json = export_to(server, file, {"--json"}).output;
   for (const std::string& field :
        {std::string("\"frame_count\":3"), std::string("\"job_frame_count\":5"), "\"path\":\"" + file.string() + '"'})
-    EXPECT_NE(json.find(field), std::string::npos) << json;
+    EXPECT_THAT(json, HasSubstr(field));
 }
 
 TEST(Export, MaxSizeIsInMegabytes) {
@@ -53,8 +55,7 @@ TEST(Export, ReplacesItsOwnFilesAndNoOthers) {
   std::ofstream(file) << "<!doctype html>\n<title>mine</title>\n";
   const ProgramResult refused = export_to(server, file);
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("crush.html: exists and was not written by cellcrush"), std::string::npos)
-      << refused.errors;
+  EXPECT_THAT(refused.errors, HasSubstr("crush.html: exists and was not written by cellcrush"));
   EXPECT_EQ(read_file(file), "<!doctype html>\n<title>mine</title>\n");
 }
 
@@ -74,7 +75,7 @@ TEST(Export, AJobThatHasNotEndedIsRefusedWithTheRemedy) {
   const FakeServer server(script);
   const ProgramResult result = export_to(server, server.folder() / "crush.html");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.errors.find("Wait until it has ended."), std::string::npos) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("Wait until it has ended."));
 }
 
 }  // namespace

@@ -26,6 +26,18 @@ struct FakeServer::Shared {
   Script script;
   mutable std::mutex mutex;  ///< guards `asked` and the counters of the script
   Asked asked;
+
+  // Notes what a service was asked.
+  template <typename Value>
+  void note(std::vector<Value> Asked::*list, const Value& value) {
+    const std::lock_guard lock(mutex);
+    (asked.*list).push_back(value);
+  }
+  template <typename Value>
+  void note(std::vector<Value> AskedOfSweeps::*list, const Value& value) {
+    const std::lock_guard lock(mutex);
+    (asked.sweeps.*list).push_back(value);
+  }
 };
 
 class FakeServer::Cases : public v1::Cases::Service {
@@ -63,8 +75,7 @@ class FakeServer::Jobs : public v1::Jobs::Service {
   explicit Jobs(Shared& shared) : shared_(shared) {}
 
   grpc::Status CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request, v1::Job* response) override {
-    const std::lock_guard lock(shared_.mutex);
-    shared_.asked.creates.push_back(*request);
+    shared_.note(&Asked::creates, *request);
     *response = shared_.script.job;
     return shared_.script.create_status;
   }
@@ -77,8 +88,7 @@ class FakeServer::Jobs : public v1::Jobs::Service {
 
   grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
                         v1::ListJobsResponse* response) override {
-    const std::lock_guard lock(shared_.mutex);
-    shared_.asked.lists.push_back(*request);
+    shared_.note(&Asked::lists, *request);
     *response->add_jobs() = shared_.script.job;
     if (request->page_token().empty()) response->set_next_page_token("second");
     return grpc::Status::OK;
@@ -87,8 +97,7 @@ class FakeServer::Jobs : public v1::Jobs::Service {
   grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request, v1::Job* response) override {
     if (!shared_.script.changes_jobs) return {grpc::StatusCode::UNIMPLEMENTED, ""};
     if (!knows(request->name())) return not_found(request->name());
-    const std::lock_guard lock(shared_.mutex);
-    shared_.asked.cancelled.push_back(request->name());
+    shared_.note(&Asked::cancelled, request->name());
     *response = shared_.script.job;
     response->set_state(v1::Job::CANCELLING);
     return grpc::Status::OK;
@@ -97,8 +106,7 @@ class FakeServer::Jobs : public v1::Jobs::Service {
   grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request, v1::DeleteJobResponse*) override {
     if (!shared_.script.changes_jobs) return {grpc::StatusCode::UNIMPLEMENTED, ""};
     if (!knows(request->name())) return not_found(request->name());
-    const std::lock_guard lock(shared_.mutex);
-    shared_.asked.deleted.push_back(request->name());
+    shared_.note(&Asked::deleted, request->name());
     return grpc::Status::OK;
   }
 
@@ -178,10 +186,7 @@ class FakeServer::Jobs : public v1::Jobs::Service {
                          grpc::ServerWriter<v1::ExportJobResponse>* writer) override {
     const std::string& page = shared_.script.page;
     if (page.empty()) return {grpc::StatusCode::FAILED_PRECONDITION, "jobs/test is RUNNING. Wait until it has ended."};
-    {
-      const std::lock_guard lock(shared_.mutex);
-      shared_.asked.max_bytes.push_back(request->max_bytes());
-    }
+    shared_.note(&Asked::max_bytes, static_cast<std::int64_t>(request->max_bytes()));
     v1::ExportJobResponse chunk;
     chunk.set_data(page.substr(0, page.size() / 2));
     writer->Write(chunk);
@@ -219,6 +224,103 @@ class FakeServer::Jobs : public v1::Jobs::Service {
   Shared& shared_;
 };
 
+class FakeServer::Sweeps : public v1::Sweeps::Service {
+ public:
+  explicit Sweeps(Shared& shared) : shared_(shared) {}
+
+  grpc::Status CreateSweep(grpc::ServerContext*, const v1::CreateSweepRequest* request, v1::Sweep* response) override {
+    shared_.note(&AskedOfSweeps::creates, *request);
+    *response = shared_.script.sweeps.sweep;
+    return find(shared_.script.sweeps.sweep.name());
+  }
+
+  grpc::Status GetSweep(grpc::ServerContext*, const v1::GetSweepRequest* request, v1::Sweep* response) override {
+    *response = shared_.script.sweeps.sweep;
+    return find(request->name());
+  }
+
+  grpc::Status ListSweeps(grpc::ServerContext*, const v1::ListSweepsRequest* request,
+                          v1::ListSweepsResponse* response) override {
+    shared_.note(&AskedOfSweeps::lists, *request);
+    *response->add_sweeps() = shared_.script.sweeps.sweep;
+    if (request->page_token().empty()) response->set_next_page_token("second");
+    return find(shared_.script.sweeps.sweep.name());
+  }
+
+  grpc::Status CancelSweep(grpc::ServerContext*, const v1::CancelSweepRequest* request, v1::Sweep* response) override {
+    shared_.note(&AskedOfSweeps::cancelled, request->name());
+    *response = shared_.script.sweeps.sweep;
+    return find(request->name());
+  }
+
+  grpc::Status DeleteSweep(grpc::ServerContext*, const v1::DeleteSweepRequest* request,
+                           v1::DeleteSweepResponse*) override {
+    shared_.note(&AskedOfSweeps::deleted, request->name());
+    return find(request->name());
+  }
+
+  grpc::Status RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest* request,
+                               v1::Sweep* response) override {
+    shared_.note(&AskedOfSweeps::retried, request->name());
+    *response = shared_.script.sweeps.sweep;
+    return find(request->name());
+  }
+
+  grpc::Status WatchSweep(grpc::ServerContext* context, const v1::WatchSweepRequest* request,
+                          grpc::ServerWriter<v1::WatchSweepResponse>* writer) override {
+    if (grpc::Status known = find(request->name()); !known.ok()) return known;
+    bool cut = false;
+    {
+      const std::lock_guard lock(shared_.mutex);
+      shared_.asked.sweeps.tokens.push_back(request->resume_token());
+      cut = shared_.script.sweeps.cut_streams-- > 0;
+    }
+    v1::WatchSweepResponse snapshot;
+    *snapshot.mutable_snapshot() = shared_.script.sweeps.sweep;
+    writer->Write(snapshot);
+    // A token is the number of responses before it.
+    const std::size_t begin = request->resume_token().empty() ? 0 : std::stoul(request->resume_token());
+    for (std::size_t i = begin; i < shared_.script.sweeps.responses.size(); ++i) {
+      if (cut && i == begin + shared_.script.sweeps.responses_before_cut)
+        return {grpc::StatusCode::UNAVAILABLE, "the script cuts here"};
+      v1::WatchSweepResponse response = shared_.script.sweeps.responses[i];
+      response.set_resume_token(std::to_string(i + 1));
+      writer->Write(response);
+    }
+    while (shared_.script.sweeps.hold && !context->IsCancelled())
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return cut ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the script cuts here") : grpc::Status::OK;
+  }
+
+  grpc::Status GetSweepTable(grpc::ServerContext*, const v1::GetSweepTableRequest* request,
+                             v1::SweepTable* response) override {
+    // A page of two rows; a token is the number of rows before it, and the first page has the fields.
+    constexpr int kPage = 2;
+    int at = request->page_token().empty() ? 0 : std::stoi(request->page_token());
+    const int end = std::min(shared_.script.sweeps.table.rows_size(), at + kPage);
+    if (at == 0) *response->mutable_fields() = shared_.script.sweeps.table.fields();
+    while (at < end) *response->add_rows() = shared_.script.sweeps.table.rows(at++);
+    if (end < shared_.script.sweeps.table.rows_size()) response->set_next_page_token(std::to_string(end));
+    return find(request->name());
+  }
+
+  grpc::Status GetConvergence(grpc::ServerContext*, const v1::GetConvergenceRequest* request,
+                              v1::Convergence* response) override {
+    *response = shared_.script.sweeps.convergence;
+    response->set_wanted_error_relative(request->wanted_error_relative());
+    return find(request->name());
+  }
+
+ private:
+  [[nodiscard]] grpc::Status find(const std::string& name) const {
+    if (shared_.script.sweeps.sweep.name().empty()) return {grpc::StatusCode::UNIMPLEMENTED, ""};
+    if (name != shared_.script.sweeps.sweep.name()) return {grpc::StatusCode::NOT_FOUND, "there is no " + name};
+    return grpc::Status::OK;
+  }
+
+  Shared& shared_;
+};
+
 class FakeServer::Admin : public v1::Admin::Service {
  public:
   explicit Admin(Shared& shared) : shared_(shared) {}
@@ -238,7 +340,7 @@ FakeServer::FakeServer(Script script) : folder_(make_folder()), shared_(std::mak
   cases_ = std::make_unique<Cases>(*shared_);
   jobs_ = std::make_unique<Jobs>(*shared_);
   admin_ = std::make_unique<Admin>(*shared_);
-  sweeps_ = std::make_unique<FakeSweeps>(shared_->script.sweeps);
+  sweeps_ = std::make_unique<Sweeps>(*shared_);
   grpc::ServerBuilder builder;
   if (shared_->script.message_limit > 0) builder.SetMaxReceiveMessageSize(shared_->script.message_limit);
   builder.AddListeningPort(address(), grpc::InsecureServerCredentials());
@@ -259,9 +361,12 @@ FakeServer::~FakeServer() {
 
 Asked FakeServer::asked() const {
   const std::lock_guard lock(shared_->mutex);
-  Asked asked = shared_->asked;
-  asked.sweeps = sweeps_->asked();
-  return asked;
+  return shared_->asked;
+}
+
+ProgramResult FakeServer::run(std::vector<std::string> arguments, const std::string& input) const {
+  arguments.insert(arguments.end(), {"--server", address()});
+  return run_program(arguments, input);
 }
 
 }  // namespace cellcrush::client::testing

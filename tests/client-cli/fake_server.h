@@ -2,7 +2,6 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -13,11 +12,22 @@
 #include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "cellcrush/v1/cases_service.grpc.pb.h"
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
+#include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "connection/frames.h"
-#include "fake_sweeps.h"
+#include "program.h"
 #include "scripted_job.h"
 
 namespace cellcrush::client::testing {
+
+/// What the service was asked.
+struct AskedOfSweeps {
+  std::vector<v1::CreateSweepRequest> creates;
+  std::vector<std::string> tokens;  ///< of the watches
+  std::vector<v1::ListSweepsRequest> lists;
+  std::vector<std::string> cancelled;
+  std::vector<std::string> deleted;
+  std::vector<std::string> retried;
+};
 
 /// What the server answers. Set it before the program under test runs.
 struct Script {
@@ -67,17 +77,21 @@ class FakeServer {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] Asked asked() const;
 
+  /// Runs `cellcrush ARGUMENTS... --server ADDRESS` to its end.
+  [[nodiscard]] ProgramResult run(std::vector<std::string> arguments, const std::string& input = {}) const;
+
  private:
   class Admin;
   class Cases;
   class Jobs;
+  class Sweeps;
   struct Shared;
 
   std::filesystem::path folder_;
   std::unique_ptr<Shared> shared_;
   std::unique_ptr<Cases> cases_;
   std::unique_ptr<Jobs> jobs_;
-  std::unique_ptr<FakeSweeps> sweeps_;
+  std::unique_ptr<Sweeps> sweeps_;
   std::unique_ptr<Admin> admin_;
   std::unique_ptr<grpc::Server> server_;
 };

@@ -1,16 +1,20 @@
+#include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "case_file/text_case.h"
+#include "case_file/parse_case.h"
 #include "cellcrush/v1/cases_service.pb.h"
 #include "fake_server.h"
 #include "program.h"
 
 namespace cellcrush::client::testing {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 using google::protobuf::util::JsonStringToMessage;
 using google::protobuf::util::MessageDifferencer;
@@ -27,22 +31,22 @@ Script preset_script() {
 
 TEST(Presets, AreListedAndShownAsACaseFileThatReadsBack) {
   const FakeServer server(preset_script());
-  const ProgramResult list = run_program({"presets", "--server", server.address()});
+  const ProgramResult list = server.run({"presets"});
   EXPECT_EQ(list.exit_code, 0) << list.errors;
   EXPECT_EQ(list.output, "preset:type-i  Type I of the tests\n");
-  const ProgramResult show = run_program({"show", "preset:type-i", "--server", server.address()});
-  EXPECT_NE(show.output.find("# Type I of the tests"), std::string::npos);
-  EXPECT_NE(show.output.find("#   - The depth is that of the specimen."), std::string::npos);
+  const ProgramResult show = server.run({"show", "preset:type-i"});
+  EXPECT_THAT(show.output, HasSubstr("# Type I of the tests"));
+  EXPECT_THAT(show.output, HasSubstr("#   - The depth is that of the specimen."));
   EXPECT_TRUE(MessageDifferencer::Equals(parse_text_case(show.output, "shown"), preset_script().preset.case_()));
 }
 
 TEST(Presets, JsonIsOneObjectWithTheProtosNames) {
   const FakeServer server(preset_script());
-  const ProgramResult show = run_program({"show", "preset:type-i", "--json", "--server", server.address()});
+  const ProgramResult show = server.run({"show", "preset:type-i", "--json"});
   v1::Preset preset;
   ASSERT_TRUE(JsonStringToMessage(show.output, &preset).ok()) << show.output;
   EXPECT_TRUE(MessageDifferencer::Equals(preset, preset_script().preset));
-  EXPECT_NE(show.output.find("\"speed_m_per_s\":100"), std::string::npos);
+  EXPECT_THAT(show.output, HasSubstr("\"speed_m_per_s\":100"));
 }
 
 TEST(Check, PrintsATableWithUnitsOfTheCaseWithItsSettings) {
@@ -56,20 +60,17 @@ TEST(Check, PrintsATableWithUnitsOfTheCaseWithItsSettings) {
   script.check.mutable_theory()->set_gibson_ashby_mpa(0.3012);
   script.check.add_modelled("Contact is looked for between walls of the same cell.");
   const FakeServer server(script);
-  const ProgramResult result =
-      run_program({"check", "preset:type-i", "--set", "loading.speed_m_per_s=250", "--server", server.address()});
+  const ProgramResult result = server.run({"check", "preset:type-i", "--set", "loading.speed_m_per_s=250"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  for (const char* part :
-       {"8099", "9642", "72.15  g", "2.310e-07  s", "50 s", "6.54 MB", "0.301  MPa", "  - Contact is looked for"}) {
-    EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
-  }
+  expect_parts_in(result.output, {"8099", "9642", "72.15  g", "2.310e-07  s", "50 s", "6.54 MB", "0.301  MPa",
+                                  "  - Contact is looked for"});
   EXPECT_EQ(server.asked().checked.loading().speed_m_per_s(), 250.0);
 }
 
 TEST(Submit, SendsTheCaseWithIdAndLabelsAndPrintsTheJobsName) {
   const FakeServer server(preset_script());
-  const ProgramResult result = run_program({"submit", "preset:type-i", "--set", "depth_mm=5", "--request-id", "abc",
-                                            "--label", "who=me", "--label", "why=a=b", "--server", server.address()});
+  const ProgramResult result = server.run({"submit", "preset:type-i", "--set", "depth_mm=5", "--request-id", "abc",
+                                           "--label", "who=me", "--label", "why=a=b"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output, "jobs/test\n");
   const auto creates = server.asked().creates;
@@ -82,11 +83,11 @@ TEST(Submit, SendsTheCaseWithIdAndLabelsAndPrintsTheJobsName) {
 
 TEST(Submit, ReadsTextAndJsonFromStdinAndFiles) {
   const FakeServer server(preset_script());
-  EXPECT_EQ(run_program({"submit", "-", "--server", server.address()}, "depth_mm: 4").exit_code, 0);
-  EXPECT_EQ(run_program({"submit", "-", "--server", server.address()}, " {\"depth_mm\": 5}").exit_code, 0);
+  EXPECT_EQ(server.run({"submit", "-"}, "depth_mm: 4").exit_code, 0);
+  EXPECT_EQ(server.run({"submit", "-"}, " {\"depth_mm\": 5}").exit_code, 0);
   const std::string file = (server.folder() / "case.json").string();
   std::ofstream(file) << R"({"depthMm": 6})";
-  EXPECT_EQ(run_program({"submit", file, "--server", server.address()}).exit_code, 0);
+  EXPECT_EQ(server.run({"submit", file}).exit_code, 0);
   const auto creates = server.asked().creates;
   ASSERT_EQ(creates.size(), 3U);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(creates[static_cast<std::size_t>(i)].case_().depth_mm(), 4.0 + i);
@@ -97,20 +98,20 @@ TEST(Submit, WithWatchFollowsTheJob) {
   script.job = make_job(v1::Job::RUNNING);
   script.events = make_events(5, v1::Job::FAILED);
   const FakeServer server(script);
-  const ProgramResult result = run_program({"submit", "preset:type-i", "--watch", "--server", server.address()});
+  const ProgramResult result = server.run({"submit", "preset:type-i", "--watch"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.output.find("jobs/test\n"), 0U) << result.output;
-  EXPECT_NE(result.output.find("SOLVER_DIVERGED"), std::string::npos);
+  EXPECT_THAT(result.output, HasSubstr("SOLVER_DIVERGED"));
 }
 
 TEST(List, WalksOverAllPages) {
   const FakeServer server(preset_script());
-  const ProgramResult text = run_program({"list", "--server", server.address()});
+  const ProgramResult text = server.run({"list"});
   EXPECT_EQ(text.exit_code, 0) << text.errors;
-  EXPECT_NE(text.output.find("jobs/test  SUCCEEDED\njobs/test  SUCCEEDED\n"), std::string::npos) << text.output;
-  EXPECT_NE(text.output.find("3.41 MPa"), std::string::npos);
+  EXPECT_THAT(text.output, HasSubstr("jobs/test  SUCCEEDED\njobs/test  SUCCEEDED\n"));
+  EXPECT_THAT(text.output, HasSubstr("3.41 MPa"));
   v1::ListJobsResponse jobs;
-  ASSERT_TRUE(JsonStringToMessage(run_program({"list", "--json", "--server", server.address()}).output, &jobs).ok());
+  ASSERT_TRUE(JsonStringToMessage(server.run({"list", "--json"}).output, &jobs).ok());
   EXPECT_EQ(jobs.jobs_size(), 2);
 }
 
@@ -125,80 +126,78 @@ TEST(List, PassesFilterAndOrderAndStopsAtTheLimit) {
   EXPECT_EQ(lists[0].filter(), "state = RUNNING");
   EXPECT_EQ(lists[0].order_by(), "create_time");
   EXPECT_EQ(lists[0].page_size(), 1);
-  EXPECT_EQ(run_program({"list", "--limit", "0", "--server", server.address()}).exit_code, 2);
+  EXPECT_EQ(server.run({"list", "--limit", "0"}).exit_code, 2);
 }
 
 TEST(List, ShowsLabelsWhereThereAreAny) {
   Script script = preset_script();
   const FakeServer plain(script);
-  EXPECT_EQ(run_program({"list", "--server", plain.address()}).output.find("LABELS"), std::string::npos);
+  EXPECT_THAT(plain.run({"list"}).output, Not(HasSubstr("LABELS")));
   (*script.job.mutable_labels())["who"] = "me";
   (*script.job.mutable_labels())["batch"] = "7";
   const FakeServer labelled(script);
-  const ProgramResult result = run_program({"list", "--server", labelled.address()});
-  EXPECT_NE(result.output.find("LABELS"), std::string::npos);
-  EXPECT_NE(result.output.find("batch=7, who=me"), std::string::npos) << result.output;
+  const ProgramResult result = labelled.run({"list"});
+  EXPECT_THAT(result.output, HasSubstr("LABELS"));
+  EXPECT_THAT(result.output, HasSubstr("batch=7, who=me"));
 }
 
 TEST(Submit, SendsAPriorityAndRefusesOneOutOfRange) {
   const FakeServer server(preset_script());
   for (const char* priority : {"7", "-7"}) {
-    const ProgramResult result =
-        run_program({"submit", "preset:type-i", "--priority", priority, "--server", server.address()});
+    const ProgramResult result = server.run({"submit", "preset:type-i", "--priority", priority});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
   }
   const auto creates = server.asked().creates;
   ASSERT_EQ(creates.size(), 2U);
   EXPECT_EQ(creates[0].priority(), 7);
   EXPECT_EQ(creates[1].priority(), -7);
-  EXPECT_EQ(run_program({"submit", "preset:type-i", "--priority", "101", "--server", server.address()}).exit_code, 2);
+  EXPECT_EQ(server.run({"submit", "preset:type-i", "--priority", "101"}).exit_code, 2);
 }
 
 TEST(ListAndShow, TellAPriorityOnlyWhereThereIsOne) {
   Script script = preset_script();
   const FakeServer plain(script);
-  EXPECT_EQ(run_program({"list", "--server", plain.address()}).output.find("PRIORITY"), std::string::npos);
-  EXPECT_EQ(run_program({"show", "jobs/test", "--server", plain.address()}).output.find("priority"), std::string::npos);
+  EXPECT_THAT(plain.run({"list"}).output, Not(HasSubstr("PRIORITY")));
+  EXPECT_THAT(plain.run({"show", "jobs/test"}).output, Not(HasSubstr("priority")));
   script.job.set_priority(-12);
   script.job.set_retry_of("jobs/before");
   const FakeServer server(script);
-  const ProgramResult list = run_program({"list", "--server", server.address()});
-  EXPECT_NE(list.output.find("PRIORITY"), std::string::npos);
-  EXPECT_NE(list.output.find("PRIORITY -12"), std::string::npos) << list.output;
-  const ProgramResult show = run_program({"show", "jobs/test", "--server", server.address()});
-  EXPECT_NE(show.output.find("priority  -12"), std::string::npos) << show.output;
-  EXPECT_NE(show.output.find("retry of  jobs/before"), std::string::npos) << show.output;
+  const ProgramResult list = server.run({"list"});
+  EXPECT_THAT(list.output, HasSubstr("PRIORITY"));
+  EXPECT_THAT(list.output, HasSubstr("PRIORITY -12"));
+  const ProgramResult show = server.run({"show", "jobs/test"});
+  EXPECT_THAT(show.output, HasSubstr("priority  -12"));
+  EXPECT_THAT(show.output, HasSubstr("retry of  jobs/before"));
 }
 
 TEST(SubmitListAndShow, NameTheExecutorOnlyWhereItIsNotTheServersMachine) {
   Script script = preset_script();
   script.job.set_executor("local");
   const FakeServer plain(script);
-  EXPECT_EQ(run_program({"submit", "preset:type-i", "--server", plain.address()}).exit_code, 0);
-  EXPECT_EQ(run_program({"submit", "preset:type-i", "--executor", "slurm/a", "--server", plain.address()}).exit_code,
-            0);
+  EXPECT_EQ(plain.run({"submit", "preset:type-i"}).exit_code, 0);
+  EXPECT_EQ(plain.run({"submit", "preset:type-i", "--executor", "slurm/a"}).exit_code, 0);
   const auto creates = plain.asked().creates;
   ASSERT_EQ(creates.size(), 2U);
   EXPECT_EQ(creates[0].executor(), "");
   EXPECT_EQ(creates[1].executor(), "slurm/a");
-  EXPECT_EQ(run_program({"list", "--server", plain.address()}).output.find("EXECUTOR"), std::string::npos);
-  EXPECT_EQ(run_program({"show", "jobs/test", "--server", plain.address()}).output.find("executor"), std::string::npos);
+  EXPECT_THAT(plain.run({"list"}).output, Not(HasSubstr("EXECUTOR")));
+  EXPECT_THAT(plain.run({"show", "jobs/test"}).output, Not(HasSubstr("executor")));
   script.job.set_executor("slurm/a");
   script.job.set_place("Slurm job 17, PENDING (Priority)");
   const FakeServer server(script);
-  const ProgramResult list = run_program({"list", "--server", server.address()});
-  EXPECT_NE(list.output.find("EXECUTOR slurm/a"), std::string::npos) << list.output;
-  EXPECT_NE(list.output.find("Slurm job 17, PENDING (Priority)"), std::string::npos) << list.output;
-  const ProgramResult show = run_program({"show", "jobs/test", "--server", server.address()});
-  EXPECT_NE(show.output.find("executor  slurm/a\n"), std::string::npos) << show.output;
-  EXPECT_NE(show.output.find("place     Slurm job 17, PENDING (Priority)\n"), std::string::npos) << show.output;
+  const ProgramResult list = server.run({"list"});
+  EXPECT_THAT(list.output, HasSubstr("EXECUTOR slurm/a"));
+  EXPECT_THAT(list.output, HasSubstr("Slurm job 17, PENDING (Priority)"));
+  const ProgramResult show = server.run({"show", "jobs/test"});
+  EXPECT_THAT(show.output, HasSubstr("executor  slurm/a\n"));
+  EXPECT_THAT(show.output, HasSubstr("place     Slurm job 17, PENDING (Priority)\n"));
 }
 
 TEST(Queue, IsATableInTheOrderOfTheStartsAndJson) {
   Script script = preset_script();
   v1::Queue& queue = script.queue.emplace();
   const FakeServer empty(script);
-  EXPECT_EQ(run_program({"queue", "--server", empty.address()}).output, "the queue is empty\n");
+  EXPECT_EQ(empty.run({"queue"}).output, "the queue is empty\n");
   for (const char* job : {"jobs/7", "jobs/12"}) {
     auto& entry = *queue.add_entries();
     entry.set_job(job);
@@ -206,44 +205,39 @@ TEST(Queue, IsATableInTheOrderOfTheStartsAndJson) {
     entry.set_seconds_until_start(64.0);
   }
   const FakeServer server(script);
-  EXPECT_EQ(run_program({"queue", "--server", server.address()}).output,
+  EXPECT_EQ(server.run({"queue"}).output,
             "JOB       STARTS IN  REASON\n"
             "jobs/7   1 min 04 s  All 2 workers are busy.\n"
             "jobs/12  1 min 04 s  All 2 workers are busy.\n");
   queue.mutable_entries(0)->set_priority(3);
   queue.set_more_count(12'345);
   const FakeServer full(script);
-  const ProgramResult table = run_program({"queue", "--server", full.address()});
-  EXPECT_NE(table.output.find("PRIORITY  REASON\n"), std::string::npos) << table.output;
-  EXPECT_NE(table.output.find("and 12 345 more\n"), std::string::npos) << table.output;
+  const ProgramResult table = full.run({"queue"});
+  EXPECT_THAT(table.output, HasSubstr("PRIORITY  REASON\n"));
+  EXPECT_THAT(table.output, HasSubstr("and 12 345 more\n"));
   v1::Queue read;
-  ASSERT_TRUE(JsonStringToMessage(run_program({"queue", "--json", "--server", full.address()}).output, &read).ok());
+  ASSERT_TRUE(JsonStringToMessage(full.run({"queue", "--json"}).output, &read).ok());
   EXPECT_TRUE(MessageDifferencer::Equals(read, queue));
 }
 
-TEST(CancelAndDelete, NameTheJobAndSayHowItStands) {
+TEST(Cancel, NamesTheJobAndSaysHowItStands) {
   Script script = preset_script();
   script.changes_jobs = true;
   const FakeServer server(script);
-  const ProgramResult cancel = run_program({"cancel", "test", "--server", server.address()});
+  const ProgramResult cancel = server.run({"cancel", "test"});
   EXPECT_EQ(cancel.exit_code, 0) << cancel.errors;
   EXPECT_EQ(cancel.output, "jobs/test CANCELLING\n");
-  const ProgramResult deleted = run_program({"delete", "jobs/test", "--server", server.address()});
-  EXPECT_EQ(deleted.exit_code, 0) << deleted.errors;
-  EXPECT_EQ(deleted.output, "jobs/test deleted\n");
   EXPECT_EQ(server.asked().cancelled, std::vector<std::string>{"jobs/test"});
-  EXPECT_EQ(server.asked().deleted, std::vector<std::string>{"jobs/test"});
-  EXPECT_EQ(run_program({"cancel", "none", "--server", server.address()}).exit_code, 5);
-  EXPECT_EQ(run_program({"delete", "none", "--server", server.address()}).exit_code, 5);
+  EXPECT_EQ(server.run({"cancel", "none"}).exit_code, 5);
+  EXPECT_EQ(server.run({"delete", "none"}).exit_code, 5);
 }
 
 TEST(Show, DescribesAJob) {
   const FakeServer server(preset_script());
-  const ProgramResult result = run_program({"show", "jobs/test", "--server", server.address()});
+  const ProgramResult result = server.run({"show", "jobs/test"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_NE(result.output.find("hexagons, 74 x 21 cells, crushed along X at 100 m/s to strain 0.8"), std::string::npos)
-      << result.output;
-  EXPECT_NE(result.output.find("1970-01-01T00:16:40Z"), std::string::npos);
+  EXPECT_THAT(result.output, HasSubstr("hexagons, 74 x 21 cells, crushed along X at 100 m/s to strain 0.8"));
+  EXPECT_THAT(result.output, HasSubstr("1970-01-01T00:16:40Z"));
 }
 
 }  // namespace

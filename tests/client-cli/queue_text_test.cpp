@@ -1,9 +1,14 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "expect_text.h"
 #include "terminal/job_list_text.h"
 
 namespace cellcrush::client {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(QueueText, ShowsTheFieldsInWhichTheJobsOfASweepDiffer) {
   v1::Queue queue;
@@ -43,7 +48,7 @@ TEST(QueueText, NamesTheExecutorsWhereOneIsNotTheServersMachine) {
   hold.set_cause("worker");
   EXPECT_EQ(queue_text(queue, {}, 80).rfind("the queue of slurm/a has been on hold (worker) for", 0), 0U);
   queue.mutable_entries()->RemoveLast();
-  EXPECT_EQ(queue_text(queue, {}, 80).find("EXECUTOR"), std::string::npos);
+  EXPECT_THAT(queue_text(queue, {}, 80), Not(HasSubstr("EXECUTOR")));
 }
 
 TEST(QueueText, StandsInANarrowTerminal) {
@@ -54,12 +59,8 @@ TEST(QueueText, StandsInANarrowTerminal) {
   entry.set_seconds_until_start(3700.0);
   entry.set_priority(100);
   const std::string text = queue_text(queue, {}, 40);
-  EXPECT_NE(text.find("\njobs/12345  The job waits for its turn:\n"), std::string::npos) << text;
-  std::size_t begin = 0;
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
-    EXPECT_LE(end - begin, 40U) << text;
-    begin = end + 1;
-  }
+  EXPECT_THAT(text, HasSubstr("\njobs/12345  The job waits for its turn:\n"));
+  testing::expect_no_wider(text, 40);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,8 @@
 
 namespace cellcrush::client::testing {
 namespace {
+
+using ::testing::HasSubstr;
 
 using google::protobuf::util::JsonStringToMessage;
 
@@ -38,25 +41,33 @@ Script refusing_script() {
 TEST(Refusal, AllProblemsAreShownWithPathsAndRemedies) {
   const FakeServer server(refusing_script());
   for (const char* command : {"submit", "check"}) {
-    const ProgramResult result = run_program({command, "-", "--server", server.address()});
+    const ProgramResult result = server.run({command, "-"});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(result.output, "");
-    for (const char* part :
-         {"the case has 2 problems", "loading.speed_m_per_s = 0: must be above 0\n    Remedy: give a speed such as 100",
-          "depth_mm: is missing"}) {
-      EXPECT_NE(result.errors.find(part), std::string::npos) << part << "\n" << result.errors;
-    }
+    expect_parts_in(result.errors, {"the case has 2 problems",
+                                    "loading.speed_m_per_s = 0: must be above 0\n    Remedy: give a speed such as 100",
+                                    "depth_mm: is missing"});
   }
+}
+
+TEST(Refusal, ProblemsOfAnotherPartOfTheRequestAreNotTheCases) {
+  v1::ProblemList problems = two_problems();
+  problems.mutable_problems(1)->set_field("filter");
+  google::rpc::Status envelope;
+  envelope.add_details()->PackFrom(problems);
+  Script script;
+  script.create_status = grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "refused", envelope.SerializeAsString());
+  EXPECT_THAT(FakeServer(script).run({"submit", "-"}).errors, HasSubstr("the request has 2 problems"));
 }
 
 TEST(Refusal, WithJsonTheProblemsAreAnObject) {
   const FakeServer server(refusing_script());
-  const ProgramResult submit = run_program({"submit", "-", "--json", "--server", server.address()});
+  const ProgramResult submit = server.run({"submit", "-", "--json"});
   EXPECT_EQ(submit.exit_code, 2);
   v1::ProblemList problems;
   ASSERT_TRUE(JsonStringToMessage(submit.output, &problems).ok()) << submit.output;
   EXPECT_EQ(problems.problems_size(), 2);
-  const ProgramResult check = run_program({"check", "-", "--json", "--server", server.address()});
+  const ProgramResult check = server.run({"check", "-", "--json"});
   EXPECT_EQ(check.exit_code, 2);
   v1::CheckCaseResponse response;
   ASSERT_TRUE(JsonStringToMessage(check.output, &response).ok()) << check.output;
@@ -67,25 +78,51 @@ TEST(Refusal, BadFilesAndSettingsEndWithTwo) {
   const FakeServer server(refusing_script());
   const std::string misspelt = (server.folder() / "bad.txtpb").string();
   std::ofstream(misspelt) << "loading {\n  sped_m_per_s: 5\n}\n";
-  const ProgramResult file = run_program({"check", misspelt, "--server", server.address()});
+  const ProgramResult file = server.run({"check", misspelt});
   EXPECT_EQ(file.exit_code, 2);
-  EXPECT_NE(file.errors.find(misspelt + ":2:"), std::string::npos) << file.errors;
-  EXPECT_EQ(run_program({"check", "/nowhere/case", "--server", server.address()}).exit_code, 2);
-  EXPECT_EQ(run_program({"check", server.folder().string(), "--server", server.address()}).exit_code, 2);
-  const ProgramResult set =
-      run_program({"check", "-", "--set", "loading.sped_m_per_s=1", "--server", server.address()});
+  EXPECT_THAT(file.errors, HasSubstr(misspelt + ":2:"));
+  EXPECT_EQ(server.run({"check", "/nowhere/case"}).exit_code, 2);
+  EXPECT_EQ(server.run({"check", server.folder().string()}).exit_code, 2);
+  const ProgramResult set = server.run({"check", "-", "--set", "loading.sped_m_per_s=1"});
   EXPECT_EQ(set.exit_code, 2);
-  EXPECT_NE(set.errors.find("did you mean \"speed_m_per_s\""), std::string::npos);
+  EXPECT_THAT(set.errors, HasSubstr("did you mean \"speed_m_per_s\""));
 }
 
 TEST(Refusal, UsageErrorsEndWithTwo) {
-  EXPECT_EQ(run_program({"--json"}).exit_code, 2);
-  EXPECT_EQ(run_program({"crush"}).exit_code, 2);
-  EXPECT_EQ(run_program({"check"}).exit_code, 2);
-  EXPECT_EQ(run_program({"list", "--server", "nonsense"}).exit_code, 2);
-  EXPECT_EQ(run_program({"list", "--server", "host:99999"}).exit_code, 2);
-  EXPECT_EQ(run_program({"submit", "-", "--label", "x", "--server", "unix:/none"}).exit_code, 2);
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"--json"},
+                                             {"crush"},
+                                             {"check"},
+                                             {"list", "--server", "nonsense"},
+                                             {"list", "--server", "host:99999"},
+                                             {"submit", "-", "--label", "x", "--server", "unix:/none"}}) {
+    EXPECT_EQ(run_program(words).exit_code, 2) << words.back();
+  }
   EXPECT_EQ(run_program({"--help"}).exit_code, 0);
+}
+
+TEST(Refusal, EveryStatusHasItsExitCode) {
+  using grpc::StatusCode;
+  const std::pair<int, std::vector<StatusCode>> codes[] = {
+      {2,
+       {StatusCode::INVALID_ARGUMENT, StatusCode::FAILED_PRECONDITION, StatusCode::UNIMPLEMENTED,
+        StatusCode::ALREADY_EXISTS, StatusCode::PERMISSION_DENIED, StatusCode::UNAUTHENTICATED,
+        StatusCode::RESOURCE_EXHAUSTED, StatusCode::ABORTED, StatusCode::OUT_OF_RANGE}},
+      {3, {StatusCode::UNAVAILABLE}},
+      {4,
+       {StatusCode::CANCELLED, StatusCode::DEADLINE_EXCEEDED, StatusCode::UNKNOWN, StatusCode::INTERNAL,
+        StatusCode::DATA_LOSS}},
+      {5, {StatusCode::NOT_FOUND}}};
+  for (const auto& [exit_code, statuses] : codes) {
+    for (const StatusCode status : statuses) {
+      Script script;
+      // What is in the details and no list of problems does no harm.
+      script.create_status = grpc::Status(status, "bad", "\xff\xfe rubbish");
+      const ProgramResult result = FakeServer(script).run({"submit", "-"});
+      EXPECT_EQ(result.exit_code, exit_code) << status;
+      EXPECT_THAT(result.errors, HasSubstr("bad"));
+    }
+  }
 }
 
 TEST(Refusal, WhatTheServerDoesNotDoEndsWithTwo) {
@@ -100,11 +137,9 @@ TEST(Refusal, WhatTheServerDoesNotDoEndsWithTwo) {
                                              {"sweep", "-", "--over", "loading.speed_m_per_s=1,2"},
                                              {"retry", "a"},
                                              {"table", "a"}}) {
-    std::vector<std::string> arguments = words;
-    arguments.insert(arguments.end(), {"--server", server.address()});
-    const ProgramResult result = run_program(arguments);
+    const ProgramResult result = server.run(words);
     EXPECT_EQ(result.exit_code, 2) << words[0];
-    EXPECT_NE(result.errors.find("not implemented by this server"), std::string::npos) << words[0] << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("not implemented by this server"));
   }
 }
 
@@ -121,10 +156,10 @@ TEST(Refusal, ARequestOverTheLimitOfAMessageIsNotSent) {
   const std::string file = (server.folder() / "long.txtpb").string();
   write_long_case(file, 120000);
   for (const char* command : {"submit", "check"}) {
-    const ProgramResult result = run_program({command, file, "--server", server.address()});
+    const ProgramResult result = server.run({command, file});
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.errors.find("the message limit of 4 MiB (4194304 bytes)"), std::string::npos) << result.errors;
-    EXPECT_NE(result.errors.find("the request has "), std::string::npos);
+    EXPECT_THAT(result.errors, HasSubstr("the message limit of 4 MiB (4194304 bytes)"));
+    EXPECT_THAT(result.errors, HasSubstr("the request has "));
   }
   EXPECT_TRUE(server.asked().creates.empty());
 }
@@ -135,17 +170,17 @@ TEST(Refusal, AServersOwnLimitOfAMessageEndsWithTwo) {
   const FakeServer server(script);
   const std::string file = (server.folder() / "long.txtpb").string();
   write_long_case(file, 5000);
-  const ProgramResult result = run_program({"submit", file, "--server", server.address()});
+  const ProgramResult result = server.run({"submit", file});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.errors.find("the message is over the size limit"), std::string::npos) << result.errors;
-  EXPECT_NE(result.errors.find("100000"), std::string::npos) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("the message is over the size limit"));
+  EXPECT_THAT(result.errors, HasSubstr("100000"));
 }
 
 TEST(Refusal, AnEndlessCaseFileIsNotReadToItsEnd) {
   const FakeServer server(refusing_script());
-  const ProgramResult result = run_program({"check", "/dev/zero", "--server", server.address()});
+  const ProgramResult result = server.run({"check", "/dev/zero"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.errors.find("the limit of a case is 4 MiB"), std::string::npos) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("the limit of a case is 4 MiB"));
 }
 
 TEST(Refusal, UnknownNamesEndWithFive) {
@@ -155,18 +190,16 @@ TEST(Refusal, UnknownNamesEndWithFive) {
                                              {"show", "jobs/none"},
                                              {"fetch", "none", "-o", server.folder() / "x"},
                                              {"plot", "none", "-o", server.folder() / "x.png"}}) {
-    std::vector<std::string> arguments = words;
-    arguments.insert(arguments.end(), {"--server", server.address()});
-    EXPECT_EQ(run_program(arguments).exit_code, 5) << words[0] << " " << words[1];
+    EXPECT_EQ(server.run(words).exit_code, 5) << words[0] << " " << words[1];
   }
 }
 
 TEST(Refusal, AnUnknownPresetAsACaseIsAWrongCase) {
   const FakeServer server(refusing_script());
   for (const char* command : {"check", "submit"}) {
-    const auto result = run_program({command, "preset:none", "--server", server.address()});
+    const auto result = server.run({command, "preset:none"});
     EXPECT_EQ(result.exit_code, 2) << command;
-    EXPECT_NE(result.errors.find("none"), std::string::npos) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("none"));
   }
 }
 
@@ -175,7 +208,7 @@ TEST(NoServer, EndsWithThreeWithinTwoSeconds) {
     const ProgramResult result = run_program({"list", "--json", "--server", address});
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_LT(result.seconds, 2.0);
-    EXPECT_NE(result.errors.find("no server answers at"), std::string::npos) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("no server answers at"));
     google::rpc::Status status;
     ASSERT_TRUE(JsonStringToMessage(result.output, &status).ok()) << result.output;
     EXPECT_EQ(status.code(), grpc::StatusCode::UNAVAILABLE);

@@ -1,58 +1,57 @@
 #include "scripted_job.h"
 
+#include <google/protobuf/text_format.h>
+
 #include "synthetic_crush.h"
 
 namespace cellcrush::client::testing {
+
+namespace {
+
+constexpr const char* kCaseOfJob = R"(case {
+  title: "Type I of the tests"
+  lattice { hexagon { columns: 74 rows: 21 } }
+  loading { speed_m_per_s: 100 end_strain: 0.8 }
+}
+words {
+  plates: true
+  lattice: "hexagons, 74 x 21 cells"
+  loading: "crushed along X at 100 m/s to strain 0.8"
+})";
+
+constexpr const char* kFailedJob = R"(
+  cause: SOLVER_DIVERGED
+  cause_message: "particle 12 left the scene at step 340"
+  remedy: "lower numerics.time_step_s"
+)";
+
+constexpr const char* kSucceededJob = R"(
+  summary {
+    plateau_window_low: 0.2 plateau_window_high: 0.4
+    plateau_stress_impact_mpa: 3.412 plateau_stress_support_mpa: 0.4471 densification_strain: 0.76
+    energy_error_relative: 0.0123 deepest_penetration: 0.121 step_count: 20504 solver_seconds: 45.3
+    stage_times { evaluate_internal_forces_s: 30 find_contacts_s: 10 }
+    crush_mode: CRUSH_MODE_I crush_mode_words: "layer by layer (I)" crush_mode_strain: 0.11 shock_error_relative: -0.0123
+    front { strain_behind: 0.905 stress_ahead_mpa: 0.391 solid_fraction_behind: 1.07 wall_fraction_behind: 1.02
+            shock_mpa: 3.431 shock_error_relative: 0.0056 }
+    ledger { work_external_mj: 20000 plastic_mj: 17800 contact_damping_mj: 2200 }
+    theory { shock_mpa: 3.37 gibson_ashby_mpa: 0.301 densification_strain: 0.86 }
+  }
+  start_time { seconds: 1000 }
+  end_time { seconds: 1047 }
+)";
+
+void merge(const char* text, v1::Job& job) { google::protobuf::TextFormat::MergeFromString(text, &job); }
+
+}  // namespace
 
 v1::Job make_job(v1::Job::State state) {
   v1::Job job;
   job.set_name("jobs/test");
   job.set_state(state);
-  job.mutable_case_()->set_title("Type I of the tests");
-  job.mutable_case_()->mutable_loading()->set_speed_m_per_s(100.0);
-  job.mutable_case_()->mutable_loading()->set_end_strain(0.8);
-  job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_columns(74);
-  job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_rows(21);
-  job.mutable_words()->set_plates(true);
-  job.mutable_words()->set_lattice("hexagons, 74 x 21 cells");
-  job.mutable_words()->set_loading("crushed along X at 100 m/s to strain 0.8");
-  if (state == v1::Job::FAILED) {
-    job.set_cause(v1::Job::SOLVER_DIVERGED);
-    job.set_cause_message("particle 12 left the scene at step 340");
-    job.set_remedy("lower numerics.time_step_s");
-  }
-  if (state == v1::Job::SUCCEEDED) {
-    v1::Summary& summary = *job.mutable_summary();
-    summary.set_plateau_window_low(0.2);
-    summary.set_plateau_window_high(0.4);
-    summary.set_plateau_stress_impact_mpa(3.412);
-    summary.set_plateau_stress_support_mpa(0.4471);
-    summary.set_densification_strain(0.76);
-    summary.set_energy_error_relative(0.0123);
-    summary.set_deepest_penetration(0.121);
-    summary.set_step_count(20504);
-    summary.set_solver_seconds(45.3);
-    summary.mutable_stage_times()->set_evaluate_internal_forces_s(30.0);
-    summary.mutable_stage_times()->set_find_contacts_s(10.0);
-    summary.set_crush_mode(v1::Summary::CRUSH_MODE_I);
-    summary.set_crush_mode_words("layer by layer (I)");
-    summary.set_crush_mode_strain(0.11);
-    summary.set_shock_error_relative(-0.0123);
-    summary.mutable_front()->set_strain_behind(0.905);
-    summary.mutable_front()->set_stress_ahead_mpa(0.391);
-    summary.mutable_front()->set_solid_fraction_behind(1.07);
-    summary.mutable_front()->set_wall_fraction_behind(1.02);
-    summary.mutable_front()->set_shock_mpa(3.431);
-    summary.mutable_front()->set_shock_error_relative(0.0056);
-    summary.mutable_ledger()->set_work_external_mj(20000.0);
-    summary.mutable_ledger()->set_plastic_mj(17800.0);
-    summary.mutable_ledger()->set_contact_damping_mj(2200.0);
-    summary.mutable_theory()->set_shock_mpa(3.37);
-    summary.mutable_theory()->set_gibson_ashby_mpa(0.301);
-    summary.mutable_theory()->set_densification_strain(0.86);
-    job.mutable_start_time()->set_seconds(1000);
-    job.mutable_end_time()->set_seconds(1047);
-  }
+  merge(kCaseOfJob, job);
+  if (state == v1::Job::FAILED) merge(kFailedJob, job);
+  if (state == v1::Job::SUCCEEDED) merge(kSucceededJob, job);
   return job;
 }
 
@@ -79,6 +78,43 @@ std::vector<v1::JobEvent> make_events(int samples, v1::Job::State state) {
   end.set_sequence(samples + 2);
   *end.mutable_state() = make_job(state);
   return events;
+}
+
+SweepScript make_sweep_script(const std::vector<v1::Job::State>& ends) {
+  SweepScript script;
+  script.sweep.set_name("sweeps/test");
+  *script.sweep.mutable_case_() = make_job(v1::Job::RUNNING).case_();
+  script.sweep.add_axes()->set_field("loading.speed_m_per_s");
+  script.table.add_fields("loading.speed_m_per_s");
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const std::string name = "jobs/test-" + std::to_string(i + 1);
+    const double speed = 50.0 * static_cast<double>(i + 1);
+    const auto in_state = [&](v1::Job::State state) {
+      v1::Job job = make_job(state);
+      job.set_name(name);
+      job.mutable_case_()->mutable_loading()->set_speed_m_per_s(speed);
+      if (job.has_summary()) job.mutable_summary()->set_plateau_stress_impact_mpa(0.3 + 3e-4 * speed * speed);
+      return job;
+    };
+    script.sweep.add_jobs(name);
+    script.sweep.mutable_axes(0)->mutable_list()->add_values(speed);
+    ++(*script.sweep.mutable_state_counts())[v1::Job::State_Name(ends[i])];
+    const auto add = [&] {
+      script.responses.emplace_back().set_job(name);
+      return script.responses.back().mutable_event();
+    };
+    *add()->mutable_snapshot()->mutable_job() = in_state(v1::Job::PENDING);
+    for (const v1::JobEvent& event : make_events(4, ends[i])) {
+      v1::JobEvent& sent = *add();
+      sent = event;
+      if (event.has_state()) *sent.mutable_state() = in_state(event.state().state());
+    }
+    auto& row = *script.table.add_rows();
+    row.set_job(name);
+    row.add_values(speed);
+    *row.mutable_result() = in_state(ends[i]);
+  }
+  return script;
 }
 
 }  // namespace cellcrush::client::testing

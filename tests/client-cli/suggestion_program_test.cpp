@@ -1,4 +1,5 @@
 // What the program says to a name that it does not know: the nearest one, and the exit code of before.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,6 +9,9 @@
 
 namespace cellcrush::client::testing {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Misspelling {
   std::vector<std::string> words;
@@ -22,7 +26,7 @@ void expect_answers(const std::vector<Misspelling>& misspellings, const std::vec
     const ProgramResult result = run_program(arguments);
     EXPECT_EQ(result.exit_code, misspelling.exit_code) << misspelling.answer;
     EXPECT_EQ(result.output, "");
-    EXPECT_NE(result.errors.find(misspelling.answer), std::string::npos) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr(misspelling.answer));
   }
 }
 
@@ -62,8 +66,8 @@ TEST(Suggestion, OfAJob) {
                   {{"watch", "job/3"}, 5, "id you mean \"jobs/3\"?"},
                   {{"fetch", "Jobs/3", "-o", server.folder() / "x"}, 5, "id you mean \"jobs/3\"?"}},
                  {"--server", server.address()});
-  const ProgramResult other = run_program({"show", "jobs/4", "--server", server.address()});
-  EXPECT_EQ(other.errors.find("you mean"), std::string::npos) << "another number is another job: " << other.errors;
+  const ProgramResult other = server.run({"show", "jobs/4"});
+  EXPECT_THAT(other.errors, Not(HasSubstr("you mean"))) << "another number is another job: ";
 }
 
 TEST(Suggestion, OfASweep) {
@@ -96,14 +100,14 @@ TEST(Suggestion, IsNotTheFileItselfThatCannotBeRead) {
                  {"--server", server.address()});
   expect_answers({{{"list", "--token-file", server.folder()}, 2, server.folder().string() + ": is a folder"}},
                  {"--server", "127.0.0.1:1"});
-  EXPECT_EQ(run_program({"check", loop, "--server", server.address()}).errors.find("did you mean"), std::string::npos);
+  EXPECT_THAT(server.run({"check", loop}).errors, Not(HasSubstr("did you mean")));
 }
 
 TEST(Suggestion, NoArgumentsAtAllPrintTheHelp) {
   const ProgramResult result = run_program({});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.output, run_program({"--help"}).output);
-  EXPECT_NE(result.output.find("submit"), std::string::npos);
+  EXPECT_THAT(result.output, HasSubstr("submit"));
   EXPECT_EQ(result.errors, "");
 }
 

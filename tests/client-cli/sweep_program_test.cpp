@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,8 @@
 namespace cellcrush::client::testing {
 namespace {
 
+using ::testing::HasSubstr;
+
 using google::protobuf::util::JsonStringToMessage;
 
 Script sweep_script(const std::vector<v1::Job::State>& ends) {
@@ -25,17 +28,6 @@ Script sweep_script(const std::vector<v1::Job::State>& ends) {
 
 const std::vector<v1::Job::State> kThreeSucceed = {v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED};
 
-ProgramResult run_on(const FakeServer& server, std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(), {"--server", server.address()});
-  return run_program(arguments);
-}
-
-int count_of(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 TEST(Sweep, OnATerminalItSaysHowManyPointsAreChecked) {
   const FakeServer server(sweep_script(kThreeSucceed));
   Program program({"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100,2e2", "--over",
@@ -46,16 +38,16 @@ TEST(Sweep, OnATerminalItSaysHowManyPointsAreChecked) {
 
 TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
   const FakeServer server(sweep_script(kThreeSucceed));
-  const ProgramResult result = run_on(server, {"sweep",          "preset:type-i",
-                                               "--set",          "depth_mm=5",
-                                               "--over",         "loading.speed_m_per_s=50,100,2e2",
-                                               "--over",         "lattice.hexagon.columns=20,40",
-                                               "--label",        "who=me",
-                                               "--request-id",   "abc",
-                                               "--priority",     "-3",
-                                               "--max-parallel", "4",
-                                               "--max-failures", "2",
-                                               "--executor",     "slurm/a"});
+  const ProgramResult result = server.run({"sweep",          "preset:type-i",
+                                           "--set",          "depth_mm=5",
+                                           "--over",         "loading.speed_m_per_s=50,100,2e2",
+                                           "--over",         "lattice.hexagon.columns=20,40",
+                                           "--label",        "who=me",
+                                           "--request-id",   "abc",
+                                           "--priority",     "-3",
+                                           "--max-parallel", "4",
+                                           "--max-failures", "2",
+                                           "--executor",     "slurm/a"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output, "sweeps/test\n");
   const auto creates = server.asked().sweeps.creates;
@@ -84,14 +76,14 @@ TEST(Sweep, PrintsNotesOnStderrExceptInJson) {
   note.set_remedy("Give it in kg/m^3.");
   const FakeServer server(std::move(script));
   const std::vector<std::string> sweep = {"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100"};
-  const ProgramResult result = run_on(server, sweep);
+  const ProgramResult result = server.run(sweep);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output, "sweeps/test\n");
   EXPECT_EQ(count_of(result.errors, "Note: material.density_kg_per_m3 = 2.7 is far below"), 1) << result.errors;
   EXPECT_EQ(count_of(result.errors, "point 2 of 4"), 1) << result.errors;
   std::vector<std::string> with_json = sweep;
   with_json.emplace_back("--json");
-  const ProgramResult json = run_on(server, with_json);
+  const ProgramResult json = server.run(with_json);
   EXPECT_EQ(json.errors, "");
   EXPECT_EQ(count_of(json.output, "2 of 4"), 1) << json.output;
 }
@@ -99,26 +91,24 @@ TEST(Sweep, PrintsNotesOnStderrExceptInJson) {
 TEST(Sweep, BadAxesAreRefused) {
   const FakeServer server(sweep_script(kThreeSucceed));
   for (const char* axis : {"loading.speed_m_per_s", "=1,2", "a=1,,2", "a=1,x", "a="}) {
-    const ProgramResult result = run_on(server, {"sweep", "preset:type-i", "--over", axis});
+    const ProgramResult result = server.run({"sweep", "preset:type-i", "--over", axis});
     EXPECT_EQ(result.exit_code, 2) << axis;
-    EXPECT_NE(result.errors.find(std::string("--over ") + axis), std::string::npos) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr(std::string("--over ") + axis));
   }
-  EXPECT_EQ(run_on(server, {"sweep", "preset:type-i", "--over", "a=1", "--over", "a=2"}).exit_code, 2);
-  EXPECT_EQ(run_on(server, {"sweep", "preset:type-i", "--over", "a=1", "--label", "x"}).exit_code, 2);
-  EXPECT_EQ(run_on(server, {"sweep", "preset:type-i"}).exit_code, 2);
+  EXPECT_EQ(server.run({"sweep", "preset:type-i", "--over", "a=1", "--over", "a=2"}).exit_code, 2);
+  EXPECT_EQ(server.run({"sweep", "preset:type-i", "--over", "a=1", "--label", "x"}).exit_code, 2);
+  EXPECT_EQ(server.run({"sweep", "preset:type-i"}).exit_code, 2);
   EXPECT_TRUE(server.asked().sweeps.creates.empty());
 }
 
 TEST(SweepWatch, EndsWithTheTableAndZeroWhenAllSucceeded) {
   const FakeServer server(sweep_script(kThreeSucceed));
   const ProgramResult result =
-      run_on(server, {"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100,150", "--watch"});
+      server.run({"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100,150", "--watch"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output.find("sweeps/test\n"), 0U);
-  for (const char* part :
-       {"3 of 3 jobs ended", "speed  job", "jobs/test-3", "quadratic through the three points: 0.3"}) {
-    EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
-  }
+  expect_parts_in(result.output,
+                  {"3 of 3 jobs ended", "speed  job", "jobs/test-3", "quadratic through the three points: 0.3"});
   EXPECT_LE(count_of(result.output, "jobs ended"), 4) << "at most a line a second\n" << result.output;
   EXPECT_EQ(result.output.find('\x1b'), std::string::npos);
 }
@@ -126,9 +116,9 @@ TEST(SweepWatch, EndsWithTheTableAndZeroWhenAllSucceeded) {
 TEST(SweepWatch, EndsWithOneWhenAJobFailedOrWasCancelled) {
   for (const v1::Job::State state : {v1::Job::FAILED, v1::Job::CANCELLED}) {
     const FakeServer server(sweep_script({v1::Job::SUCCEEDED, state}));
-    const ProgramResult result = run_on(server, {"watch", "sweeps/test"});
+    const ProgramResult result = server.run({"watch", "sweeps/test"});
     EXPECT_EQ(result.exit_code, 1) << result.output;
-    EXPECT_NE(result.output.find("1 " + v1::Job::State_Name(state)), std::string::npos) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("1 " + v1::Job::State_Name(state)));
   }
 }
 
@@ -137,7 +127,7 @@ TEST(SweepWatch, ACutStreamIsPickedUpByItsTokenWithoutLoss) {
   script.sweeps.cut_streams = 2;
   script.sweeps.responses_before_cut = 7;
   const FakeServer server(script);
-  const ProgramResult result = run_on(server, {"watch", "sweeps/test", "--json"});
+  const ProgramResult result = server.run({"watch", "sweeps/test", "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(server.asked().sweeps.tokens, (std::vector<std::string>{"", "7", "14"}));
   EXPECT_EQ(count_of(result.output, "\"sample\":{"), 12);
@@ -153,18 +143,18 @@ TEST(SweepWatch, AStreamThatStaysCutEndsWithFour) {
   script.sweeps.cut_streams = 1000;
   script.sweeps.responses_before_cut = 0;
   const FakeServer server(script);
-  const ProgramResult result = run_on(server, {"watch", "sweeps/test"});
+  const ProgramResult result = server.run({"watch", "sweeps/test"});
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_GE(server.asked().sweeps.tokens.size(), 3U);
   EXPECT_LT(result.seconds, 15.0);
-  EXPECT_NE(result.errors.find("`cellcrush watch sweeps/test` shows it again"), std::string::npos) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("`cellcrush watch sweeps/test` shows it again"));
 }
 
 TEST(SweepWatch, AStreamThatEndsBeforeItsJobsIsNotTakenForTheEnd) {
   Script script = sweep_script(kThreeSucceed);
   script.sweeps.responses.resize(script.sweeps.responses.size() - 1);
   const FakeServer server(script);
-  EXPECT_EQ(run_on(server, {"watch", "sweeps/test"}).exit_code, 4);
+  EXPECT_EQ(server.run({"watch", "sweeps/test"}).exit_code, 4);
 }
 
 TEST(SweepWatch, CtrlCLeavesTheSweepRunningAndSaysSo) {
@@ -177,7 +167,7 @@ TEST(SweepWatch, CtrlCLeavesTheSweepRunningAndSaysSo) {
   program.interrupt();
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exit_code, 130);
-  EXPECT_NE(result.errors.find("sweeps/test continues"), std::string::npos) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("sweeps/test continues"));
 }
 
 TEST(SweepWatch, OnATerminalThereIsALineAJobRedrawnInPlaceWithinItsWidth) {
@@ -185,44 +175,32 @@ TEST(SweepWatch, OnATerminalThereIsALineAJobRedrawnInPlaceWithinItsWidth) {
   for (const int columns : {40, 100}) {
     const ProgramResult result = Program({"watch", "sweeps/test", "--server", server.address()}, columns).wait();
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    EXPECT_NE(result.output.find("\x1b[7A"), std::string::npos) << result.output;
-    std::istringstream lines(result.output);
-    for (std::string line; std::getline(lines, line);) {
-      // Escape sequences take no room: ESC [ ... letter.
-      std::string shown;
-      for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '\x1b') {
-          while (i < line.size() && std::isalpha(static_cast<unsigned char>(line[i])) == 0) ++i;
-        } else if (line[i] != '\r') {
-          shown += line[i];
-        }
-      }
-      EXPECT_LE(display_width(shown), columns) << shown;
-    }
+    EXPECT_THAT(result.output, HasSubstr("\x1b[7A"));
+    expect_no_wider(result.output, columns);
   }
 }
 
 TEST(SweepTable, IsPrintedAsATextCsvOrJson) {
   const FakeServer server(sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED}));
-  const ProgramResult text = run_on(server, {"table", "test"});
+  const ProgramResult text = server.run({"table", "test"});
   EXPECT_EQ(text.exit_code, 0) << text.errors;
-  EXPECT_NE(text.output.find("jobs/test-2 FAILED (SOLVER_DIVERGED)"), std::string::npos) << text.output;
-  const ProgramResult csv = run_on(server, {"table", "sweeps/test", "--csv"});
+  EXPECT_THAT(text.output, HasSubstr("jobs/test-2 FAILED (SOLVER_DIVERGED)"));
+  const ProgramResult csv = server.run({"table", "sweeps/test", "--csv"});
   EXPECT_EQ(csv.output.find("loading.speed_m_per_s,job,state,"), 0U) << csv.output;
   EXPECT_EQ(std::count(csv.output.begin(), csv.output.end(), '\n'), 3);
   v1::SweepTable table;
-  ASSERT_TRUE(JsonStringToMessage(run_on(server, {"table", "test", "--json"}).output, &table).ok());
+  ASSERT_TRUE(JsonStringToMessage(server.run({"table", "test", "--json"}).output, &table).ok());
   EXPECT_EQ(table.rows_size(), 2);
-  EXPECT_EQ(run_on(server, {"table", "test", "--json", "--csv"}).exit_code, 2);
-  EXPECT_EQ(run_on(server, {"table", "none"}).exit_code, 5);
-  EXPECT_EQ(run_on(server, {"table", "jobs/test"}).exit_code, 2);
+  EXPECT_EQ(server.run({"table", "test", "--json", "--csv"}).exit_code, 2);
+  EXPECT_EQ(server.run({"table", "none"}).exit_code, 5);
+  EXPECT_EQ(server.run({"table", "jobs/test"}).exit_code, 2);
 }
 
 TEST(SweepTable, OfManyPagesIsOneTable) {
   const FakeServer server(
       sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED}));
   v1::SweepTable table;
-  ASSERT_TRUE(JsonStringToMessage(run_on(server, {"table", "test", "--json"}).output, &table).ok());
+  ASSERT_TRUE(JsonStringToMessage(server.run({"table", "test", "--json"}).output, &table).ok());
   EXPECT_EQ(table.fields_size(), 1);
   ASSERT_EQ(table.rows_size(), 5);
   EXPECT_EQ(table.rows(4).job(), "jobs/test-5");
@@ -231,24 +209,24 @@ TEST(SweepTable, OfManyPagesIsOneTable) {
 
 TEST(SweepLife, CancelRetryShowAndListNameTheSweep) {
   const FakeServer server(sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED}));
-  const ProgramResult cancel = run_on(server, {"cancel", "sweeps/test"});
+  const ProgramResult cancel = server.run({"cancel", "sweeps/test"});
   EXPECT_EQ(cancel.exit_code, 0) << cancel.errors;
   EXPECT_EQ(cancel.output, "sweeps/test: 2 jobs, 1 FAILED, 1 SUCCEEDED\n");
-  EXPECT_EQ(run_on(server, {"retry", "test"}).exit_code, 0);
-  const ProgramResult show = run_on(server, {"show", "sweeps/test"});
-  EXPECT_NE(show.output.find("over loading.speed_m_per_s  50, 100\n"), std::string::npos) << show.output;
-  EXPECT_NE(show.output.find("jobs/test-1, jobs/test-2\n"), std::string::npos) << show.output;
-  const ProgramResult list = run_on(server, {"list", "--sweeps"});
+  EXPECT_EQ(server.run({"retry", "test"}).exit_code, 0);
+  const ProgramResult show = server.run({"show", "sweeps/test"});
+  EXPECT_THAT(show.output, HasSubstr("over loading.speed_m_per_s  50, 100\n"));
+  EXPECT_THAT(show.output, HasSubstr("jobs/test-1, jobs/test-2\n"));
+  const ProgramResult list = server.run({"list", "--sweeps"});
   EXPECT_EQ(count_of(list.output, "sweeps/test"), 2) << list.output;
-  EXPECT_EQ(count_of(run_on(server, {"list", "--sweeps", "--limit", "1"}).output, "sweeps/test"), 1);
-  EXPECT_EQ(run_on(server, {"list", "--sweeps", "--filter", "x = 1"}).exit_code, 2);
+  EXPECT_EQ(count_of(server.run({"list", "--sweeps", "--limit", "1"}).output, "sweeps/test"), 1);
+  EXPECT_EQ(server.run({"list", "--sweeps", "--filter", "x = 1"}).exit_code, 2);
   const AskedOfSweeps asked = server.asked().sweeps;
   EXPECT_EQ(asked.cancelled, std::vector<std::string>{"sweeps/test"});
   EXPECT_EQ(asked.retried, std::vector<std::string>{"sweeps/test"});
   for (const char* command : {"show", "cancel", "watch"}) {
-    EXPECT_EQ(run_on(server, {command, "sweeps/none"}).exit_code, 5) << command;
+    EXPECT_EQ(server.run({command, "sweeps/none"}).exit_code, 5) << command;
   }
-  EXPECT_EQ(run_on(server, {"suspend", "sweeps/test"}).exit_code, 2);
+  EXPECT_EQ(server.run({"suspend", "sweeps/test"}).exit_code, 2);
 }
 
 }  // namespace

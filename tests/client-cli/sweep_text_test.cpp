@@ -1,5 +1,7 @@
 #include "terminal/sweep_text.h"
 
+#include <gmock/gmock.h>
+#include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <sstream>
 
 #include "command_error.h"
+#include "expect_text.h"
 #include "plots/sweep_curves.h"
 #include "terminal/job_list_text.h"
 #include "terminal/sweep_chart_text.h"
@@ -16,6 +19,11 @@
 
 namespace cellcrush::client {
 namespace {
+
+using testing::expect_no_wider;
+using testing::expect_parts_in;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 v1::Job make_job(int number, v1::Job::State state, double speed) {
   v1::Job job;
@@ -46,17 +54,14 @@ v1::SweepTable make_table(int succeeded) {
       continue;
     }
     v1::Summary& summary = *row.mutable_result()->mutable_summary();
-    summary.set_step_count(1000);
-    summary.set_plateau_window_low(0.2);
-    summary.set_plateau_window_high(0.4);
+    EXPECT_TRUE(google::protobuf::TextFormat::ParseFromString(
+        R"(step_count: 1000 plateau_window_low: 0.2 plateau_window_high: 0.4 plateau_stress_support_mpa: 0.44
+           absorbed_energy_mj: 12345 energy_error_relative: 0.0121 theory { gibson_ashby_mpa: 0.301 })",
+        &summary));
     summary.set_plateau_stress_impact_mpa(0.25 + 1e-4 * speed + 3e-4 * speed * speed);
-    summary.set_plateau_stress_support_mpa(0.44);
-    summary.set_absorbed_energy_mj(12345.0);
-    summary.set_energy_error_relative(0.0121);
     summary.set_crush_mode(i == 1 ? v1::Summary::CRUSH_MODE_V : v1::Summary::CRUSH_MODE_I);
     summary.set_crush_mode_words(i == 1 ? "V-shaped band (V)" : "layer by layer (I)");
     if (i > 1) summary.mutable_front()->set_shock_mpa(0.27 + 2.9e-4 * speed * speed);
-    summary.mutable_theory()->set_gibson_ashby_mpa(0.301);
     summary.mutable_theory()->set_shock_mpa(0.301 + 3.1e-4 * speed * speed);
   }
   return table;
@@ -80,7 +85,7 @@ TEST(SweepChartText, DrawsThePlateausAndTheTheoryOverTheSpeed) {
   EXPECT_EQ(place_of(lines[14]), 16U) << text;
   EXPECT_EQ(std::count(text.begin() + static_cast<std::ptrdiff_t>(text.find(lines[2])), text.end(), 'o'), 6) << text;
   EXPECT_EQ(lines[5].substr(0, 6), "  10 +") << text;
-  EXPECT_NE(lines[17].find("200"), std::string::npos) << text;
+  EXPECT_THAT(lines[17], HasSubstr("200"));
   EXPECT_EQ(lines[18], "  . shock theory (Eq. 51)");
   for (const auto& line : lines) EXPECT_LE(line.size(), 79U);
 }
@@ -100,29 +105,24 @@ TEST(SweepTable, IsAlignedAndFollowedByTheFit) {
   const std::size_t impact = lines[1].find("impact") + 6;
   EXPECT_EQ(lines[4].substr(impact - 4, 4), "1.00") << text;
   EXPECT_EQ(lines[7].substr(impact - 4, 4), "12.3") << text;
-  for (const char* part :
-       {"0.440", "12.3", "0.301", "1.21", "from 20 to 40 % strain", "least-squares fit: 0.25 + 0.0001 V + 0.0003 V^2",
-        "shock theory (Eq. 51): 0.301 + 0.00031 V^2", "state SUCCEEDED"}) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  }
+  expect_parts_in(text, {"0.440", "12.3", "0.301", "1.21", "from 20 to 40 % strain",
+                         "least-squares fit: 0.25 + 0.0001 V + 0.0003 V^2",
+                         "shock theory (Eq. 51): 0.301 + 0.00031 V^2", "state SUCCEEDED"});
 }
 
 TEST(SweepTable, FitsItsTerminalAndSaysOnceWhatDoesNotVary) {
   for (const int width : {60, 80, 100, 200}) {
-    for (const std::string& line : lines_of(sweep_table_text(make_table(4), "", kTableDigits, width))) {
-      EXPECT_LE(display_width(line), width) << line;
-    }
+    expect_no_wider(sweep_table_text(make_table(4), "", kTableDigits, width), width);
   }
   const std::string text = sweep_table_text(make_table(4), "", kTableDigits, 200);
-  EXPECT_NE(text.find("The same in all rows: state SUCCEEDED; plateau support plate 0.440 MPa"), std::string::npos)
-      << text;
-  EXPECT_NE(text.find("layer by layer (I)"), std::string::npos) << text;
+  EXPECT_THAT(text, HasSubstr("The same in all rows: state SUCCEEDED; plateau support plate 0.440 MPa"));
+  EXPECT_THAT(text, HasSubstr("layer by layer (I)"));
 }
 
 TEST(SweepTable, HasAsManyDigitsAsAskedAndSaysWhereTheoryDoesNotApply) {
   const std::string text = sweep_table_text(make_table(4), "Squares are stretch-dominated.", 6);
-  EXPECT_NE(text.find("12.2700"), std::string::npos) << text;
-  EXPECT_NE(text.find("Note: Squares are stretch-dominated"), std::string::npos) << text;
+  EXPECT_THAT(text, HasSubstr("12.2700"));
+  EXPECT_THAT(text, HasSubstr("Note: Squares are stretch-dominated"));
 }
 
 TEST(JobList, ShowsWhatDiffersBetweenJobsOfATitleAndFitsItsTerminal) {
@@ -141,21 +141,21 @@ TEST(JobList, ShowsWhatDiffersBetweenJobsOfATitleAndFitsItsTerminal) {
   EXPECT_EQ(lines[5], "jobs/2  SUCCEEDED    200");
   jobs[2].mutable_case_()->set_title("Another");
   for (const int width : {30, 40, 80}) {
-    for (const std::string& line : lines_of(job_list_text(jobs, width))) EXPECT_LE(display_width(line), width) << line;
+    expect_no_wider(job_list_text(jobs, width), width);
   }
 }
 
 TEST(SweepTable, WithFewerThanThreeResultsThereIsNoFitAndFailuresSayWhy) {
   const std::string text = sweep_table_text(make_table(2), "", kTableDigits, 120);
-  EXPECT_EQ(text.find("least-squares"), std::string::npos) << text;
-  EXPECT_NE(text.find("jobs/3 FAILED (ENERGY_BALANCE): the ledger opened"), std::string::npos) << text;
+  EXPECT_THAT(text, Not(HasSubstr("least-squares")));
+  EXPECT_THAT(text, HasSubstr("jobs/3 FAILED (ENERGY_BALANCE): the ledger opened"));
   const std::string three = sweep_table_text(make_table(3), "", kTableDigits, 120);
-  EXPECT_EQ(three.find("least-squares"), std::string::npos) << three;
-  EXPECT_EQ(three.find("largest residual"), std::string::npos) << three;
-  EXPECT_NE(three.find("quadratic through the three points: 0.25 + 0.0001 V + 0.0003 V^2"), std::string::npos) << three;
+  EXPECT_THAT(three, Not(HasSubstr("least-squares")));
+  EXPECT_THAT(three, Not(HasSubstr("largest residual")));
+  EXPECT_THAT(three, HasSubstr("quadratic through the three points: 0.25 + 0.0001 V + 0.0003 V^2"));
   v1::SweepTable depth = make_table(4);
   depth.set_fields(0, "depth_mm");
-  EXPECT_EQ(sweep_table_text(depth, "").find("least-squares"), std::string::npos);
+  EXPECT_THAT(sweep_table_text(depth, ""), Not(HasSubstr("least-squares")));
 }
 
 TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {
@@ -166,7 +166,7 @@ TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {
             "plateau_stress_to_densification_mpa,densification_strain,absorbed_energy_mj,gibson_ashby_mpa,shock_mpa,"
             "front_shock_mpa,front_strain_behind,energy_error_relative,crush_mode");
   EXPECT_EQ(lines[1].find("50,jobs/1,SUCCEEDED,1.005,0.44,,,12345,0.301,"), 0U) << lines[1];
-  EXPECT_NE(lines[1].find(",0.0121,V"), std::string::npos) << lines[1];
+  EXPECT_THAT(lines[1], HasSubstr(",0.0121,V"));
   EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,,,,");
 }
 
@@ -192,7 +192,7 @@ TEST(SweepProgress, HasARowAJobWithValuesStateStrainAndPlateau) {
   const auto lines = sweep_progress_lines(make_view(4), 100, 24, terminal);
   ASSERT_EQ(lines.size(), 8U);
   EXPECT_EQ(lines[0], "sweeps/3  1 of 4 jobs ended, 1 RUNNING, 2 PENDING");
-  EXPECT_NE(lines[2].find("speed  state"), std::string::npos) << lines[2];
+  EXPECT_THAT(lines[2], HasSubstr("speed  state"));
   EXPECT_EQ(lines[4], "   50  SUCCEEDED  100.0 %     3.39    0.31  jobs/1");
   EXPECT_EQ(lines[6], "  150  RUNNING     47.3 %     3.39    0.31  jobs/3");
   EXPECT_EQ(lines[7], "       PENDING                              jobs/4");
@@ -249,8 +249,8 @@ TEST(SweepProgress, ShowsEveryDigitOfWhatIsVaried) {
   }
   view.apply(snapshot);
   const auto lines = sweep_progress_lines(view, 79, 24, {});
-  EXPECT_NE(lines[4].find("0.123456"), std::string::npos) << lines[4];
-  EXPECT_NE(lines[5].find("0.123457"), std::string::npos) << lines[5];
+  EXPECT_THAT(lines[4], HasSubstr("0.123456"));
+  EXPECT_THAT(lines[5], HasSubstr("0.123457"));
 }
 
 TEST(SweepProgress, InALogIsOneLine) {
@@ -273,11 +273,9 @@ TEST(SweepText, DescribesTheAxesAndTheJobs) {
   (*sweep.mutable_state_counts())["SUCCEEDED"] = 2;
   (*sweep.mutable_labels())["who"] = "me";
   const std::string text = description_text(sweep);
-  for (const char* part : {"sweeps/3: 2 jobs, 2 SUCCEEDED\n", "over loading.speed_m_per_s      50, 100\n",
-                           "over lattice.imperfection.seed  1 to 8\n", "jobs/1, jobs/2\n", "who=me\n"}) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  }
-  EXPECT_NE(sweep_list_text({sweep}).find("LABELS"), std::string::npos);
+  expect_parts_in(text, {"sweeps/3: 2 jobs, 2 SUCCEEDED\n", "over loading.speed_m_per_s      50, 100\n",
+                         "over lattice.imperfection.seed  1 to 8\n", "jobs/1, jobs/2\n", "who=me\n"});
+  EXPECT_THAT(sweep_list_text({sweep}), HasSubstr("LABELS"));
   EXPECT_EQ(sweep_list_text({}), "no sweeps\n");
 }
 
@@ -331,7 +329,7 @@ TEST(SweepChart, TwoFieldsGiveASeriesAValueOfTheSecond) {
     if (!curve.name.empty()) names.push_back(curve.name);
   }
   EXPECT_EQ(names, (std::vector<std::string>{"wall thickness = 0.3 mm", "wall thickness = 0.4 mm"}));
-  EXPECT_NE(chart.note.find("squares: support plate"), std::string::npos);
+  EXPECT_THAT(chart.note, HasSubstr("squares: support plate"));
 }
 
 // A search through all jobs for each event would take minutes.

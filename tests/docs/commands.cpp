@@ -135,43 +135,11 @@ void check_option(const std::map<std::string, ProgramHelp>& programs, const Page
   words >> word;
   const std::string option = option_of(word);
   if (!option.starts_with("--") || std::regex_match(word, kForeign)) return;
-  const bool known = std::ranges::any_of(programs, [&](const auto& program) {
-    return program.second.options.contains(option) ||
-           std::ranges::any_of(program.second.commands,
-                               [&](const auto& command) { return command.second.contains(option); });
-  });
+  const bool known = std::ranges::any_of(programs, [&](const auto& program) { return program.second.has(option); });
   if (!known) findings.push_back(place_of(page, code.line) + "no program has the option " + option);
 }
 
 }  // namespace
-
-std::set<std::string> options_of(const std::string& help) {
-  static const std::regex kOption("--?[a-zA-Z][a-zA-Z0-9-]*");
-  std::set<std::string> options;
-  std::istringstream lines(help);
-  std::string line;
-  while (std::getline(lines, line)) {
-    const std::size_t start = line.find_first_not_of(' ');
-    if (start == std::string::npos || (line[start] != '-' && !line.starts_with("usage:"))) continue;
-    for (auto match = std::sregex_iterator(line.begin(), line.end(), kOption); match != std::sregex_iterator();
-         ++match) {
-      options.insert(match->str());
-    }
-  }
-  return options;
-}
-
-std::vector<std::string> commands_of(const std::string& help) {
-  static const std::regex kEntry("^  ([a-z][a-z-]*)  +[^ ].*");
-  std::vector<std::string> commands;
-  std::istringstream lines(help);
-  std::string line;
-  while (std::getline(lines, line) && line != "Examples:") {
-    std::smatch match;
-    if (std::regex_match(line, match, kEntry)) commands.push_back(match[1].str());
-  }
-  return commands;
-}
 
 std::vector<Mention> mentions_of(const Page& page) {
   std::vector<Mention> mentions;

@@ -7,20 +7,11 @@
 
 #include "docs/links.h"
 #include "docs/page.h"
+#include "e2e/program_help.h"
 
 namespace cellcrush::docs {
 
-/// What a program accepts, as its help shows it.
-struct ProgramHelp {
-  std::set<std::string> options;                          ///< of the program itself, with their dashes
-  std::map<std::string, std::set<std::string>> commands;  ///< options of each command
-};
-
-/// The options that a help text shows, with their dashes: those at the start of an entry.
-std::set<std::string> options_of(const std::string& help);
-
-/// The commands that a help text of a whole program lists: entries without a dash behind the first blank line.
-std::vector<std::string> commands_of(const std::string& help);
+using e2e::ProgramHelp;
 
 /// A command line of a page: the words behind the program's name, without quotes, up to a pipe, `;`, `&` or comment.
 struct Mention {

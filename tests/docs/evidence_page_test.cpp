@@ -18,18 +18,13 @@ namespace fs = std::filesystem;
 const fs::path kTests = fs::path(CELLCRUSH_SOURCE_ROOT) / "tests";
 const fs::path kFolder = kTests / "core";
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// Suite.Name of all tests.
 std::set<std::string> find_tests() {
   static const std::regex kTest(R"(\nTEST(?:_[FP])?\((\w+),\s*(\w+)\))");
   std::set<std::string> tests;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kTests)) {
     if (entry.path().extension() != ".cpp") continue;
-    const std::string text = text_of(entry.path());
+    const std::string text = read_text(entry.path());
     for (std::sregex_iterator test(text.begin(), text.end(), kTest), end; test != end; ++test)
       tests.insert((*test)[1].str() + "." + (*test)[2].str());
   }
@@ -39,11 +34,11 @@ std::set<std::string> find_tests() {
 TEST(EvidencePageTest, IsWhatTheTestsRecorded) {
   const std::set<std::string> tests = find_tests();
   EXPECT_GT(tests.size(), 100U);
-  const EvidencePage made = make_evidence_page(text_of(kFolder / "evidence_page.txt"),
+  const EvidencePage made = make_evidence_page(read_text(kFolder / "evidence_page.txt"),
                                                scenes::read_evidence(kFolder / "evidence.csv"), tests);
   EXPECT_TRUE(made.findings.empty()) << to_text(made.findings);
   if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) std::ofstream(kFolder / "README.md") << made.text;
-  EXPECT_EQ(text_of(kFolder / "README.md"), made.text)
+  EXPECT_EQ(read_text(kFolder / "README.md"), made.text)
       << "evidence_page.txt or evidence.csv has changed. Write the page again: CELLCRUSH_WRITE_PAGES=1 "
          "build/ci/bin/docs_evidence_page";
 }

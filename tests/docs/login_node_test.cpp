@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "docs/shown_page.h"
+#include "docs/session.h"
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
 

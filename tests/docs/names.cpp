@@ -71,10 +71,7 @@ std::set<std::string> variables_in(const fs::path& root) {
       }
     }
     for (const fs::path& path : files) {
-      std::ifstream file(path);
-      std::ostringstream text;
-      text << file.rdbuf();
-      const std::string all = text.str();
+      const std::string all = read_text(path);
       for (auto match = std::sregex_iterator(all.begin(), all.end(), kVariable); match != std::sregex_iterator();
            ++match) {
         variables.insert(match->str());

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
+
 #include "docs/commands.h"
 #include "e2e/process.h"
 
@@ -13,31 +16,26 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 
-std::string help_of(std::vector<std::string> command) {
-  command.emplace_back("--help");
-  const e2e::Outcome outcome = e2e::run(command, std::chrono::seconds(30));
-  EXPECT_EQ(outcome.exit_code, 0) << command[0] << outcome.all();
-  return outcome.output;
-}
-
-ProgramHelp read_program(const std::string& path) {
-  const std::string text = help_of({path});
-  ProgramHelp help{options_of(text), {}};
-  for (const std::string& command : commands_of(text)) help.commands[command] = options_of(help_of({path, command}));
-  return help;
-}
-
 std::map<std::string, ProgramHelp> read_programs() {
-  std::map<std::string, ProgramHelp> programs{{"cellcrush", read_program(CELLCRUSH_PROGRAM)},
-                                              {"cellcrushd", read_program(CELLCRUSHD_PROGRAM)}};
+  std::map<std::string, ProgramHelp> programs{{"cellcrush", e2e::read_help(CELLCRUSH_PROGRAM)},
+                                              {"cellcrushd", e2e::read_help(CELLCRUSHD_PROGRAM)}};
   const std::filesystem::path root = CELLCRUSH_SOURCE_ROOT;
   programs.at("cellcrushd").commands["worker"] = {};  // hidden from the help: the daemon starts its workers with it
   for (const char* name :
        {"quickstart", "test", "lint", "bench", "work-precision", "compare-commits", "install-packages"}) {
     const std::string script = std::string("deploy/") + name;
-    programs[script] = {options_of(help_of({(root / script).string()})), {}};
+    programs[script] = {e2e::options_of(e2e::help_of({(root / script).string()})), {}};
   }
   return programs;
+}
+
+TEST(CommandsPage, IsWhatTheProgramGenerates) {
+  const std::filesystem::path path = std::filesystem::path(CELLCRUSH_SOURCE_ROOT) / "client-cli/commands.md";
+  const std::string made = e2e::run({CELLCRUSH_PROGRAM, "man", "--markdown"}, std::chrono::seconds(30)).output;
+  if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) std::ofstream(path, std::ios::binary) << made;
+  EXPECT_TRUE(read_text(path) == made) << path << " is out of date: run this test with CELLCRUSH_WRITE_PAGES=1";
+  for (const auto& [command, options] : e2e::read_help(CELLCRUSH_PROGRAM).commands)
+    EXPECT_THAT(made, testing::HasSubstr("\n### " + command + "\n"));
 }
 
 const std::vector<Page>& pages() {
@@ -56,24 +54,10 @@ TEST(PagesName, CommandsAndOptionsThatExist) {
   EXPECT_TRUE(findings.empty()) << to_text(findings);
 }
 
-TEST(PagesName, FilesThatExist) {
-  const Findings findings = check_paths(CELLCRUSH_SOURCE_ROOT, pages());
-  EXPECT_TRUE(findings.empty()) << to_text(findings);
-}
-
-TEST(PagesName, FieldsThatExist) {
-  const Findings findings = check_fields(pages());
-  EXPECT_TRUE(findings.empty()) << to_text(findings);
-}
-
-TEST(PagesName, PresetsThatExist) {
-  const Findings findings = check_presets(pages());
-  EXPECT_TRUE(findings.empty()) << to_text(findings);
-}
-
-TEST(PagesName, VariablesThatExist) {
-  const Findings findings = check_variables(CELLCRUSH_SOURCE_ROOT, pages());
-  EXPECT_TRUE(findings.empty()) << to_text(findings);
+TEST(PagesName, FilesFieldsPresetsAndVariablesThatExist) {
+  for (const Findings& findings : {check_paths(CELLCRUSH_SOURCE_ROOT, pages()), check_fields(pages()),
+                                   check_presets(pages()), check_variables(CELLCRUSH_SOURCE_ROOT, pages())})
+    EXPECT_TRUE(findings.empty()) << to_text(findings);
 }
 
 // Each check finds what was planted, and nothing beside it.

@@ -1,7 +1,7 @@
 // A reader who saves the case of the tutorial and types what it shows sees what it shows.
 #include <gtest/gtest.h>
 
-#include "docs/shown_page.h"
+#include "docs/session.h"
 
 namespace cellcrush::docs {
 namespace {

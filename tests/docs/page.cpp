@@ -85,6 +85,11 @@ std::string anchor_of(const std::string& heading) {
   return anchor;
 }
 
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 Page parse_page(std::string path, const std::string& text) {
   static const std::regex kFence(R"(^\s*(```+|~~~+)\s*([A-Za-z0-9_+-]*).*$)");
   static const std::regex kHeading(R"(^#{1,6}\s+(.*?)\s*#*$)");
@@ -126,10 +131,7 @@ std::vector<Page> read_pages(const fs::path& root) {
     if (entry->is_directory() && (name.starts_with(".") || name == "build" || name == "node_modules")) {
       entry.disable_recursion_pending();
     } else if (entry->is_regular_file() && entry->path().extension() == ".md") {
-      std::ifstream file(entry->path());
-      std::ostringstream text;
-      text << file.rdbuf();
-      pages.push_back(parse_page(entry->path().lexically_relative(root).generic_string(), text.str()));
+      pages.push_back(parse_page(entry->path().lexically_relative(root).generic_string(), read_text(entry->path())));
     }
   }
   std::ranges::sort(pages, {}, &Page::path);

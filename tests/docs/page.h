@@ -33,6 +33,9 @@ struct Page {
 /// The anchor of a heading as GitHub names it: small letters, hyphens for spaces, no punctuation.
 std::string anchor_of(const std::string& heading);
 
+/// All bytes of a file.
+std::string read_text(const std::filesystem::path& file);
+
 /// Reads Markdown text. Nothing in a fenced block or an HTML comment counts as a link, a heading or code.
 Page parse_page(std::string path, const std::string& text);
 

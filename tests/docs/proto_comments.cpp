@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "help/wrapped_text.h"
+#include "chart/display_text.h"
 
 namespace cellcrush::docs {
 

@@ -40,4 +40,13 @@ std::string paragraph(const std::string& text);
 /// "[text](target)".
 std::string link(const std::string& text, const std::string& target);
 
+/// proto/fields.md: every message and field of a case, from case.proto.
+std::string make_fields_page();
+
+/// core/fields/field_limits.inc: path, limits and unit of every number of a case that has limits, by path.
+std::string make_field_limits();
+
+/// proto/api.md: every service, rpc and message but those of a case, from the comments of the other files.
+std::string make_api_page();
+
 }  // namespace cellcrush::docs

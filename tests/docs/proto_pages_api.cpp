@@ -5,7 +5,6 @@
 
 #include "docs/page.h"
 #include "docs/proto_comments.h"
-#include "docs/proto_pages.h"
 
 namespace cellcrush::docs {
 

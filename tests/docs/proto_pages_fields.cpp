@@ -7,7 +7,6 @@
 #include "cellcrush/v1/field.pb.h"
 #include "docs/page.h"
 #include "docs/proto_comments.h"
-#include "docs/proto_pages.h"
 #include "help/field_rules.h"
 
 namespace cellcrush::docs {

@@ -1,13 +1,11 @@
-#include "docs/proto_pages.h"
-
 #include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "docs/page.h"
 #include "docs/proto_comments.h"
 
 namespace cellcrush::docs {
@@ -21,11 +19,8 @@ const fs::path kFolder = fs::path(CELLCRUSH_SOURCE_ROOT) / "proto";
 // Compares a page with what its generator makes, or writes it where CELLCRUSH_WRITE_PAGES is set.
 void hold(const fs::path& page, const std::string& made) {
   if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) std::ofstream(page, std::ios::binary) << made;
-  std::ifstream stream(page, std::ios::binary);
-  std::ostringstream found;
-  found << stream.rdbuf();
-  EXPECT_TRUE(found.str() == made) << page << " is not what proto/cellcrush/v1 says. Rewrite it: "
-                                   << "CELLCRUSH_WRITE_PAGES=1 build/ci/bin/proto_pages_test";
+  EXPECT_TRUE(read_text(page) == made) << page << " is not what proto/cellcrush/v1 says. Rewrite it: "
+                                       << "CELLCRUSH_WRITE_PAGES=1 build/ci/bin/proto_pages_test";
 }
 
 TEST(ProtoPages, FieldsAreThoseOfTheCase) { hold(kFolder / "fields.md", make_fields_page()); }

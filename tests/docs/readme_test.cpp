@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "docs/session.h"
-#include "docs/shown_page.h"
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
 

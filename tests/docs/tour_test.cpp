@@ -1,7 +1,7 @@
 // A reader who types what the tour shows sees what it shows.
 #include <gtest/gtest.h>
 
-#include "docs/shown_page.h"
+#include "docs/session.h"
 
 namespace cellcrush::docs {
 namespace {

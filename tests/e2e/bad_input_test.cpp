@@ -23,69 +23,36 @@ class BadInput : public DaemonTest {
     EXPECT_EQ(listed.exit_code, 0) << "The daemon does not go on:\n" << listed.all();
     EXPECT_THAT(listed.output, testing::Not(HasSubstr("jobs/"))) << "A refused case was queued.";
   }
-
-  [[nodiscard]] std::string small() const { return write_file("small.txtpb", small_case()); }
 };
 
-TEST_F(BadInput, AnEmptyCaseNamesEveryRequiredField) {
-  expect_refused({write_file("empty.txtpb", "")},
-                 {"lattice", "depth_mm", "material.youngs_modulus_mpa", "material.yield_stress_mpa",
-                  "material.density_kg_per_m3", "loading.speed_m_per_s", "Remedy"});
-}
-
-TEST_F(BadInput, ANegativeThickness) {
-  expect_refused({small(), "--set", "lattice.hexagon.wall_thickness_mm=-0.3"},
-                 {"lattice.hexagon.wall_thickness_mm", "-0.3", "Remedy"});
-}
-
-TEST_F(BadInput, NotANumber) {
-  expect_refused({small(), "--set", "material.yield_stress_mpa=nan"}, {"material.yield_stress_mpa", "nan", "Remedy"});
-}
-
-TEST_F(BadInput, NotANumberInAFile) {
-  expect_refused({write_file("nan.txtpb", small_case() + "numerics { mass_damping_per_s: nan }\n")},
-                 {"numerics.mass_damping_per_s", "nan", "Remedy"});
-}
-
-TEST_F(BadInput, ASpeedOfZero) {
-  expect_refused({small(), "--set", "loading.speed_m_per_s=0"}, {"loading.speed_m_per_s", "0", "Remedy"});
-}
-
-TEST_F(BadInput, ATimeStepAboveTheStableLimit) {
-  expect_refused({small(), "--set", "numerics.time_step_s=1e-6"}, {"numerics.time_step_s", "stable", "Remedy"});
-}
-
-TEST_F(BadInput, AnUnknownPreset) { expect_refused({"preset:type-iv"}, {"type-iv", "hexagon-small"}); }
-
-TEST_F(BadInput, AMisspeltFieldInText) {
-  expect_refused({write_file("misspelt.txtpb", small_case() + "dept_mm: 4\n")},
-                 {"misspelt.txtpb:7:", "dept_mm", "depth_mm"});
-}
-
-TEST_F(BadInput, AMisspeltFieldInJson) {
-  expect_refused({write_file("misspelt.json", R"({"material": {"youngs_modulus": 69000}})")},
-                 {"misspelt.json", "material", "youngs_modulus"});
-}
-
-TEST_F(BadInput, AMisspeltFieldInSet) {
-  expect_refused({small(), "--set", "loading.speed=5"}, {"loading.speed", "speed_m_per_s"});
-}
-
-TEST_F(BadInput, ATruncatedFile) {
-  const std::string whole = small_case();
-  const std::string cut = whole.substr(0, whole.find("wall_thickness_mm"));
-  expect_refused({write_file("cut.txtpb", cut)}, {"cut.txtpb:"});
-  expect_refused({write_file("cut.json", R"({"lattice": {"hexagon": {"columns": 4,)")}, {"cut.json"});
-}
-
-TEST_F(BadInput, AFileThatIsNotThere) { expect_refused({(folder() / "absent.txtpb").string()}, {"absent.txtpb"}); }
-
-TEST_F(BadInput, SeveralProblemsAreAllNamedAtOnce) {
-  expect_refused({small(), "--set", "lattice.hexagon.wall_thickness_mm=-1", "--set", "depth_mm=0", "--set",
-                  "material.density_kg_per_m3=inf", "--set", "loading.speed_m_per_s=-5", "--set",
-                  "loading.end_strain=2", "--set", "section.depth_points=1"},
-                 {"lattice.hexagon.wall_thickness_mm", "depth_mm", "material.density_kg_per_m3",
-                  "loading.speed_m_per_s", "loading.end_strain", "section.depth_points"});
+TEST_F(BadInput, IsRefusedWithFieldsAndRemedies) {
+  const std::string small = write_file("small.txtpb", small_case());
+  const std::string cut = small_case().substr(0, small_case().find("wall_thickness_mm"));
+  const std::pair<std::vector<std::string>, std::vector<std::string>> cases[] = {
+      {{write_file("empty.txtpb", "")},
+       {"lattice", "depth_mm", "material.youngs_modulus_mpa", "material.yield_stress_mpa", "material.density_kg_per_m3",
+        "loading.speed_m_per_s", "Remedy"}},
+      {{small, "--set", "lattice.hexagon.wall_thickness_mm=-0.3"},
+       {"lattice.hexagon.wall_thickness_mm", "-0.3", "Remedy"}},
+      {{small, "--set", "material.yield_stress_mpa=nan"}, {"material.yield_stress_mpa", "nan", "Remedy"}},
+      {{write_file("nan.txtpb", small_case() + "numerics { mass_damping_per_s: nan }\n")},
+       {"numerics.mass_damping_per_s", "nan", "Remedy"}},
+      {{small, "--set", "loading.speed_m_per_s=0"}, {"loading.speed_m_per_s", "0", "Remedy"}},
+      {{small, "--set", "numerics.time_step_s=1e-6"}, {"numerics.time_step_s", "stable", "Remedy"}},
+      {{"preset:type-iv"}, {"type-iv", "hexagon-small"}},
+      {{write_file("misspelt.txtpb", small_case() + "dept_mm: 4\n")}, {"misspelt.txtpb:7:", "dept_mm", "depth_mm"}},
+      {{write_file("misspelt.json", R"({"material": {"youngs_modulus": 69000}})")},
+       {"misspelt.json", "material", "youngs_modulus"}},
+      {{small, "--set", "loading.speed=5"}, {"loading.speed", "speed_m_per_s"}},
+      {{write_file("cut.txtpb", cut)}, {"cut.txtpb:"}},
+      {{write_file("cut.json", R"({"lattice": {"hexagon": {"columns": 4,)")}, {"cut.json"}},
+      {{(folder() / "absent.txtpb").string()}, {"absent.txtpb"}},
+      {{small, "--set", "lattice.hexagon.wall_thickness_mm=-1", "--set", "depth_mm=0", "--set",
+        "material.density_kg_per_m3=inf", "--set", "loading.speed_m_per_s=-5", "--set", "loading.end_strain=2", "--set",
+        "section.depth_points=1"},
+       {"lattice.hexagon.wall_thickness_mm", "depth_mm", "material.density_kg_per_m3", "loading.speed_m_per_s",
+        "loading.end_strain", "section.depth_points"}}};
+  for (const auto& [source, expected] : cases) expect_refused(source, expected);
 }
 
 TEST_F(BadInput, AWrongCommandLine) {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -13,6 +14,15 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+
+// Whether it becomes true in time.
+bool within(std::chrono::milliseconds limit, const std::function<bool()>& is_so) {
+  for (const auto end = std::chrono::steady_clock::now() + limit; !is_so();) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return true;
+}
 
 class Failure : public DaemonTest {
  protected:
@@ -26,12 +36,7 @@ class Failure : public DaemonTest {
       return "";
     }
     std::string job = object["name"].get<std::string>();
-    for (int i = 0; i < 300; ++i) {
-      worker_ = worker_of(job);
-      if (worker_ > 0) return job;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    ADD_FAILURE() << job << " was not started within 30 s.";
+    EXPECT_TRUE(within(kShortLimit, [&] { return (worker_ = worker_of(job)) > 0; })) << job << " was not started.";
     return job;
   }
 
@@ -47,11 +52,7 @@ class Failure : public DaemonTest {
 
   // Whether the process ends within 10 s; a zombie counts as ended.
   static bool ends(pid_t process) {
-    for (int i = 0; i < 100; ++i) {
-      if (kill(process, 0) != 0) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    return false;
+    return within(std::chrono::seconds(10), [process] { return kill(process, 0) != 0; });
   }
 
   pid_t worker_ = 0;
@@ -90,12 +91,7 @@ TEST_F(Failure, AKilledWorkerIsReplacedAndItsJobGoesOn) {
   const std::string job = start_long_job();
   ASSERT_GT(worker_, 0);
   ASSERT_EQ(kill(worker_, SIGKILL), 0);
-  pid_t next = worker_;
-  for (int i = 0; i < 300 && (next == worker_ || next == 0); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    next = worker_of(job);
-  }
-  EXPECT_NE(next, worker_);
+  EXPECT_TRUE(within(kShortLimit, [&] { return worker_of(job) > 0 && worker_of(job) != worker_; }));
   const Outcome shown = cellcrush({"show", job});
   EXPECT_THAT(shown.output, HasSubstr("RUNNING"));
   EXPECT_THAT(shown.output, HasSubstr("2; 1 was lost or left the job")) << shown.all();
@@ -125,8 +121,7 @@ TEST_F(Failure, ADaemonThatIsAskedToEndLeavesItsJobsAtACheckpoint) {
   stop_daemon();
   EXPECT_TRUE(ends(worker_)) << "The worker outlives its daemon.";
   start_daemon();
-  for (int i = 0; i < 300 && worker_of(job) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_GT(worker_of(job), 0);
+  EXPECT_TRUE(within(kShortLimit, [&] { return worker_of(job) > 0; }));
 }
 
 TEST_F(Failure, AJobIsSuspendedAndResumed) {
@@ -137,8 +132,7 @@ TEST_F(Failure, AJobIsSuspendedAndResumed) {
   EXPECT_TRUE(ends(worker_));
   const Outcome resumed = cellcrush({"resume", job});
   EXPECT_EQ(resumed.exit_code, 0) << resumed.all();
-  for (int i = 0; i < 300 && worker_of(job) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_GT(worker_of(job), 0);
+  EXPECT_TRUE(within(kShortLimit, [&] { return worker_of(job) > 0; }));
 }
 
 TEST_F(Failure, CtrlCLeavesTheJobRunning) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pty.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,11 +26,10 @@ std::pair<int, int> make_pipe() {
 }
 
 // Only calls that are allowed between fork and exec.
-[[noreturn]] void become(char* const* arguments, pid_t parent, int output, int errors) {
+[[noreturn]] void become(char* const* arguments, pid_t parent, int input, int output, int errors) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
-  const int input = open("/dev/null", O_RDONLY);
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
@@ -50,23 +50,32 @@ void drain(int& pipe, std::string& text) {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& command) : start_(Clock::now()) {
+Process::Process(const std::vector<std::string>& command, const std::string& input, int columns)
+    : start_(Clock::now()) {
   std::vector<std::string> copy = command;
   std::vector<char*> arguments;
   arguments.reserve(copy.size() + 1);
   for (std::string& argument : copy) arguments.push_back(argument.data());
   arguments.push_back(nullptr);
+  const pid_t parent = getpid();
+  if (columns > 0) {
+    const winsize size{24, static_cast<unsigned short>(columns), 0, 0};
+    id_ = forkpty(&output_pipe_, nullptr, nullptr, &size);
+    if (id_ == 0) become(arguments.data(), parent, STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO);
+    if (id_ < 0) throw std::system_error(errno, std::generic_category(), "forkpty");
+    return;
+  }
+  const auto [input_read, input_write] = make_pipe();
   const auto [output_read, output_write] = make_pipe();
   const auto [error_read, error_write] = make_pipe();
-  const pid_t parent = getpid();
   id_ = fork();
-  if (id_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  if (id_ == 0) become(arguments.data(), parent, output_write, error_write);
-  setpgid(id_, id_);
-  close(output_write);
-  close(error_write);
+  if (id_ == 0) become(arguments.data(), parent, input_read, output_write, error_write);
+  if (id_ > 0) setpgid(id_, id_);
+  [[maybe_unused]] const ssize_t written = write(input_write, input.data(), input.size());
+  for (const int end : {input_read, input_write, output_write, error_write}) close(end);
   output_pipe_ = output_read;
   error_pipe_ = error_read;
+  if (id_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
 }
 
 Process::~Process() {
@@ -80,6 +89,11 @@ Process::~Process() {
 
 void Process::send(int signal) const {
   if (id_ > 0) kill(id_, signal);
+}
+
+void Process::type(const std::string& text) const {
+  if (write(output_pipe_, text.data(), text.size()) < 0)
+    throw std::system_error(errno, std::generic_category(), "type");
 }
 
 // Waits for output on either pipe; false when both are closed or the deadline has passed.

@@ -18,12 +18,13 @@ struct Outcome {
   [[nodiscard]] std::string all() const { return output + errors; }
 };
 
-/// A program that runs beside the test, with an empty standard input, in a process group of its own. It is killed when
-/// the object or the test's process ends. Not thread-safe.
+/// A program that runs beside the test, in a process group of its own. It is killed when the object or the test's
+/// process ends. Not thread-safe.
 class Process {
  public:
-  /// Starts `command[0]`. Throws std::system_error when it cannot be started.
-  explicit Process(const std::vector<std::string>& command);
+  /// Starts `command[0]` with `input` as its standard input, or on a terminal of so many columns, whose output is all
+  /// in output(). Throws std::system_error when it cannot be started.
+  explicit Process(const std::vector<std::string>& command, const std::string& input = {}, int columns = 0);
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -35,6 +36,8 @@ class Process {
   Outcome wait(std::chrono::milliseconds limit);
 
   void send(int signal) const;
+  /// Types `text` on its terminal.
+  void type(const std::string& text) const;
   /// -1 when it has ended and was waited for.
   [[nodiscard]] int id() const { return id_; }
   [[nodiscard]] const std::string& output() const { return output_; }

@@ -5,8 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "case_file/json_case.h"
-#include "case_file/text_case.h"
+#include "case_file/parse_case.h"
 #include "command_error.h"
 #include "fuzz/size_bound.h"
 #include "translate/check_case.h"

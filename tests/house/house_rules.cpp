@@ -6,8 +6,7 @@
 #include <tuple>
 
 #include "house/folder_arrows.h"
-#include "house/include_line.h"
-#include "house/wide_lines.h"
+#include "house/source_lines.h"
 
 namespace cellcrush::house {
 namespace {
@@ -48,6 +47,8 @@ std::string broken_rule(const std::string& file, const std::string& target, cons
   }
   if (is_within(file, "server") && is_within(resolved, "core") && !is_within(resolved, "core/include"))
     return "server includes no header of core but those in core/include";
+  if (is_within(file, "server") && is_within(resolved, "client-cli") && !is_within(resolved, "client-cli/usage"))
+    return "server includes no header of client-cli but those in client-cli/usage";
   if (is_within(file, "client-cli") && (is_within(resolved, "core") || is_within(resolved, "server")))
     return "client-cli includes no header of core or server";
   return "";

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "house/house_rules.h"
-#include "house/include_line.h"
+#include "house/source_lines.h"
 
 namespace cellcrush::house {
 namespace {
@@ -40,6 +40,9 @@ class PlantedTree : public testing::Test {
     write("server/store/journal.h", "#pragma once\n#include <sqlite3.h>\n");
     write("server/translate/case.cpp", "#include \"cellcrush/scene.h\"\n#include \"cellcrush/v1/case.pb.h\"\n");
     write("server/worker/run.cpp", "#include \"cellcrush/run.h\"\n#include \"store/journal.h\"\n");
+    write("client-cli/connection/pages.h", "#pragma once\n");
+    write("client-cli/usage/man_page.h", "#pragma once\n");
+    write("server/main.cpp", "#include \"usage/man_page.h\"\n");
     write("client-cli/main.cpp", "#include <CLI/CLI.hpp>\n#include \"cellcrush/v1/case.pb.h\"\n");
     write("tests/core/helper.h", "#pragma once\n#include \"step/advance.h\"\n");
     write("tests/server/case_test.cpp", "#include \"cellcrush/scene.h\"\n#include \"cellcrush/v1/case.pb.h\"\n");
@@ -79,6 +82,7 @@ TEST_F(PlantedTree, WhatAFolderMayNotIncludeIsFound) {
       {"core/include/cellcrush/bad.h", "<spdlog/spdlog.h>", "core includes nothing outside core"},
       {"core/include/cellcrush/bad.h", "\"step/advance.h\"", "core/include takes only"},
       {"server/worker/bad.cpp", "\"step/advance.h\"", "server includes no header of core but"},
+      {"server/worker/bad.cpp", "\"connection/pages.h\"", "server includes no header of client-cli but"},
       {"client-cli/bad.cpp", "<cellcrush/scene.h>", "client-cli includes no header of core or server"},
       {"client-cli/bad.cpp", "\"store/journal.h\"", "client-cli includes no header of core or server"},
       {"server/worker/bad.cpp", "\"cellcrush/scene.h\"\n#include \"cellcrush/v1/case.pb.h\"",

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "docs/shown_page.h"
+#include "docs/session.h"
 #include "slurm/slurm_cluster.h"
 
 namespace cellcrush::docs {

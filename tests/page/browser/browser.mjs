@@ -1,11 +1,13 @@
 // Chromium with a page whose errors are collected, and the checks that several tests make of a page.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
+import { after, before } from 'node:test';
 import { chromium } from 'playwright-core';
+import { Daemon } from './daemon.mjs';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-export async function launch(more = []) {
+async function launch(more) {
   return chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox', ...more] });
 }
 
@@ -20,6 +22,23 @@ export async function openPage(browser) {
   page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
   page.on('request', (request) => requests.push(request.url()));
   return { page, errors, complaints, requests };
+}
+
+// A daemon for the tests of a file, a browser, and what openPage() gives of a page in it; `prepare` gets all of these
+// before the first test.
+export function stage(prepare, flags = []) {
+  const daemon = new Daemon();
+  let browser;
+  before(async () => {
+    await daemon.start();
+    browser = await launch(flags);
+    await prepare({ browser, ...(await openPage(browser)) });
+  });
+  after(async () => {
+    await browser?.close();
+    await daemon.remove();
+  });
+  return daemon;
 }
 
 export async function seriousFindings(page) {

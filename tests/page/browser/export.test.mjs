@@ -1,26 +1,15 @@
 // A job exported as one file, which is opened from disk when its daemon is gone.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { launch, openPage, paintedShare, seriousFindings } from './browser.mjs';
-import { Daemon } from './daemon.mjs';
+import { openPage, paintedShare, seriousFindings, stage } from './browser.mjs';
 
 const title = '</title></script><script>document.title = "broken out"</script>';
-const daemon = new Daemon();
-const file = join(daemon.folder, 'crush.html');
 let browser;
 let exported;
-
-before(async () => {
-  await daemon.start();
-  browser = await launch();
-});
-
-after(async () => {
-  await browser?.close();
-  await daemon.remove();
-});
+const daemon = stage((its) => ({ browser } = its));
+const file = join(daemon.folder, 'crush.html');
 
 test('an ended job is saved as a file', async () => {
   const submitted = await daemon.presetCase('hexagon-small', (each) => (each.title = title));

@@ -1,24 +1,13 @@
 // Everything by keyboard alone: a case is changed and started, its crush scrubbed, and two jobs are compared.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { launch, openPage, paintedShare, seriousFindings } from './browser.mjs';
-import { Daemon } from './daemon.mjs';
+import { test } from 'node:test';
+import { paintedShare, seriousFindings, stage } from './browser.mjs';
 
-const daemon = new Daemon();
-let browser;
 let page;
 let errors;
-
-before(async () => {
-  await daemon.start();
-  browser = await launch();
-  ({ page, errors } = await openPage(browser));
+const daemon = stage(async (its) => {
+  ({ page, errors } = its);
   await page.goto(daemon.url + '/');
-});
-
-after(async () => {
-  await browser?.close();
-  await daemon.remove();
 });
 
 /** Presses Tab until the focus is on what a locator finds; says where it has been if it never is. */

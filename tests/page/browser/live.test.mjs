@@ -3,22 +3,11 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { launch, openPage } from './browser.mjs';
-import { Daemon } from './daemon.mjs';
+import { test } from 'node:test';
+import { openPage, stage } from './browser.mjs';
 
-const daemon = new Daemon();
 let browser;
-
-before(async () => {
-  await daemon.start();
-  browser = await launch();
-});
-
-after(async () => {
-  await browser?.close();
-  await daemon.remove();
-});
+const daemon = stage((its) => ({ browser } = its));
 
 async function createJob(preset, change) {
   return (await daemon.call('Jobs/CreateJob', { case: await daemon.presetCase(preset, change) })).name;

@@ -1,24 +1,11 @@
 // The web page in Debian's Chromium, against a real daemon that crushes real scenes.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { launch, openPage, seriousFindings, settledShare } from './browser.mjs';
-import { Daemon } from './daemon.mjs';
+import { test } from 'node:test';
+import { seriousFindings, settledShare, stage } from './browser.mjs';
 
-const daemon = new Daemon();
-let browser;
 let page;
 let errors;
-
-before(async () => {
-  await daemon.start();
-  browser = await launch();
-  ({ page, errors } = await openPage(browser));
-});
-
-after(async () => {
-  await browser?.close();
-  await daemon.remove();
-});
+const daemon = stage((its) => ({ page, errors } = its));
 
 test('a job started from the form is watched to its end', async () => {
   await page.goto(daemon.url + '/new');

@@ -1,25 +1,16 @@
 // A GPU draws the same picture as the page does by itself.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { launch, meanDifference, openPage } from './browser.mjs';
-import { Daemon } from './daemon.mjs';
+import { test } from 'node:test';
+import { meanDifference, openPage, stage } from './browser.mjs';
 
-const daemon = new Daemon();
 let browser;
 let job;
-
-before(async () => {
-  await daemon.start();
-  // WebGL2 in software, which the page does not use by itself.
-  browser = await launch(['--use-angle=swiftshader', '--enable-unsafe-swiftshader']);
+// WebGL2 in software, which the page does not use by itself.
+const daemon = stage(async (its) => {
+  ({ browser } = its);
   const submitted = await daemon.presetCase('hexagon-small', (each) => (each.loading.endStrain = 0.5));
   job = (await daemon.call('Jobs/CreateJob', { case: submitted })).name;
-});
-
-after(async () => {
-  await browser?.close();
-  await daemon.remove();
-});
+}, ['--use-angle=swiftshader', '--enable-unsafe-swiftshader']);
 
 /** A picture of the lattice, and how its walls were drawn: "webgl2" or "2d". */
 async function drawn(renderer, place, colorScheme) {

@@ -1,14 +1,19 @@
 // Sweeps over the speed: several in one chart, and their crushes side by side at equal strain.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { launch, openPage, paintedShare, seriousFindings } from './browser.mjs';
-import { Daemon } from './daemon.mjs';
+import { test } from 'node:test';
+import { paintedShare, seriousFindings, stage } from './browser.mjs';
 
-const daemon = new Daemon();
-let browser;
 let page;
 let errors;
 let complaints;
+const daemon = stage(async (its) => {
+  ({ page, errors, complaints } = its);
+  const speed = 'loading.speed_m_per_s';
+  await createSweep('Thin walls', speed, [50, 100, 150]);
+  await createSweep('<b>Thick walls</b>', speed, [60, 120]);
+  await createSweep('Thicknesses', 'lattice.hexagon.wall_thickness_mm', [0.3, 0.4]);
+  for (const name of ['sweeps/1', 'sweeps/2', 'sweeps/3']) await endOf(name);
+});
 
 async function createSweep(title, field, values) {
   const swept = await daemon.presetCase('hexagon-small', (each) => {
@@ -28,22 +33,6 @@ async function endOf(name) {
   }
   throw new Error(`${name} does not end`);
 }
-
-before(async () => {
-  await daemon.start();
-  browser = await launch();
-  ({ page, errors, complaints } = await openPage(browser));
-  const speed = 'loading.speed_m_per_s';
-  await createSweep('Thin walls', speed, [50, 100, 150]);
-  await createSweep('<b>Thick walls</b>', speed, [60, 120]);
-  await createSweep('Thicknesses', 'lattice.hexagon.wall_thickness_mm', [0.3, 0.4]);
-  for (const name of ['sweeps/1', 'sweeps/2', 'sweeps/3']) await endOf(name);
-});
-
-after(async () => {
-  await browser?.close();
-  await daemon.remove();
-});
 
 test('another sweep over the same field joins the chart, and the address holds it', async () => {
   await page.goto(`${daemon.url}/sweeps/1`);

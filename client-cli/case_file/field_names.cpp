@@ -1,0 +1,82 @@
+#include "case_file/field_names.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "cellcrush/v1/case.pb.h"
+#include "usage/suggestion.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::EnumDescriptor;
+
+void collect_enums(const Descriptor& type, std::string_view field, std::set<const Descriptor*>& seen,
+                   std::set<const EnumDescriptor*>& found) {
+  if (!seen.insert(&type).second) return;
+  for (int i = 0; i < type.field_count(); ++i) {
+    const auto* member = type.field(i);
+    if (member->name() == field && member->enum_type() != nullptr) found.insert(member->enum_type());
+    if (member->message_type() != nullptr) collect_enums(*member->message_type(), field, seen, found);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> field_names(const google::protobuf::Descriptor& type) {
+  std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(type.field_count()));
+  for (int i = 0; i < type.field_count(); ++i) names.push_back(type.field(i)->name());
+  return names;
+}
+
+std::string unknown_field_message(std::string_view field, const google::protobuf::Descriptor& type) {
+  const std::vector<std::string> names = field_names(type);
+  const std::string nearest = find_nearest(field, names);
+  const std::string message = fmt::format("{} has no field \"{}\"", type.name(), field);
+  return nearest.empty() ? fmt::format("{}; it has: {}", message, fmt::join(names, ", "))
+                         : with_suggestion(message, nearest);
+}
+
+std::string unknown_enum_message(std::string_view value, const google::protobuf::EnumDescriptor& type) {
+  std::vector<std::string> names;
+  for (int i = 0; i < type.value_count(); ++i) {
+    if (type.value(i)->number() != 0) names.push_back(type.value(i)->name());
+  }
+  return fmt::format("\"{}\" is not one of {}", value, fmt::join(names, ", "));
+}
+
+const google::protobuf::EnumValueDescriptor* find_enum_value(std::string_view name, const EnumDescriptor& type) {
+  std::string capitals(name);
+  for (char& letter : capitals) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+  return type.FindValueByName(capitals);
+}
+
+const EnumDescriptor* find_enum_of_field(std::string_view field) {
+  std::set<const Descriptor*> seen;
+  std::set<const EnumDescriptor*> found;
+  collect_enums(*v1::Case::descriptor(), field, seen, found);
+  return found.size() == 1 ? *found.begin() : nullptr;
+}
+
+std::vector<PathPart> split_path(std::string_view path) {
+  std::vector<PathPart> parts;
+  while (true) {
+    const std::size_t dot = path.find('.');
+    const std::string text(path.substr(0, dot));
+    const std::size_t bracket = std::min(text.find('['), text.size());
+    const bool is_closed = bracket < text.size() && text.ends_with(']');
+    parts.push_back({text, text.substr(0, bracket),
+                     is_closed ? text.substr(bracket + 1, text.size() - bracket - 2) : std::string()});
+    if (dot == std::string_view::npos) return parts;
+    path.remove_prefix(dot + 1);
+  }
+}
+
+}  // namespace cellcrush::client
