@@ -1,7 +1,5 @@
 #include "bench/precision_chart.h"
 
-#include <algorithm>
-
 #include "bench/picture_file.h"
 #include "bench/precision_panel.h"
 

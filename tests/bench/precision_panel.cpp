@@ -5,18 +5,88 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <limits>
+#include <numbers>
+#include <optional>
 
-#include "bench/label_places.h"
-#include "bench/precision_mark.h"
+#include "chart/palette.h"
 
 namespace cellcrush::bench {
+
+bool overlap(const client::Rectangle& one, const client::Rectangle& other) {
+  return one.x < other.x + other.width && other.x < one.x + one.width && one.y < other.y + other.height &&
+         other.y < one.y + one.height;
+}
+
 namespace {
 
-using client::Axes;
 using client::Rectangle;
 
-constexpr double kTitleHeight = 24.0;
 constexpr double kLabelHeight = 13.0;
+
+/// A text that belongs to a mark.
+struct MarkLabel {
+  double x = 0.0;  ///< middle of the mark
+  double y = 0.0;
+  double width = 0.0;
+  std::string words;
+  client::Colour colour;
+};
+
+/// What a chart shows before its labels.
+struct Drawn {
+  std::vector<Rectangle> marks;  ///< no label covers one; labels are added
+  std::vector<Rectangle> lines;  ///< a label avoids these where another place is free
+};
+
+constexpr double kMarkRadius = 6.0;
+constexpr std::array kGaps = {2.0, 9.0, 18.0, 29.0, 42.0, 57.0, 74.0};  ///< from the mark's edge to the label
+constexpr int kDirections = 24;
+constexpr double kLineCost = 6.0;  ///< a covered line is as bad as so much more distance
+constexpr double kSideCost = 2.0;  ///< labels stand to the right above all
+
+bool lies_in(const Rectangle& inner, const Rectangle& outer) {
+  return inner.x >= outer.x && inner.y >= outer.y && inner.x + inner.width <= outer.x + outer.width &&
+         inner.y + inner.height <= outer.y + outer.height;
+}
+
+bool is_free(const Rectangle& place, const std::vector<Rectangle>& taken) {
+  return std::none_of(taken.begin(), taken.end(), [&](const Rectangle& other) { return overlap(place, other); });
+}
+
+Rectangle place_at(const MarkLabel& label, double gap, double angle) {
+  const double across = std::cos(angle);
+  const double up = std::sin(angle);
+  const double middle_x = label.x + across * (kMarkRadius + gap + 0.5 * label.width);
+  const double middle_y = label.y - up * (kMarkRadius + gap + 0.5 * kLabelHeight);
+  return {middle_x - 0.5 * label.width, middle_y - 0.5 * kLabelHeight, label.width, kLabelHeight};
+}
+
+/// The place for a label near its mark, inside `area`, that covers no mark and no other label; none if there is no free
+/// one.
+std::optional<Rectangle> place_of(const MarkLabel& label, const Drawn& drawn, const Rectangle& area) {
+  double least = std::numeric_limits<double>::infinity();
+  std::optional<Rectangle> best;
+  for (const double gap : kGaps) {
+    for (int direction = 0; direction < kDirections; ++direction) {
+      const double angle = 2.0 * std::numbers::pi * direction / kDirections;
+      const Rectangle place = place_at(label, gap, angle);
+      if (!lies_in(place, area) || !is_free(place, drawn.marks)) continue;
+      const auto covered = std::count_if(drawn.lines.begin(), drawn.lines.end(),
+                                         [&](const Rectangle& line) { return overlap(place, line); });
+      const double cost = gap + kSideCost * (1.0 - std::cos(angle)) + kLineCost * static_cast<double>(covered);
+      if (cost < least) {
+        least = cost;
+        best = place;
+      }
+    }
+  }
+  return best;
+}
+
+using client::Axes;
+
+constexpr double kTitleHeight = 24.0;
 constexpr double kLegendRow = 21.0;
 constexpr double kBarEnd = 3.0;
 constexpr double kLeaderFrom = 5.0;  ///< a label farther than this from its mark's edge is tied to it by a line
@@ -24,6 +94,51 @@ constexpr client::Colour kFrontColour{0.86, 0.86, 0.87};
 constexpr client::Colour kUnknownColour{0.945, 0.945, 0.93};
 constexpr double kLabelSize = 11.5;
 constexpr double kErrorLabelLeft = 54.0;  ///< of the axis, beyond its widest numbers
+
+constexpr double kRadius = 4.6;
+constexpr client::Colour kSettingColour{0.45, 0.45, 0.49};
+constexpr std::array<client::Colour, kFamilyCount> kColours = {client::kSeriesColours[0], client::kSeriesColours[1],
+                                                               client::kSeriesColours[2], kSettingColour};
+constexpr double kTextShare = 0.8;  ///< of the mark's colour
+
+void add_path(cairo_t* context, double x, double y, Family family) {
+  cairo_new_path(context);
+  switch (family) {
+    case Family::force_based: cairo_arc(context, x, y, kRadius, 0.0, 2.0 * std::numbers::pi); break;
+    case Family::displacement_based:
+      cairo_rectangle(context, x - 0.85 * kRadius, y - 0.85 * kRadius, 1.7 * kRadius, 1.7 * kRadius);
+      break;
+    case Family::papers:
+      cairo_move_to(context, x, y - 1.15 * kRadius);
+      cairo_line_to(context, x + 1.1 * kRadius, y + 0.85 * kRadius);
+      cairo_line_to(context, x - 1.1 * kRadius, y + 0.85 * kRadius);
+      break;
+    default:
+      cairo_move_to(context, x, y - kRadius);
+      cairo_line_to(context, x + kRadius, y);
+      cairo_line_to(context, x, y + kRadius);
+      cairo_line_to(context, x - kRadius, y);
+  }
+  cairo_close_path(context);
+}
+
+client::Colour colour_of(Family family) { return kColours[static_cast<std::size_t>(family)]; }
+
+/// Dark enough to be read as text.
+client::Colour text_colour_of(Family family) {
+  const client::Colour colour = colour_of(family);
+  return {kTextShare * colour.red, kTextShare * colour.green, kTextShare * colour.blue};
+}
+
+/// A family's mark round (x, y); `open` where only a bound of the error is known.
+void draw_precision_mark(cairo_t* context, double x, double y, Family family, bool open) {
+  add_path(context, x, y, family);
+  client::set_colour(context, open ? client::Colour{1.0, 1.0, 1.0} : colour_of(family));
+  cairo_fill_preserve(context);
+  client::set_colour(context, colour_of(family));
+  cairo_set_line_width(context, 1.5);
+  cairo_stroke(context);
+}
 
 void stroke(cairo_t* context, double x0, double y0, double x1, double y1) {
   cairo_move_to(context, x0, y0);
@@ -122,44 +237,35 @@ void draw_series(cairo_t* context, const Axes& axes, const PrecisionSeries& seri
   }
 }
 
-struct Text {
-  MarkLabel label;
-  std::string words;
-  client::Colour colour;
-};
-
-void draw_label(cairo_t* context, const Text& text, const Rectangle& place) {
-  const double x = std::clamp(text.label.x, place.x, place.x + place.width);
-  const double y = std::clamp(text.label.y, place.y + 2.0, place.y + place.height - 2.0);
-  const double distance = std::hypot(x - text.label.x, y - text.label.y);
+void draw_label(cairo_t* context, const MarkLabel& label, const Rectangle& place) {
+  const double x = std::clamp(label.x, place.x, place.x + place.width);
+  const double y = std::clamp(label.y, place.y + 2.0, place.y + place.height - 2.0);
+  const double distance = std::hypot(x - label.x, y - label.y);
   if (distance > 6.0 + kLeaderFrom) {
     cairo_set_line_width(context, 0.7);
-    client::set_colour(context, {text.colour.red, text.colour.green, text.colour.blue, 0.7});
+    client::set_colour(context, {label.colour.red, label.colour.green, label.colour.blue, 0.7});
     const double start = 6.0 / distance;
-    stroke(context, text.label.x + start * (x - text.label.x), text.label.y + start * (y - text.label.y), x, y);
+    stroke(context, label.x + start * (x - label.x), label.y + start * (y - label.y), x, y);
   }
-  client::draw_text(context, place.x + 1.0, place.y + place.height - 3.0, text.words,
-                    {.size = kLabelSize, .colour = text.colour});
+  client::draw_text(context, place.x + 1.0, place.y + place.height - 3.0, label.words,
+                    {.size = kLabelSize, .colour = label.colour});
 }
 
-void draw_labels(cairo_t* context, const Axes& axes, const PrecisionPanel& panel, const Drawn& drawn) {
-  std::vector<Text> texts;
+/// The first labels choose first; one that finds no free place has none.
+void draw_labels(cairo_t* context, const Axes& axes, const PrecisionPanel& panel, Drawn& drawn) {
+  const Rectangle& area = axes.area();
+  const Rectangle inside{area.x + 3.0, area.y + 3.0, area.width - 6.0, area.height - 6.0};
   for (const PrecisionSeries& series : panel.series) {
     if (series.family == Family::other_setting && !panel.labels_settings) continue;
     for (const PrecisionPoint& point : series.points) {
       const double width = client::text_width(context, point.label, {.size = kLabelSize}) + 4.0;
-      texts.push_back({{axes.x(point.seconds), axes.y(point.error), width, kLabelHeight},
-                       point.label,
-                       text_colour_of(series.family)});
+      const MarkLabel label{axes.x(point.seconds), axes.y(point.error), width, point.label,
+                            text_colour_of(series.family)};
+      if (const auto place = place_of(label, drawn, inside)) {
+        drawn.marks.push_back(*place);
+        draw_label(context, label, *place);
+      }
     }
-  }
-  std::vector<MarkLabel> labels;
-  labels.reserve(texts.size());
-  for (const Text& text : texts) labels.push_back(text.label);
-  const Rectangle& area = axes.area();
-  const auto places = place_labels(labels, drawn, {area.x + 3.0, area.y + 3.0, area.width - 6.0, area.height - 6.0});
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (places[i]) draw_label(context, texts[i], *places[i]);
   }
 }
 

@@ -20,6 +20,9 @@ struct PrecisionPanel {
   bool shows_front = true;
 };
 
+/// Whether two rectangles share more than an edge.
+bool overlap(const client::Rectangle& one, const client::Rectangle& other);
+
 /// Sets the axes' ranges round all points.
 void fit_axes(PrecisionPanel& panel);
 

@@ -7,18 +7,107 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <memory>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "bench/bench_flags.h"
-#include "bench/crushed_states.h"
+#include "bench/bench_program.h"
 #include "bench/machine.h"
+#include "cellcrush/scene.h"
 #include "cellcrush/simd.h"
+#include "cellcrush/state.h"
+#include "scenes/crushes.h"
+#include "scenes/frames.h"
 #include "step/advance_step.h"
 #include "worker/stage_timer.h"
 
 namespace cellcrush::bench {
 namespace {
+
+std::runtime_error broken(const std::filesystem::path& file, const char* what) {
+  return std::runtime_error(file.string() + ": " + what);
+}
+
+/// Writes every field of a state. The file is in its place only once it is whole.
+void save_state(const std::filesystem::path& file, const State& state) {
+  std::filesystem::create_directories(file.parent_path());
+  std::string bytes;
+  ByteWriter writer(bytes);
+  put_state(writer, state);
+  const std::filesystem::path partial = file.string() + ".partial";
+  {
+    std::ofstream stream(partial, std::ios::binary);
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    stream.flush();
+    if (!stream) throw broken(file, "cannot be written; give --states a folder that can.");
+  }
+  std::filesystem::rename(partial, file);
+}
+
+/// The state of a file that this same program wrote; nothing when there is no such file.
+std::optional<State> load_state(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  const std::string read = std::move(bytes).str();
+  ByteReader reader(read);
+  State state;
+  take_state(reader, state);
+  if (!reader.sound() || !reader.at_end()) throw broken(file, "is cut short; remove it.");
+  return state;
+}
+
+/// States of crushes at the strains at which they are timed. Each crush runs once, by the best kernel, when first asked
+/// for; with a folder its states are kept there for the next time that this same build runs.
+class CrushedStates {
+ public:
+  explicit CrushedStates(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  struct Crushed {
+    std::shared_ptr<const Scene> scene;
+    State state;
+  };
+  /// REQUIRES: `strain` is one of the crush's.
+  const Crushed& at(const scenes::Crush& crush, double strain) {
+    if (!crushed_.contains(crush.name)) run(crush);
+    return crushed_.at(crush.name).at(strain);
+  }
+
+ private:
+  void run(const scenes::Crush& crush);
+
+  std::filesystem::path folder_;  ///< empty: nothing is kept
+  std::map<std::string, std::map<double, Crushed>> crushed_;
+};
+
+void CrushedStates::run(const scenes::Crush& crush) {
+  static const std::string kBuild = build_name();
+  const std::string target = simd_target();
+  use_simd_target("");
+  const auto scene = scenes::build(crush.spec);
+  std::map<double, Crushed>& states = crushed_[crush.name];
+  Simulation simulation(scene);
+  for (const double strain : crush.strains) {
+    const std::string name = crush.name + "-" + std::to_string(std::lround(100.0 * strain)) + "-" + kBuild + ".state";
+    std::optional<State> kept = folder_.empty() ? std::nullopt : load_state(folder_ / name);
+    if (!kept) {
+      while (simulation.strain() < strain && simulation.status().kind == RunStatus::Kind::running) {
+        simulation.advance(16);
+      }
+      kept = simulation.state();
+      if (!folder_.empty()) save_state(folder_ / name, *kept);
+    }
+    states[strain] = {scene, *std::move(kept)};
+  }
+  use_simd_target(target);
+}
 
 constexpr int kIterations = 7;
 constexpr double kElementSteps = 1e6;  ///< of an iteration
@@ -92,16 +181,10 @@ void add_all(const Flags& flags) {
   }
 }
 
-std::vector<std::string> counters() {
-  std::vector<std::string> names = {"elements", "element_step_ns", "scalar_ns", "times_as_fast_as_scalar", "spread"};
-  for (const char* stage : kStageNames) names.push_back(std::string(stage) + "_ns");
-  return names;
-}
-
 }  // namespace
 }  // namespace cellcrush::bench
 
 int main(int count, char** words) {
   using namespace cellcrush::bench;
-  return run_benchmarks(count, words, counters(), add_all, draw_nothing);
+  return run_benchmarks(count, words, add_all, draw_nothing);
 }

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "bench/bench_flags.h"
+#include "bench/bench_program.h"
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
 #include "scenes/crushes.h"
@@ -105,21 +105,10 @@ void add_all(const Flags&) {
   add("cells/16", scenes::papers_type_i_wider(16), kStepsOfLarge);
 }
 
-std::vector<std::string> counters() {
-  return {"elements",
-          "threads",
-          "steps",
-          "one_thread_ns",
-          "element_step_ns",
-          "times_as_fast",
-          "least_times_as_fast",
-          "most_times_as_fast"};
-}
-
 }  // namespace
 }  // namespace cellcrush::bench
 
 int main(int count, char** words) {
   using namespace cellcrush::bench;
-  return run_benchmarks(count, words, counters(), add_all, draw_nothing);
+  return run_benchmarks(count, words, add_all, draw_nothing);
 }

@@ -18,29 +18,49 @@ std::vector<std::string> behind_first(const std::vector<std::string>& words) {
   return {words.begin() + 1, words.end()};
 }
 
+/// The lines for which one stands: of a last word @=a,b that is one with a for every @, and one with b.
+std::vector<std::vector<std::string>> lines_of(std::vector<std::string> words) {
+  if (!words.back().starts_with("@=")) return {words};
+  std::istringstream values(words.back().substr(2));
+  words.pop_back();
+  std::vector<std::vector<std::string>> lines;
+  for (std::string value; std::getline(values, value, ',');) {
+    std::vector<std::string>& line = lines.emplace_back(words);
+    for (std::string& word : line) {
+      for (std::size_t at = 0; (at = word.find('@', at)) != std::string::npos; at += value.size()) {
+        word.replace(at, 1, value);
+      }
+    }
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::vector<VariedScene> read_variants(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) throw std::invalid_argument(file + ": cannot be read; give a list of variants.");
   std::vector<VariedScene> scenes;
+  std::size_t first = 0;  // of the scenes that have the variants below
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
     const auto refuse = [&](const char* what) {
       throw std::invalid_argument(file + ":" + std::to_string(number) + ": " + what);
     };
-    const std::vector<std::string> words = split(line);
-    if (words.empty()) continue;
-    const std::string& first = words.front();
-    if (first.front() == '[') {
-      if (first.back() != ']' || words.size() < 2) refuse("is no scene; write [name] preset words...");
-      scenes.push_back({first.substr(1, first.size() - 2), behind_first(words), {}});
-    } else {
+    const std::vector<std::string> given = split(line);
+    if (given.empty()) continue;
+    if (given.front().front() == '[') first = scenes.size();
+    for (const std::vector<std::string>& words : lines_of(given)) {
+      const std::string& name = words.front();
+      if (name.front() == '[') {
+        if (name.back() != ']' || words.size() < 2) refuse("is no scene; write [name] preset words...");
+        scenes.push_back({name.substr(1, name.size() - 2), behind_first(words), {}});
+        continue;
+      }
       if (scenes.empty()) refuse("stands before the first scene; begin one with [name] preset words...");
-      if (first.find(':') == std::string::npos) refuse("is no variant; write group:label words...");
-      if (first.find(',') != std::string::npos)
-        refuse("has a comma, which would part a cell of the table; leave it out.");
-      scenes.back().variants.push_back({first, behind_first(words)});
+      if (name.find(':') == std::string::npos) refuse("is no variant; write group:label words...");
+      if (name.find(',') != std::string::npos) refuse("has a comma, which would part a cell; leave it out.");
+      for (std::size_t i = first; i < scenes.size(); ++i) scenes[i].variants.push_back({name, behind_first(words)});
     }
   }
   return scenes;

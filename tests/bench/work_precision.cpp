@@ -6,7 +6,6 @@
 //   work_precision overview tests/bench/work_precision.txt table.csv picture.svg scene=NAME title=WORDS
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>

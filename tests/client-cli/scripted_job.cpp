@@ -31,7 +31,8 @@ constexpr const char* kSucceededJob = R"(
     plateau_stress_impact_mpa: 3.412 plateau_stress_support_mpa: 0.4471 densification_strain: 0.76
     energy_error_relative: 0.0123 deepest_penetration: 0.121 step_count: 20504 solver_seconds: 45.3
     stage_times { evaluate_internal_forces_s: 30 find_contacts_s: 10 }
-    crush_mode: CRUSH_MODE_I crush_mode_words: "layer by layer (I)" crush_mode_strain: 0.11 shock_error_relative: -0.0123
+    crush_mode: CRUSH_MODE_I crush_mode_words: "layer by layer (I)" crush_mode_strain: 0.11
+    shock_error_relative: -0.0123
     front { strain_behind: 0.905 stress_ahead_mpa: 0.391 solid_fraction_behind: 1.07 wall_fraction_behind: 1.02
             shock_mpa: 3.431 shock_error_relative: 0.0056 }
     ledger { work_external_mj: 20000 plastic_mj: 17800 contact_damping_mj: 2200 }

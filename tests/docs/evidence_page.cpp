@@ -9,9 +9,8 @@
 namespace cellcrush::docs {
 namespace {
 
-constexpr const char* kNotice =
-    "<!-- Made from evidence_page.txt and evidence.csv. To rewrite this page:\n"
-    "     CELLCRUSH_WRITE_PAGES=1 build/ci/bin/docs_evidence_page -->\n\n";
+/// The name of a quantity and the number behind it, of which a new row has none.
+constexpr const char* kNumber = R"(<!--([^>]*)-->(-?[0-9]+(?:\.[0-9]+)?(?:e-?[0-9]+)?)?)";
 
 /// Cells of a row of a table, each with the blanks around it; the first and the last are empty.
 std::vector<std::string> cells_of(const std::string& line) {
@@ -38,7 +37,7 @@ bool matches(const std::vector<std::regex>& patterns, const std::string& test) {
 }
 
 bool has_own_digits(const std::string& result) {
-  static const std::regex kGiven(R"(\{[^}]*\}|\bE[0-9]+|Eq\. [0-9]+|`[^`]*`)");
+  static const std::regex kGiven(std::string(kNumber) + R"(|\bE[0-9]+|Eq\. [0-9]+|`[^`]*`)");
   return std::regex_search(std::regex_replace(result, kGiven, ""), std::regex("[0-9]"));
 }
 
@@ -46,8 +45,8 @@ bool has_own_digits(const std::string& result) {
 
 EvidencePage make_evidence_page(const std::string& text, const scenes::Evidence& evidence,
                                 const std::set<std::string>& tests) {
-  static const std::regex kPlaceholder(R"(\{([^}]*)\})");
-  EvidencePage page{kNotice, {}};
+  static const std::regex kNumbers(kNumber);
+  EvidencePage page;
   scenes::Evidence unused = evidence;
   std::istringstream lines(text);
   std::string line;
@@ -65,21 +64,24 @@ EvidencePage make_evidence_page(const std::string& text, const scenes::Evidence&
         if (std::none_of(tests.begin(), tests.end(), [&](const auto& test) { return matches({pattern}, test); }))
           report("no such test:" + cells[4]);
       }
-      std::string& result = cells[3];
-      if (!by_hand && has_own_digits(result)) report("a number that no test recorded:" + result);
-      for (std::smatch name; std::regex_search(result, name, kPlaceholder);) {
+      if (!by_hand && has_own_digits(cells[3])) report("a number that no test recorded:" + cells[3]);
+      std::string result;
+      std::string rest = cells[3];
+      for (std::smatch number; std::regex_search(rest, number, kNumbers);) {
+        const std::string name = number[1];
         std::string value;
         int found = 0;
         for (const auto& [key, recorded] : evidence) {
-          if (key.second != name[1].str() || !matches(patterns, key.first)) continue;
+          if (key.second != name || !matches(patterns, key.first)) continue;
           value = recorded;
           unused.erase(key);
           ++found;
         }
-        if (found != 1) report(std::to_string(found) + " rows for " + name.str());
-        result = name.prefix().str() + value + name.suffix().str();
+        if (found != 1) report(std::to_string(found) + " rows for " + name);
+        result += number.prefix().str() + "<!--" + name + "-->" + value;
+        rest = number.suffix();
       }
-      line = "|" + cells[1] + "|" + cells[2] + "|" + result + "|" + cells[4] + "|";
+      line = "|" + cells[1] + "|" + cells[2] + "|" + result + rest + "|" + cells[4] + "|";
     }
     page.text += line + "\n";
   }

@@ -8,16 +8,16 @@
 
 namespace cellcrush::docs {
 
-/// A page made from a text in which results name what tests recorded: "worst error {error over L} L".
+/// A page in which results name what tests recorded before they tell it: "worst error <!--error over L-->1.2e-4 L".
 struct EvidencePage {
   std::string text;
   Findings findings;  ///< what is wrong with the text or the record
 };
 
-/// Fills the tables (claim, reference, result, test) of a text. A placeholder stands for the row of `evidence` that has
-/// its quantity and a test that the table's row names, with ... for any letters. Results have no digits but those of
-/// placeholders, equations (E11, Eq. 51) and code, except in a section that says kByHand. Every test that is named
-/// is one of `tests`, and every row of `evidence` stands in the page.
+/// Writes the numbers into the tables (claim, reference, result, test) of a page again. A name stands for the row of
+/// `evidence` that has its quantity and a test that the table's row names, with ... for any letters. Results have no
+/// digits but those of names, equations (E11, Eq. 51) and code, except in a section that says kByHand. Every test that
+/// is named is one of `tests`, and every row of `evidence` stands in the page.
 EvidencePage make_evidence_page(const std::string& text, const scenes::Evidence& evidence,
                                 const std::set<std::string>& tests);
 

@@ -1,4 +1,4 @@
-// tests/core/README.md is made from evidence_page.txt and what the tests record. CELLCRUSH_WRITE_PAGES=1 writes it.
+// tests/core/README.md has the numbers that the tests record. CELLCRUSH_WRITE_PAGES=1 writes them into it.
 #include "docs/evidence_page.h"
 
 #include <gmock/gmock.h>
@@ -34,29 +34,29 @@ std::set<std::string> find_tests() {
 TEST(EvidencePageTest, IsWhatTheTestsRecorded) {
   const std::set<std::string> tests = find_tests();
   EXPECT_GT(tests.size(), 100U);
-  const EvidencePage made = make_evidence_page(read_text(kFolder / "evidence_page.txt"),
-                                               scenes::read_evidence(kFolder / "evidence.csv"), tests);
+  const std::string text = read_text(kFolder / "README.md");
+  const EvidencePage made = make_evidence_page(text, scenes::read_evidence(kFolder / "evidence.csv"), tests);
   EXPECT_TRUE(made.findings.empty()) << to_text(made.findings);
   if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) std::ofstream(kFolder / "README.md") << made.text;
-  EXPECT_EQ(read_text(kFolder / "README.md"), made.text)
-      << "evidence_page.txt or evidence.csv has changed. Write the page again: CELLCRUSH_WRITE_PAGES=1 "
-         "build/ci/bin/docs_evidence_page";
+  EXPECT_EQ(text, made.text) << "evidence.csv has changed. Write its numbers into the page again: "
+                                "CELLCRUSH_WRITE_PAGES=1 build/ci/bin/docs_evidence_page";
 }
 
 TEST(EvidencePageTest, WhatNoTestRecordedIsFound) {
   const EvidencePage made = make_evidence_page(
-      "| a | b | {error} at E11 | `A.One...` |\n"
-      "| a | b | {gone} | `A...` |\n"
+      "| a | b | to <!--error-->7.5e-3, <!--new--> at E11 | `A.One...` |\n"
+      "| a | b | <!--gone-->1 | `A...` |\n"
       "| a | b | within 1 % | `B.Two` |\n"
       "| a | b | none | `C...` |\n"
       "| a | b | none | without a name |\n"
       "## By hand\n\nResults of this section are written by hand.\n"
       "| a | b | within 1 % | `Each/B.Tw...` |\n",
-      {{{"A.OneMore", "error"}, "1.2"}, {{"B.Two", "error"}, "7"}}, {"A.OneMore", "B.Two"});
-  EXPECT_THAT(made.text, testing::HasSubstr("\n| a | b | 1.2 at E11 | `A.One...` |\n"));
+      {{{"A.OneMore", "error"}, "1.2"}, {{"A.OneMore", "new"}, "-3"}, {{"B.Two", "error"}, "7"}},
+      {"A.OneMore", "B.Two"});
+  EXPECT_TRUE(made.text.starts_with("| a | b | to <!--error-->1.2, <!--new-->-3 at E11 | `A.One...` |\n")) << made.text;
   EXPECT_THAT(
       made.findings,
-      testing::ElementsAre("line 2: 0 rows for {gone}", "line 3: a number that no test recorded: within 1 % ",
+      testing::ElementsAre("line 2: 0 rows for gone", "line 3: a number that no test recorded: within 1 % ",
                            "line 4: no such test: `C...` ", "line 5: names no test", "not in the page: B.Two,error"));
 }
 

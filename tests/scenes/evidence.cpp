@@ -114,7 +114,8 @@ Evidence read_evidence(const std::filesystem::path& path) {
   return evidence;
 }
 
-void record_figure(const std::string& quantity, double value, int digits) {
+void record_figure(const std::string& quantity, double value, int digits, const Expected& expected) {
+  EXPECT_NEAR(value, expected.value, expected.tolerance) << quantity;
   const Key key(test_name(), quantity);
   if (is_writing()) return write(key, text_of(value, digits), [](const std::string&) { return false; });
   const std::string text = recorded(key);
@@ -122,7 +123,8 @@ void record_figure(const std::string& quantity, double value, int digits) {
   EXPECT_NEAR(value, std::stod(text), last_unit(text)) << quantity;
 }
 
-void record_bound(const std::string& quantity, double value) {
+void record_bound(const std::string& quantity, double value, double most) {
+  EXPECT_LT(std::abs(value), most) << quantity;
   const Key key(test_name(), quantity);
   const double bound = rounded_up(std::max(std::abs(value), kLeastBound));
   if (is_writing()) {

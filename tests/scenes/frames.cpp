@@ -1,35 +1,54 @@
 #include "scenes/frames.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include <algorithm>
 #include <random>
 
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
+#include "step/advance_step.h"
 
 namespace cellcrush::scenes {
-
-std::shared_ptr<Scene> build(const SceneSpec& spec) {
-  const SceneResult result = build_scene(spec);
-  for (const Problem& problem : result.problems) {
-    ADD_FAILURE() << problem.field << " = " << problem.value << ": " << problem.message << " " << problem.remedy;
-  }
-  return result.scene ? std::make_shared<Scene>(*result.scene) : nullptr;
-}
 
 FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements) {
   return {start, end, thickness_mm, elements, std::nullopt};
 }
 
-SceneSpec elastic_frame(FrameLattice frame) {
+FrameLattice bar(double length_mm, double thickness_mm, int elements) {
+  FrameLattice frame;
+  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {length_mm, 0.0, 0.0, 0.0}};
+  frame.beams = {beam(0, 1, thickness_mm, elements)};
+  return frame;
+}
+
+FrameLattice touching_beams(const std::vector<Vector2>& nodes, const std::vector<std::pair<int, int>>& beams,
+                            double thickness_mm, int elements) {
+  FrameLattice frame;
+  for (const Vector2& node : nodes) frame.nodes.push_back({node.x(), node.y(), 0.0, 0.0});
+  for (const auto& [start, end] : beams) frame.beams.push_back(beam(start, end, thickness_mm, elements));
+  frame.self_contact = true;
+  return frame;
+}
+
+SceneSpec elastic_frame(FrameLattice frame) { return plastic_frame(std::move(frame), 70000.0, 1e9, kDensity); }
+
+SceneSpec plastic_frame(FrameLattice frame, double modulus, double yield_stress, double density) {
   frame.end_time_s = frame.end_time_s.value_or(1.0);
   SceneSpec spec;
   spec.lattice = std::move(frame);
   spec.depth_mm = 1.0;
-  spec.material.youngs_modulus_mpa = 70000.0;
-  spec.material.yield_stress_mpa = 1e9;
-  spec.material.density_kg_per_m3 = kDensity;
+  spec.material.youngs_modulus_mpa = modulus;
+  spec.material.yield_stress_mpa = yield_stress;
+  spec.material.density_kg_per_m3 = density;
+  return spec;
+}
+
+SceneSpec in_double_precision(SceneSpec spec) {
+  spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
+  return spec;
+}
+
+SceneSpec in_single_precision(SceneSpec spec) {
+  spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::single_precision;
   return spec;
 }
 
@@ -40,19 +59,22 @@ double Cantilever::first_frequency() {
 
 SceneSpec Cantilever::spec(int elements, FrameLattice::Component component, double value, double rise_time,
                            double end_time) {
-  FrameLattice frame;
-  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {kLength, 0.0, 0.0, 0.0}};
-  frame.beams = {beam(0, 1, 1.0, elements)};
+  FrameLattice frame = bar(kLength, 1.0, elements);
   frame.supports = {{0, true, true, true}};
   frame.loads = {{1, component, {{0.0, 0.0}, {rise_time, value}}}};
   frame.end_time_s = end_time;
-  SceneSpec spec;
-  spec.lattice = frame;
-  spec.depth_mm = 1.0;
-  spec.material.youngs_modulus_mpa = 200000.0;
-  spec.material.yield_stress_mpa = 1e9;
-  spec.material.density_kg_per_m3 = 7850.0;
+  SceneSpec spec = plastic_frame(std::move(frame), 200000.0, 1e9);
   spec.numerics.mass_damping_per_s = 2.0 * first_frequency();
+  return spec;
+}
+
+SceneSpec beam_over_beam(double speed_m_per_s, double gravity_m_per_s2) {
+  FrameLattice frame = touching_beams({{-40.0, 0.0}, {40.0, 0.0}, {-5.0, 1.01}, {5.0, 1.01}}, {{0, 1}, {2, 3}}, 1.0, 1);
+  frame.supports = {{0, true, true, true}, {1, true, true, true}};
+  frame.initial_velocities = {{2, 0.0, -speed_m_per_s, 0.0}, {3, 0.0, -speed_m_per_s, 0.0}};
+  frame.gravity_y_m_per_s2 = -gravity_m_per_s2;
+  SceneSpec spec = elastic_frame(std::move(frame));
+  spec.contact.damping_ratio = 0.0;
   return spec;
 }
 
@@ -64,6 +86,14 @@ SceneSpec hexagon_specimen(int columns, int rows) {
   return spec;
 }
 
+std::shared_ptr<Scene> build(const SceneSpec& spec) {
+  const SceneResult result = build_scene(spec);
+  for (const Problem& problem : result.problems) {
+    ADD_FAILURE() << problem.field << " = " << problem.value << ": " << problem.message << " " << problem.remedy;
+  }
+  return result.scene ? std::make_shared<Scene>(*result.scene) : nullptr;
+}
+
 void stir(Scene& scene, double speed) {
   std::mt19937_64 generator(20261120);
   const auto draw = [&] { return speed * (static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0); };
@@ -73,6 +103,71 @@ void stir(Scene& scene, double speed) {
     scene.initial_velocity.emplace_back(draw(), draw());
     scene.initial_spin.push_back(draw());
   }
+}
+
+std::vector<Sample> run_to_end(Simulation& simulation) {
+  std::vector<Sample> samples;
+  watch(simulation, [&](const Sample& sample) { samples.push_back(sample); });
+  EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
+  return samples;
+}
+
+std::vector<Sample> run_frame(const SceneSpec& spec) {
+  const auto scene = build(spec);
+  if (scene == nullptr) return {};
+  Simulation simulation(scene);
+  return run_to_end(simulation);
+}
+
+State state_after(const Scene& scene, int steps) {
+  State state = make_initial_state(scene);
+  for (int i = 0; i < steps; ++i) advance_step(scene, state, nullptr);
+  return state;
+}
+
+Momentum momentum_of(const Scene& scene, const State& state) {
+  Momentum sum;
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const Vector2 momentum = scene.mass[i] * state.velocity[i];
+    sum.linear += momentum;
+    sum.angular += cross(state.position[i], momentum) + scene.inertia[i] * state.spin[i];
+  }
+  return sum;
+}
+
+double distance_between(const State& one, const State& other) {
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < one.position.size(); ++i) {
+    greatest = std::max(greatest, (one.position[i] - other.position[i]).norm());
+  }
+  return greatest;
+}
+
+std::string name_of(RunStatus::Kind kind) {
+  switch (kind) {
+    case RunStatus::Kind::running: return "running";
+    case RunStatus::Kind::finished: return "finished";
+    case RunStatus::Kind::diverged: return "diverged";
+    case RunStatus::Kind::large_rotation: return "large_rotation";
+    case RunStatus::Kind::energy_balance: return "energy_balance";
+    case RunStatus::Kind::contact_energy: return "contact_energy";
+    case RunStatus::Kind::wall_crossing: return "wall_crossing";
+    case RunStatus::Kind::contact_lost: return "contact_lost";
+    case RunStatus::Kind::overcompaction: break;
+  }
+  return "overcompaction";
+}
+
+std::string name_of(CrushMode mode) {
+  switch (mode) {
+    case CrushMode::none: return "none";
+    case CrushMode::x: return "X";
+    case CrushMode::v: return "V";
+    case CrushMode::i: return "I";
+    case CrushMode::c: return "C";
+    case CrushMode::mixed: break;
+  }
+  return "mixed";
 }
 
 }  // namespace cellcrush::scenes

@@ -1,23 +1,43 @@
 #pragma once
 
-#include <memory>
+#include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
+#include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
+#include "cellcrush/state.h"
 
 namespace cellcrush::scenes {
 
 inline constexpr double kDensity = 2700.0;  ///< kg/m^3, of aluminium
 
-/// A scene whose spec has no problems; fails the test with their texts when it has.
-std::shared_ptr<Scene> build(const SceneSpec& spec);
+/// The unit vector at an angle from the x axis, rad.
+inline Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// A beam of a frame, of the case's material.
 FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements);
 
-/// A case of an explicit frame of elastic aluminium beams, 1 mm deep, that ends after a second unless the frame says
-/// when.
+/// A beam along x from the origin; its nodes are 0 and 1.
+FrameLattice bar(double length_mm, double thickness_mm, int elements);
+
+/// Beams of one thickness between nodes, which may touch each other.
+FrameLattice touching_beams(const std::vector<Vector2>& nodes, const std::vector<std::pair<int, int>>& beams,
+                            double thickness_mm, int elements);
+
+/// A case of an explicit frame, 1 mm deep, that ends after a second unless the frame says when: of elastic aluminium,
+/// or of a perfectly plastic metal (MPa), steel unless the density (kg/m^3) is another.
 SceneSpec elastic_frame(FrameLattice frame);
+SceneSpec plastic_frame(FrameLattice frame, double modulus, double yield_stress, double density = 7850.0);
+
+SceneSpec in_double_precision(SceneSpec spec);
+SceneSpec in_single_precision(SceneSpec spec);
 
 /// A cantilever along x, clamped at its left end, elastic, without contact: EI = 200000/12 N mm^2, L = 300 mm, h = 1
 /// mm, so that EA L^2 / EI = 1.08e6. Its free end is node 1. Mass damping is twice the first natural frequency.
@@ -31,10 +51,71 @@ struct Cantilever {
                         double end_time);
 };
 
+/// A short beam that lies flat over a long one that is held at both ends, 0.01 mm beyond touch: each of its two balls
+/// meets the wall like a mass on a spring, and no beam bends. All beams are 1 mm thick, elastic, one element long;
+/// contact is without damping. The short beam has the nodes 2 and 3; it flies down at `speed_m_per_s` under
+/// `gravity_m_per_s2`.
+SceneSpec beam_over_beam(double speed_m_per_s, double gravity_m_per_s2);
+
 /// A specimen of the hexagons of Type I, crushed along x at 100 m/s.
 SceneSpec hexagon_specimen(int columns, int rows);
 
+/// A scene whose spec has no problems; fails the test with their texts when it has.
+std::shared_ptr<Scene> build(const SceneSpec& spec);
+
 /// Small velocities in all directions for every particle, the same ones each time: what no symmetry hides from.
 void stir(Scene& scene, double speed);
+
+/// Runs a simulation to its end, or to what ends it, and calls visit(sample) after every `interval` steps; 0: as often
+/// as the case samples.
+template <class Visit>
+void watch(Simulation& simulation, const Visit& visit, std::int64_t interval = 0) {
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(interval > 0 ? interval : simulation.scene().schedule.sample_interval);
+    visit(simulation.take_sample());
+  }
+}
+
+/// Calls visit(state) after every step of a run, without samples.
+template <class Visit>
+void follow(Simulation& simulation, const Visit& visit) {
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(1);
+    visit(simulation.state());
+  }
+}
+
+/// The samples of a run; fails the test with the cause when it does not come to its end.
+std::vector<Sample> run_to_end(Simulation& simulation);
+std::vector<Sample> run_frame(const SceneSpec& spec);
+
+/// The state of a scene after steps from its start.
+State state_after(const Scene& scene, int steps);
+
+/// Along x and y, and about the origin. Positions and velocities half a step apart keep it to round-off where forces
+/// balance.
+struct Momentum {
+  Vector2 linear = Vector2::Zero();  // tonne mm/s
+  double angular = 0.0;
+};
+Momentum momentum_of(const Scene& scene, const State& state);
+
+/// Greatest distance between the same particles, mm.
+double distance_between(const State& one, const State& other);
+
+/// As in tables and pages.
+std::string name_of(RunStatus::Kind kind);
+std::string name_of(CrushMode mode);
+
+/// Calls visit() with every kernel that the processor has, one after the other.
+template <class Visit>
+void for_every_target(Visit&& visit) {
+  for (const std::string& target : simd_targets()) {
+    SCOPED_TRACE(target);
+    ASSERT_TRUE(use_simd_target(target));
+    visit();
+  }
+  ASSERT_TRUE(use_simd_target(""));
+}
 
 }  // namespace cellcrush::scenes

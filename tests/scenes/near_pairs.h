@@ -47,4 +47,8 @@ class FaceNeighbours {
   std::vector<std::set<int>> faces_of_element_;  // with those into which its round ends stand out
 };
 
+/// Pairs of elements without a common node whose mid-lines cross: the proof that a wall has passed through another.
+/// Exact geometry, by itself, without anything of the solver's search.
+std::vector<std::pair<int, int>> find_crossings(const Scene& scene, const State& state);
+
 }  // namespace cellcrush::scenes

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "cellcrush/vector.h"
-#include "scenes/direction.h"
 #include "scenes/frames.h"
 
 namespace cellcrush::scenes {
@@ -23,9 +22,7 @@ double FallingBar::force() { return kSpeed * kAluminium * kThickness / wave_spee
 double FallingBar::momentum() { return kAluminiumMass * kThickness * kLength * kSpeed; }
 
 SceneSpec FallingBar::spec(int elements) {
-  FrameLattice frame;
-  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {kLength, 0.0, 0.0, 0.0}};
-  frame.beams = {beam(0, 1, kThickness, elements)};
+  FrameLattice frame = bar(kLength, kThickness, elements);
   const double speed = -kSpeed * kMetrePerMillimetre;
   frame.initial_velocities = {{0, speed, 0.0, 0.0}, {1, speed, 0.0, 0.0}};
   frame.rigid_walls = {{-0.5 * kThickness - kGap, 0.0, 1.0, 0.0, 0.0, {}}};
@@ -91,9 +88,8 @@ SceneSpec TossedFrame::spec(double angle, double yield_stress_mpa) {
   frame.rigid_walls = {
       {point.x(), point.y(), y.x(), y.y(), 0.2, {{0.0, 0.0}, {kEnd + 1.0, kWallSpeed * (kEnd + 1.0)}}}};
   frame.end_time_s = kEnd;
-  SceneSpec spec = elastic_frame(std::move(frame));
+  SceneSpec spec = in_double_precision(elastic_frame(std::move(frame)));
   spec.material.yield_stress_mpa = yield_stress_mpa;
-  spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   return spec;
 }
 

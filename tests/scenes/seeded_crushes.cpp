@@ -54,18 +54,6 @@ SeededCrush crush_once(const SceneSpec& spec) {
   return crush;
 }
 
-const char* letter_of(CrushMode mode) {
-  switch (mode) {
-    case CrushMode::none: return "none";
-    case CrushMode::x: return "X";
-    case CrushMode::v: return "V";
-    case CrushMode::i: return "I";
-    case CrushMode::c: return "C";
-    case CrushMode::mixed: return "mixed";
-  }
-  return "";
-}
-
 }  // namespace
 
 std::vector<SeededCrush> crush_with_seeds(SceneSpec spec, double amplitude_mm, int count) {
@@ -86,7 +74,7 @@ std::string describe(const std::vector<SeededCrush>& crushes) {
   for (const SeededCrush& crush : crushes) {
     char unevenness[32];
     std::snprintf(unevenness, sizeof(unevenness), "%.1f", crush.unevenness);
-    text += (text.empty() ? "seed " : ", seed ") + std::to_string(crush.seed) + ' ' + letter_of(crush.mode) + ' ' +
+    text += (text.empty() ? "seed " : ", seed ") + std::to_string(crush.seed) + ' ' + name_of(crush.mode) + ' ' +
             unevenness;
   }
   return text;

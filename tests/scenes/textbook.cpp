@@ -1,5 +1,8 @@
 #include "scenes/textbook.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -21,12 +24,7 @@ double cantilever_frequency(double length, double thickness, double modulus, dou
 
 SceneSpec frame_spec(FrameLattice frame, double modulus, double yield_stress, double frequency, double periods) {
   frame.end_time_s = periods * 2.0 * std::numbers::pi / frequency;
-  SceneSpec spec;
-  spec.lattice = std::move(frame);
-  spec.depth_mm = 1.0;
-  spec.material.youngs_modulus_mpa = modulus;
-  spec.material.yield_stress_mpa = yield_stress;
-  spec.material.density_kg_per_m3 = 7850.0;
+  SceneSpec spec = plastic_frame(std::move(frame), modulus, yield_stress);
   spec.numerics.mass_damping_per_s = kDamping * frequency;
   spec.output.sample_count = 400;
   return spec;
@@ -34,24 +32,34 @@ SceneSpec frame_spec(FrameLattice frame, double modulus, double yield_stress, do
 
 /// A plastic frame whose node `node` is moved steadily to `way`; it is watched.
 SceneSpec pushed(FrameLattice frame, int node, Component component, double way, double periods) {
-  const double frequency =
-      cantilever_frequency(PlasticFrame::kLength, PlasticFrame::kThickness, PlasticFrame::kModulus, 7850.0);
+  const double frequency = PlasticFrame::frequency();
   const double end = periods * 2.0 * std::numbers::pi / frequency;
   frame.motions = {{node, component, {{0.0, 0.0}, {end, way}}}};
   frame.watched_nodes = {node};
   return frame_spec(std::move(frame), PlasticFrame::kModulus, PlasticFrame::kYieldStress, frequency, periods);
 }
 
+/// Plastic work of each cycle of equal length in time.
+std::vector<double> plastic_work_by_cycle(const std::vector<Sample>& samples, int cycles) {
+  const double period = samples.back().time / cycles;
+  std::vector<double> total(cycles, 0.0);
+  for (const Sample& sample : samples) {
+    const int cycle = std::min(cycles - 1, static_cast<int>(sample.time / period * (1.0 - 1e-12)));
+    total[cycle] = sample.energy_plastic;
+  }
+  for (int i = cycles - 1; i > 0; --i) {
+    total[i] -= total[i - 1];
+  }
+  return total;
+}
+
 }  // namespace
 
 SceneSpec bent_cantilever(double peak) {
-  FrameLattice frame;
-  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {PlasticFrame::kLength, 0.0, 0.0, 0.0}};
-  frame.beams = {beam(0, 1, PlasticFrame::kThickness, 8)};
+  FrameLattice frame = bar(PlasticFrame::kLength, PlasticFrame::kThickness, 8);
   frame.supports = {{0, true, true, true}};
   frame.watched_nodes = {1};
-  const double frequency =
-      cantilever_frequency(PlasticFrame::kLength, PlasticFrame::kThickness, PlasticFrame::kModulus, 7850.0);
+  const double frequency = PlasticFrame::frequency();
   const double end = 80.0 * 2.0 * std::numbers::pi / frequency;
   frame.loads = {{1, Component::rotation, {{0.0, 0.0}, {0.5 * end, peak * PlasticFrame::kYieldMoment}, {end, 0.0}}}};
   SceneSpec spec = frame_spec(std::move(frame), PlasticFrame::kModulus, PlasticFrame::kYieldStress, frequency, 80.0);
@@ -61,10 +69,10 @@ SceneSpec bent_cantilever(double peak) {
   return spec;
 }
 
+double PlasticFrame::frequency() { return cantilever_frequency(kLength, kThickness, kModulus, 7850.0); }
+
 SceneSpec pushed_cantilever(double deflection, int elements) {
-  FrameLattice frame;
-  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {PlasticFrame::kLength, 0.0, 0.0, 0.0}};
-  frame.beams = {beam(0, 1, PlasticFrame::kThickness, elements)};
+  FrameLattice frame = bar(PlasticFrame::kLength, PlasticFrame::kThickness, elements);
   frame.supports = {{0, true, true, true}};
   return pushed(std::move(frame), 1, Component::y, deflection, 40.0);
 }
@@ -91,9 +99,7 @@ SceneSpec pushed_portal(double sway, int elements) {
 
 SceneSpec cycled_bar(double isotropic_fraction, double strain, int cycles) {
   const double length = 10.0;
-  FrameLattice frame;
-  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {length, 0.0, 0.0, 0.0}};
-  frame.beams = {beam(0, 1, 1.0, 1)};
+  FrameLattice frame = bar(length, 1.0, 1);
   frame.supports = {{0, true, true, true}, {1, false, true, true}};
   frame.watched_nodes = {1};
   const double frequency = std::sqrt(200000.0 / 7.85e-9) / length;  // axial
@@ -106,14 +112,9 @@ SceneSpec cycled_bar(double isotropic_fraction, double strain, int cycles) {
   points.emplace_back(4.0 * cycles * quarter, 0.0);
   frame.motions = {{1, Component::x, points}};
   frame.end_time_s = 4.0 * cycles * quarter;
-  SceneSpec spec;
-  spec.lattice = std::move(frame);
-  spec.depth_mm = 1.0;
-  spec.material.youngs_modulus_mpa = 200000.0;
-  spec.material.yield_stress_mpa = 200.0;
+  SceneSpec spec = plastic_frame(std::move(frame), 200000.0, 200.0);
   spec.material.hardening_modulus_mpa = 20000.0;
   spec.material.isotropic_fraction = isotropic_fraction;
-  spec.material.density_kg_per_m3 = 7850.0;
   spec.output.sample_count = 40 * cycles;
   return spec;
 }
@@ -157,6 +158,82 @@ std::vector<ForceAt> force_curve(const std::vector<Sample>& samples, double Watc
         {0.5 * (before + after), (samples[i].work_external - samples[i - 1].work_external) / (after - before)});
   }
   return curve;
+}
+
+std::pair<double, double> expect_moment_curvature_law(const std::vector<Sample>& samples, double peak) {
+  const double yield_moment = PlasticFrame::kYieldMoment;
+  const double yield_curvature = yield_moment / PlasticFrame::kStiffness;
+  const double end = samples.back().time;
+  const auto moment_at = [&](double time) { return peak * yield_moment * 2.0 * std::min(time, end - time) / end; };
+  double worst = 0.0;
+  for (const Sample& sample : samples) {
+    const double ratio = sample.watched.front().rotation / PlasticFrame::kLength / yield_curvature;
+    if (sample.time < 0.5 * end && ratio > 0.5) {
+      const double exact = ratio <= 1.0 ? ratio : 0.99 * (1.5 - 0.5 / (ratio * ratio)) + 0.01 * ratio;
+      worst = std::max(worst, std::abs(moment_at(sample.time) / yield_moment / exact - 1.0));
+    }
+  }
+  EXPECT_LT(worst, 0.05);  // ten Lobatto points
+  const Sample& top = samples[samples.size() * 6 / 10];
+  const Sample& bottom = samples[samples.size() * 9 / 10];
+  const double slope = (moment_at(top.time) - moment_at(bottom.time)) * PlasticFrame::kLength /
+                       (top.watched.front().rotation - bottom.watched.front().rotation);
+  EXPECT_NEAR(slope / PlasticFrame::kStiffness, 1.0, 0.01);
+  EXPECT_GT(samples.back().watched.front().rotation / PlasticFrame::kLength / yield_curvature, 0.5);
+  return {worst, slope / PlasticFrame::kStiffness - 1.0};
+}
+
+double expect_closed_cycles(const std::vector<Sample>& samples, int cycles) {
+  const std::vector<double> work = plastic_work_by_cycle(samples, cycles);
+  double worst = 0.0;
+  for (int i = 2; i < cycles; ++i) {
+    worst = std::max(worst, std::abs(work[i] / work[1] - 1.0));
+    EXPECT_NEAR(work[i] / work[1], 1.0, 0.01) << "cycle " << i + 1;
+  }
+  EXPECT_GT(work[1], 0.0);
+  return worst;
+}
+
+double expect_shakedown(const std::vector<Sample>& samples, int cycles) {
+  const std::vector<double> work = plastic_work_by_cycle(samples, cycles);
+  for (int i = cycles / 2; i < cycles; ++i) {
+    EXPECT_LT(work[i], 0.9 * work[i - 1]) << "cycle " << i + 1;
+  }
+  const double share = work.back() / *std::max_element(work.begin(), work.end());
+  EXPECT_LT(share, 0.2);
+  return share;
+}
+
+double expect_limit_load(const std::vector<Sample>& samples, double WatchedNode::*component, double factor) {
+  const double limit = factor * PlasticFrame::kFullMoment / PlasticFrame::kLength;
+  const std::vector<ForceAt> curve = force_curve(samples, component);
+  const auto mean_force = [&](std::size_t from, std::size_t to) {
+    double sum = 0.0;
+    for (std::size_t i = from; i < to; ++i) {
+      sum += std::abs(curve[i].force);
+    }
+    return sum / static_cast<double>(to - from);
+  };
+  const double before = mean_force(curve.size() * 6 / 10, curve.size() * 8 / 10);
+  const double last = mean_force(curve.size() * 8 / 10, curve.size());
+  EXPECT_NEAR(last / limit, 1.0, 0.01);
+  EXPECT_NEAR(last / before, 1.0, 0.02);  // it stays there
+  return last / limit;
+}
+
+std::pair<double, double> expect_lee_limit(const std::vector<Sample>& samples) {
+  const std::vector<ForceAt> curve = force_curve(samples, &WatchedNode::uy);
+  const auto peak = std::max_element(curve.begin(), curve.end(),
+                                     [](const ForceAt& a, const ForceAt& b) { return -a.force < -b.force; });
+  EXPECT_NEAR(-peak->force, 1.8557, 0.01 * 1.8557);
+  EXPECT_NEAR(-peak->displacement, 48.74, 1.0);
+  return {-peak->force, -peak->displacement};
+}
+
+double expect_end_angle(const std::vector<Sample>& samples, double degrees) {
+  const double error = samples.back().watched.front().rotation * 180.0 / std::numbers::pi / degrees - 1.0;
+  EXPECT_LT(std::abs(error), 0.015) << degrees;
+  return error;
 }
 
 }  // namespace cellcrush::scenes

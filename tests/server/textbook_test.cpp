@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "scenes/dynamic_claims.h"
+#include "scenes/dynamic_frames.h"
 #include "scenes/rigid_walls.h"
-#include "scenes/textbook_claims.h"
 #include "server/daemon_fixture.h"
 #include "store/hdf5.h"
 #include "translate/spec_to_case.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/capsule.h"
-#include "scenes/direction.h"
+#include "scenes/frames.h"
 #include "scenes/probe.h"
 
 namespace cellcrush {

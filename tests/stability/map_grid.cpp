@@ -1,13 +1,12 @@
-#include "stability/map_grid.h"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "cellcrush/scene.h"
 #include "measure/warnings.h"
+#include "scenes/crushes.h"
 #include "scenes/frames.h"
-#include "scenes/small_specimen.h"
+#include "stability/stability_map.h"
 
 namespace cellcrush::stability {
 namespace {
@@ -22,21 +21,6 @@ std::shared_ptr<Scene> specimen(const std::string& lattice, double speed) {
 }
 
 double lightest_of(const Scene& scene) { return *std::min_element(scene.mass.begin(), scene.mass.end()); }
-
-const char* name_of(RunStatus::Kind kind) {
-  switch (kind) {
-    case RunStatus::Kind::running:
-    case RunStatus::Kind::finished: return "finished";
-    case RunStatus::Kind::diverged: return "diverged";
-    case RunStatus::Kind::large_rotation: return "large_rotation";
-    case RunStatus::Kind::energy_balance: return "energy_balance";
-    case RunStatus::Kind::contact_energy: return "contact_energy";
-    case RunStatus::Kind::wall_crossing: return "wall_crossing";
-    case RunStatus::Kind::overcompaction: return "overcompaction";
-    case RunStatus::Kind::contact_lost: return "contact_lost";
-  }
-  return "";
-}
 
 }  // namespace
 
@@ -67,10 +51,7 @@ Result crush(const std::string& lattice, const Point& point) {
 
   Simulation simulation(scene);
   std::vector<Sample> samples;
-  while (simulation.status().kind == RunStatus::Kind::running) {
-    simulation.advance(schedule.sample_interval);
-    samples.push_back(simulation.take_sample());
-  }
+  scenes::watch(simulation, [&](const Sample& sample) { samples.push_back(sample); });
   Result result;
   result.point = point;
   result.status = simulation.status().kind;
@@ -111,7 +92,7 @@ std::string as_csv(const std::vector<Result>& results) {
   text << "speed_m_per_s,penalty,step,outcome,status,energy_error,contact_energy,deepest_penetration,end_strain\n";
   for (const Result& result : results) {
     text << result.point.speed << ',' << result.point.penalty << ',' << result.point.step << ','
-         << name_of(result.outcome) << ',' << name_of(result.status) << ',' << result.energy_error << ','
+         << name_of(result.outcome) << ',' << scenes::name_of(result.status) << ',' << result.energy_error << ','
          << result.contact_energy << ',' << result.deepest_penetration << ',' << result.end_strain << '\n';
   }
   return text.str();

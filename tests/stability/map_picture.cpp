@@ -1,10 +1,10 @@
-#include "stability/map_picture.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "stability/stability_map.h"
 
 namespace cellcrush::stability {
 namespace {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/direction.h"
+#include "scenes/evidence.h"
+#include "scenes/frames.h"
 #include "scenes/kernels.h"
 #include "scenes/probe.h"
 
@@ -35,6 +36,11 @@ TEST(ManyTurns, TheAngleOfADirectionJumpsWhereTheIncrementOfTheAxisDoesNot) {
 // A slow spin in the paper's steps: 1e-9 rad a step, for ten million steps. The arc cosine of Eq. 9 sees none of it,
 // and the element is bent by all that its nodes have turned.
 TEST(SmallIncrements, AreLostToTheArcCosineAndBendAnElementThatOnlySpins) {
+  for (const double angle : {1e-9, -1e-9, 3e-12, -3e-12}) {
+    const Vector2 to = Vector2(1.0, angle).normalized();
+    EXPECT_EQ(std::acos(Vector2(1.0, 0.0).dot(to)), 0.0);
+    scenes::record_bound("relative error", scenes::turn_between({1.0, 0.0}, to) / angle - 1.0);
+  }
   constexpr double kTurn = 1e-9;
   constexpr int kSteps = 10'000'000;
   double bend_by_arc_cosine = 0.0;
@@ -51,6 +57,9 @@ TEST(SmallIncrements, AreLostToTheArcCosineAndBendAnElementThatOnlySpins) {
 }
 
 TEST(LargeIncrements, BeyondHalfATurnAreSeenAsTheOtherWay) {
+  for (double angle = -3.14; angle <= 3.14; angle += 0.0031) {
+    EXPECT_NEAR(scenes::turn_between(direction(0.3), direction(0.3 + angle)), angle, 1e-15 + 2e-16 * std::abs(angle));
+  }
   constexpr double kTurn = 3.3;
   EXPECT_NEAR(scenes::turn_between(direction(0.0), direction(kTurn)), kTurn - 2.0 * std::numbers::pi, 1e-12);
   const ElementDeformation deformation =

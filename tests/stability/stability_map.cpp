@@ -1,13 +1,13 @@
 // Crushes small specimens over steps, penalties and speeds and draws which of them are stable.
 //   stability_map FOLDER [hexagon | square | triangle]      writes FOLDER/stability_map_LATTICE.csv, .svg, .png
 
+#include "stability/stability_map.h"
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
-
-#include "stability/map_picture.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "measure/curve.h"
-#include "scenes/crossings.h"
+#include "scenes/near_pairs.h"
 #include "scenes/state_hash.h"
 
 namespace cellcrush::validation {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "scenes/frames.h"
+
 namespace cellcrush::validation {
 namespace {
 
@@ -23,33 +25,6 @@ std::string hash_text(std::uint64_t hash) {
   return text;
 }
 
-std::string name_of(RunStatus::Kind kind) {
-  switch (kind) {
-    case RunStatus::Kind::running: return "running";
-    case RunStatus::Kind::finished: return "finished";
-    case RunStatus::Kind::diverged: return "diverged";
-    case RunStatus::Kind::large_rotation: return "large_rotation";
-    case RunStatus::Kind::energy_balance: return "energy_balance";
-    case RunStatus::Kind::contact_energy: return "contact_energy";
-    case RunStatus::Kind::wall_crossing: return "wall_crossing";
-    case RunStatus::Kind::contact_lost: return "contact_lost";
-    case RunStatus::Kind::overcompaction: break;
-  }
-  return "overcompaction";
-}
-
-std::string name_of(CrushMode mode) {
-  switch (mode) {
-    case CrushMode::none: return "none";
-    case CrushMode::x: return "X";
-    case CrushMode::v: return "V";
-    case CrushMode::i: return "I";
-    case CrushMode::c: return "C";
-    case CrushMode::mixed: break;
-  }
-  return "mixed";
-}
-
 Cells cells_of(const Options& options, const CrushRun& run) {
   const Summary& summary = run.summary;
   const auto front_text = [&](double FrontSummary::*measure) {
@@ -58,7 +33,7 @@ Cells cells_of(const Options& options, const CrushRun& run) {
   return {
       {"preset", options.preset},
       {"options", options.changes},
-      {"status", name_of(run.status.kind)},
+      {"status", scenes::name_of(run.status.kind)},
       {"end_strain", text_of(run.samples.back().strain)},
       {"plateau_stress_impact", text_of(summary.plateau_stress_impact)},
       {"plateau_stress_support", text_of(summary.plateau_stress_support)},
@@ -77,7 +52,7 @@ Cells cells_of(const Options& options, const CrushRun& run) {
       {"kinetic_over_plastic", text_of(run.kinetic_over_plastic)},
       {"kinetic_over_plastic_flowing", text_of(run.kinetic_over_plastic_flowing)},
       {"crossings", std::to_string(run.crossings)},
-      {"crush_mode", name_of(summary.crush_mode)},
+      {"crush_mode", scenes::name_of(summary.crush_mode)},
       {"front_strain_behind", front_text(&FrontSummary::strain_behind)},
       {"front_strain_ahead", front_text(&FrontSummary::strain_ahead)},
       {"front_velocity_behind", front_text(&FrontSummary::velocity_behind)},

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "core/reference/bilinear_elastica.h"
 #include "scenes/presets.h"
@@ -33,8 +32,6 @@ SectionSpec papers_elements() {
   return section;
 }
 
-void record(const std::string& name, double value) { testing::Test::RecordProperty(name, std::to_string(value)); }
-
 CrushRun crush(const Example& example, const SectionSpec& section, const Imperfection& imperfection = {}) {
   SceneSpec spec = scenes::preset(example.preset);
   spec.section = section;
@@ -43,17 +40,6 @@ CrushRun crush(const Example& example, const SectionSpec& section, const Imperfe
   spec.loading.end_strain = 0.85;
   CrushRun run = validation::run_crush(spec);
   EXPECT_EQ(run.status.kind, RunStatus::Kind::finished) << run.status.message;
-  record("limit_stress", run.limit.stress);
-  record("limit_strain", run.limit.strain);
-  record("least_stress_after_limit", run.limit.least_after);
-  record("plateau_stress_impact", run.summary.plateau_stress_impact.value_or(0.0));
-  record("plateau_stress_support", run.summary.plateau_stress_support.value_or(0.0));
-  record("densification_strain", run.summary.densification_strain.value_or(0.0));
-  record("plate_force_difference", run.plate_force_difference);
-  record("kinetic_over_work", run.kinetic_over_work);
-  record("kinetic_over_plastic", run.kinetic_over_plastic);
-  record("kinetic_over_plastic_flowing", run.kinetic_over_plastic_flowing);
-  record("energy_error_relative", run.summary.energy_error_relative);
   return run;
 }
 
@@ -81,7 +67,6 @@ void expect_limit_of_the_exact_wall(const CrushRun& run, const Example& example)
   const double load =
       reference::load_of_pushed_wall(section, example.side, angle, run.limit.strain * 1.5 * example.side);
   const double stress = load / (example.side * std::cos(angle));
-  record("limit_over_exact_wall", run.limit.stress / stress);
   EXPECT_NEAR(run.limit.stress / stress, 1.0, 0.03);
 }
 

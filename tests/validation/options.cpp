@@ -6,7 +6,6 @@
 #include <functional>
 #include <map>
 #include <stdexcept>
-#include <type_traits>
 #include <variant>
 
 #include "cellcrush/simulation.h"
@@ -38,124 +37,107 @@ int count_of(const std::string& name, const std::string& text) {
   return static_cast<int>(value);
 }
 
-template <class Value>
-Value choice(const std::string& name, const std::string& text, const std::map<std::string, Value>& values) {
-  std::string allowed;
-  for (const auto& [word, value] : values) {
-    if (word == text) {
-      return value;
-    }
-    allowed += (allowed.empty() ? "" : " or ") + word;
-  }
-  throw std::invalid_argument(name + "=" + text + ": is not known; give " + allowed + ".");
+/// A field of a part of the spec.
+template <class Part, class Field>
+auto in(Part SceneSpec::*part, Field Part::*field) {
+  return [=](Options& options) -> Field& { return options.spec.*part.*field; };
 }
 
-/// Throws std::invalid_argument for a frame.
-RegularLattice& cells_of(SceneSpec& spec) {
-  auto* lattice = std::get_if<RegularLattice>(&spec.lattice);
-  if (lattice == nullptr) throw std::invalid_argument("columns, rows: a frame has none.");
-  return *lattice;
+/// A field of the lattice; throws std::invalid_argument for a frame.
+template <class Field>
+auto in_cells(Field RegularLattice::*field) {
+  return [=](Options& options) -> Field& {
+    auto* lattice = std::get_if<RegularLattice>(&options.spec.lattice);
+    if (lattice == nullptr) throw std::invalid_argument("columns, rows: a frame has none.");
+    return lattice->*field;
+  };
+}
+
+template <class Field>
+auto in_options(Field Options::*field) {
+  return [=](Options& options) -> Field& { return options.*field; };
+}
+
+template <class Access>
+Option number(const char* name, const char* meaning, Access access) {
+  return {name, meaning, [=](Options& options, const std::string& text) { access(options) = number_of(name, text); }};
+}
+
+template <class Access>
+Option count(const char* name, const char* meaning, Access access) {
+  return {name, meaning, [=](Options& options, const std::string& text) { access(options) = count_of(name, text); }};
+}
+
+Option word(const char* name, const char* meaning, std::string Options::*field) {
+  return {name, meaning, [=](Options& options, const std::string& text) { options.*field = text; }};
+}
+
+template <class Part, class Value>
+Option choice(const std::string& name, Part SceneSpec::*part, Value Part::*field,
+              const std::map<std::string, Value>& values) {
+  std::string allowed;
+  for (const auto& [text, value] : values) allowed += (allowed.empty() ? "" : " or ") + text;
+  return {name, allowed, [=](Options& options, const std::string& text) {
+            const auto found = values.find(text);
+            if (found == values.end()) {
+              throw std::invalid_argument(name + "=" + text + ": is not known; give " + allowed + ".");
+            }
+            options.spec.*part.*field = found->second;
+          }};
 }
 
 const std::vector<Option>& all_options() {
+  using S = SceneSpec;
+  using Direction = LoadingSpec::Direction;
+  using Formulation = SectionSpec::Formulation;
+  using DepthRule = SectionSpec::DepthRule;
+  using Area = SectionSpec::AreaRule;
+  using Model = Inclusions::Model;
+  using Plane = MaterialSpec::Plane;
+  using Precision = NumericsSpec::FibrePrecision;
+  using Search = ContactSpec::Search;
   static const std::vector<Option> kOptions = {
-      {"speed", "speed of the impact plate, m/s",
-       [](Options& o, const std::string& v) { o.spec.loading.speed_m_per_s = number_of("speed", v); }},
-      {"end_strain", "nominal strain at which the run ends",
-       [](Options& o, const std::string& v) { o.spec.loading.end_strain = number_of("end_strain", v); }},
-      {"direction", "of the crush, x or y",
-       [](Options& o, const std::string& v) {
-         using Direction = LoadingSpec::Direction;
-         o.spec.loading.direction = choice<Direction>("direction", v, {{"x", Direction::x}, {"y", Direction::y}});
-       }},
-      {"columns", "of cells",
-       [](Options& o, const std::string& v) { cells_of(o.spec).columns = count_of("columns", v); }},
-      {"rows", "of cells", [](Options& o, const std::string& v) { cells_of(o.spec).rows = count_of("rows", v); }},
-      {"elements", "elements a wall",
-       [](Options& o, const std::string& v) { o.spec.elements_per_wall = count_of("elements", v); }},
-      {"formulation", "force_based or displacement_based",
-       [](Options& o, const std::string& v) {
-         using Formulation = SectionSpec::Formulation;
-         o.spec.section.formulation = choice<Formulation>(
-             "formulation", v,
-             {{"force_based", Formulation::force_based}, {"displacement_based", Formulation::displacement_based}});
-       }},
-      {"depth_rule", "full_moment or lobatto",
-       [](Options& o, const std::string& v) {
-         using DepthRule = SectionSpec::DepthRule;
-         o.spec.section.depth_rule = choice<DepthRule>(
-             "depth_rule", v, {{"full_moment", DepthRule::full_moment}, {"lobatto", DepthRule::lobatto}});
-       }},
-      {"area", "constant_volume or constant_area",
-       [](Options& o, const std::string& v) {
-         using Area = SectionSpec::AreaRule;
-         o.spec.section.area_rule = choice<Area>(
-             "area", v, {{"constant_volume", Area::constant_volume}, {"constant_area", Area::constant_area}});
-       }},
-      {"inclusions", "rigid or meshed",
-       [](Options& o, const std::string& v) {
-         using Model = Inclusions::Model;
-         o.spec.inclusions.model = choice<Model>("inclusions", v, {{"rigid", Model::rigid}, {"meshed", Model::meshed}});
-       }},
-      {"plane", "stress or strain",
-       [](Options& o, const std::string& v) {
-         using Plane = MaterialSpec::Plane;
-         o.spec.material.plane = choice<Plane>("plane", v, {{"stress", Plane::stress}, {"strain", Plane::strain}});
-       }},
-      {"axial_points", "sections along an element",
-       [](Options& o, const std::string& v) { o.spec.section.axial_points = count_of("axial_points", v); }},
-      {"depth_points", "fibres through the depth",
-       [](Options& o, const std::string& v) { o.spec.section.depth_points = count_of("depth_points", v); }},
-      {"seed", "of the imperfection",
-       [](Options& o, const std::string& v) { o.spec.imperfection.seed = count_of("seed", v); }},
-      {"amplitude", "of the imperfection, mm",
-       [](Options& o, const std::string& v) { o.spec.imperfection.amplitude_mm = number_of("amplitude", v); }},
-      {"bow", "of the walls, mm",
-       [](Options& o, const std::string& v) { o.spec.imperfection.bow_mm = number_of("bow", v); }},
-      {"time_step", "s; 0: chosen",
-       [](Options& o, const std::string& v) { o.spec.numerics.time_step_s = number_of("time_step", v); }},
-      {"step_factor", "of the step that is given or chosen",
-       [](Options& o, const std::string& v) { o.step_factor = number_of("step_factor", v); }},
-      {"mass_damping", "1/s",
-       [](Options& o, const std::string& v) { o.spec.numerics.mass_damping_per_s = number_of("mass_damping", v); }},
-      {"mass_scaling", "fictitious masses",
-       [](Options& o, const std::string& v) { o.spec.numerics.mass_scaling = number_of("mass_scaling", v); }},
-      {"rotary_scaling", "fictitious rotary inertias",
-       [](Options& o, const std::string& v) { o.spec.numerics.rotary_scaling = number_of("rotary_scaling", v); }},
-      {"fibre_precision", "single or double",
-       [](Options& o, const std::string& v) {
-         using Precision = NumericsSpec::FibrePrecision;
-         o.spec.numerics.fibre_precision = choice<Precision>(
-             "fibre_precision", v, {{"single", Precision::single_precision}, {"double", Precision::double_precision}});
-       }},
-      {"contact_stiffness", "k in m_min / dt_crit^2",
-       [](Options& o, const std::string& v) { o.spec.contact.stiffness_factor = number_of("contact_stiffness", v); }},
-      {"contact_damping", "share of critical damping",
-       [](Options& o, const std::string& v) { o.spec.contact.damping_ratio = number_of("contact_damping", v); }},
-      {"plate_friction", "Coulomb's coefficient at the plates",
-       [](Options& o, const std::string& v) { o.spec.plates.friction = number_of("plate_friction", v); }},
-      {"search", "faces or buckets",
-       [](Options& o, const std::string& v) {
-         using Search = ContactSpec::Search;
-         o.spec.contact.search = choice<Search>("search", v, {{"faces", Search::faces}, {"buckets", Search::buckets}});
-       }},
-      {"yield_stress", "MPa",
-       [](Options& o, const std::string& v) { o.spec.material.yield_stress_mpa = number_of("yield_stress", v); }},
-      {"hardening", "modulus, MPa",
-       [](Options& o, const std::string& v) { o.spec.material.hardening_modulus_mpa = number_of("hardening", v); }},
-      {"samples", "of the curve",
-       [](Options& o, const std::string& v) { o.spec.output.sample_count = count_of("samples", v); }},
-      {"frame_count", "frames of the lattice that are taken",
-       [](Options& o, const std::string& v) { o.spec.output.frame_count = count_of("frame_count", v); }},
-      {"until", "strain at which the run is broken off, samples and frames being those of the whole run",
-       [](Options& o, const std::string& v) { o.until = number_of("until", v); }},
-      {"simd", "kernel to use, one that the processor has",
-       [](Options& o, const std::string& v) { o.simd_target = v; }},
-      {"table", "CSV file to which a row of results is appended",
-       [](Options& o, const std::string& v) { o.table_file = v; }},
-      {"curve", "CSV file of the stress-strain curve", [](Options& o, const std::string& v) { o.curve_file = v; }},
-      {"frames", "file of the lattice's frames, of which validation_pictures draws strips",
-       [](Options& o, const std::string& v) { o.frames_file = v; }},
+      number("speed", "speed of the impact plate, m/s", in(&S::loading, &LoadingSpec::speed_m_per_s)),
+      number("end_strain", "nominal strain at which the run ends", in(&S::loading, &LoadingSpec::end_strain)),
+      choice("direction", &S::loading, &LoadingSpec::direction, {{"x", Direction::x}, {"y", Direction::y}}),
+      count("columns", "of cells", in_cells(&RegularLattice::columns)),
+      count("rows", "of cells", in_cells(&RegularLattice::rows)),
+      count(
+          "elements", "elements a wall", [](Options & o) -> auto& { return o.spec.elements_per_wall; }),
+      choice("formulation", &S::section, &SectionSpec::formulation,
+             {{"force_based", Formulation::force_based}, {"displacement_based", Formulation::displacement_based}}),
+      choice("depth_rule", &S::section, &SectionSpec::depth_rule,
+             {{"full_moment", DepthRule::full_moment}, {"lobatto", DepthRule::lobatto}}),
+      choice("area", &S::section, &SectionSpec::area_rule,
+             {{"constant_volume", Area::constant_volume}, {"constant_area", Area::constant_area}}),
+      choice("inclusions", &S::inclusions, &Inclusions::model, {{"rigid", Model::rigid}, {"meshed", Model::meshed}}),
+      choice("plane", &S::material, &MaterialSpec::plane, {{"stress", Plane::stress}, {"strain", Plane::strain}}),
+      count("axial_points", "sections along an element", in(&S::section, &SectionSpec::axial_points)),
+      count("depth_points", "fibres through the depth", in(&S::section, &SectionSpec::depth_points)),
+      count("seed", "of the imperfection", in(&S::imperfection, &Imperfection::seed)),
+      number("amplitude", "of the imperfection, mm", in(&S::imperfection, &Imperfection::amplitude_mm)),
+      number("bow", "of the walls, mm", in(&S::imperfection, &Imperfection::bow_mm)),
+      number("time_step", "s; 0: chosen", in(&S::numerics, &NumericsSpec::time_step_s)),
+      number("step_factor", "of the step that is given or chosen", in_options(&Options::step_factor)),
+      number("mass_damping", "1/s", in(&S::numerics, &NumericsSpec::mass_damping_per_s)),
+      number("mass_scaling", "fictitious masses", in(&S::numerics, &NumericsSpec::mass_scaling)),
+      number("rotary_scaling", "fictitious rotary inertias", in(&S::numerics, &NumericsSpec::rotary_scaling)),
+      choice("fibre_precision", &S::numerics, &NumericsSpec::fibre_precision,
+             {{"single", Precision::single_precision}, {"double", Precision::double_precision}}),
+      number("contact_stiffness", "k in m_min / dt_crit^2", in(&S::contact, &ContactSpec::stiffness_factor)),
+      number("contact_damping", "share of critical damping", in(&S::contact, &ContactSpec::damping_ratio)),
+      number("plate_friction", "Coulomb's coefficient at the plates", in(&S::plates, &PlatesSpec::friction)),
+      choice("search", &S::contact, &ContactSpec::search, {{"faces", Search::faces}, {"buckets", Search::buckets}}),
+      number("yield_stress", "MPa", in(&S::material, &MaterialSpec::yield_stress_mpa)),
+      number("hardening", "modulus, MPa", in(&S::material, &MaterialSpec::hardening_modulus_mpa)),
+      count("samples", "of the curve", in(&S::output, &OutputSpec::sample_count)),
+      count("frame_count", "frames of the lattice that are taken", in(&S::output, &OutputSpec::frame_count)),
+      number("until", "strain at which the run is broken off, samples and frames being those of the whole run",
+             in_options(&Options::until)),
+      word("simd", "kernel to use, one that the processor has", &Options::simd_target),
+      word("table", "CSV file to which a row of results is appended", &Options::table_file),
+      word("curve", "CSV file of the stress-strain curve", &Options::curve_file),
+      word("frames", "file of the lattice's frames, of which validation_pictures draws strips", &Options::frames_file),
   };
   return kOptions;
 }

@@ -14,10 +14,9 @@
 #include <stdexcept>
 
 #include "bench/picture_file.h"
+#include "validation/charts.h"
 #include "validation/course.h"
-#include "validation/crush_chart.h"
-#include "validation/curve_file.h"
-#include "validation/plateau_charts.h"
+#include "validation/records.h"
 #include "validation/strip.h"
 
 namespace cellcrush::validation {

@@ -11,8 +11,8 @@
 #include "bench/csv_table.h"
 #include "measure/curve.h"
 #include "validation/crush_run.h"
-#include "validation/curve_file.h"
 #include "validation/options.h"
+#include "validation/records.h"
 
 namespace cellcrush::validation {
 namespace {

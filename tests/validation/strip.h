@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/frames_file.h"
+#include "validation/records.h"
 
 namespace cellcrush::validation {
 

@@ -10,10 +10,9 @@
 #include "cellcrush/simd.h"
 #include "validation/crush_run.h"
 #include "validation/crush_table.h"
-#include "validation/curve_file.h"
-#include "validation/frames_file.h"
 #include "validation/options.h"
 #include "validation/provenance.h"
+#include "validation/records.h"
 
 namespace cellcrush::validation {
 namespace {

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <vector>
+#include <utility>
 
 #include "contact/contact_forces.h"
 #include "contact/contact_search.h"
 #include "contact/search/bucket_search.h"
 #include "motion/initial_state.h"
-#include "scenes/crossings.h"
-#include "scenes/every_target.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "scenes/near_pairs.h"
@@ -25,18 +23,16 @@ using scenes::FaceNeighbours;
 using scenes::listed_pairs;
 using scenes::Pairs;
 
-SceneSpec block_of(const char* lattice) {
+const std::pair<const char*, RegularLattice> kLattices[] = {{"hexagon", scenes::hexagons(5, 4, 4.0, 0.3464, 0.3464)},
+                                                            {"square", scenes::squares(6, 5, 4.0, 0.2)},
+                                                            {"triangle", scenes::triangles(6, 5, 4.0, 0.12)},
+                                                            {"thick ends", scenes::hexagons(5, 4, 4.0, 0.15, 0.4)}};
+
+std::shared_ptr<Scene> block_of(const RegularLattice& lattice) {
   SceneSpec spec = scenes::hexagon_specimen(5, 4);
-  if (std::string(lattice) == "square") {
-    spec.lattice = scenes::squares(6, 5, 4.0, 0.2);
-  } else if (std::string(lattice) == "triangle") {
-    spec.lattice = scenes::triangles(6, 5, 4.0, 0.12);
-  } else if (std::string(lattice) == "thick ends") {
-    spec.lattice = scenes::hexagons(5, 4, 4.0, 0.15, 0.4);
-  }
+  spec.lattice = lattice;
   spec.elements_per_wall = 2;  // brute force takes the square of their number
-  spec.numerics.time_step_s = 0.0;
-  return spec;
+  return scenes::build(spec);
 }
 
 /// Shears and squeezes: what they map is as planar as before, as far as walls stay straight.
@@ -79,8 +75,8 @@ bool includes(const Pairs& all, const Pairs& some) {
 // All that is within the skin is listed, but what shares no face; nothing is that is farther than the widest skin. The
 // lists do not depend on the processor.
 TEST(FaceSearch, AgreesWithBruteForceOnRandomPlanarStates) {
-  for (const char* lattice : {"hexagon", "square", "triangle", "thick ends"}) {
-    const auto scene = scenes::build(block_of(lattice));
+  for (const auto& [lattice, cells] : kLattices) {
+    const auto scene = block_of(cells);
     ASSERT_TRUE(scene->faces.are_enough());
     const FaceNeighbours neighbours(*scene);
     std::mt19937 generator(5);
@@ -136,8 +132,8 @@ Pairs touching_pairs(const State& state) {
 // slower, with rests and with steps as long as the skin: no pair of a face may touch that is not listed and found in
 // the very step.
 TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
-  for (const char* lattice : {"hexagon", "square", "triangle", "thick ends"}) {
-    const auto scene = scenes::build(block_of(lattice));
+  for (const auto& [lattice, cells] : kLattices) {
+    const auto scene = block_of(cells);
     const double step = scene->schedule.time_step;
     const FaceNeighbours neighbours(*scene);
     State state = make_initial_state(*scene);
@@ -183,35 +179,12 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
   }
 }
 
-TEST(FaceSearch, AnOpenLatticeHasNoCandidatesAndIsSeldomRechecked) {
-  SceneSpec spec = scenes::hexagon_specimen(8, 5);
-  const auto scene = scenes::build(spec);
-  State state = make_initial_state(*scene);
-  EXPECT_EQ(state.contacts.front().candidate_count, 0);
-  EXPECT_EQ(state.contacts.front().face_search_count, scene->faces.bands.front().count());
-  for (Vector2& velocity : state.velocity) {
-    velocity = {1e5, -3e4};  // all alike: no gap closes
-  }
-  Workers workers(1);
-  for (int i = 0; i < 100; ++i) {
-    find_contacts(*scene, state, workers);
-  }
-  EXPECT_EQ(state.contacts.front().face_recheck_count, scene->faces.bands.front().count());
-}
-
-State crush(const SceneSpec& spec, int steps) {
-  const auto scene = scenes::build(spec);
-  Simulation simulation(scene);
-  simulation.advance(steps);
-  return simulation.state();
-}
-
 TEST(FaceSearch, GivesTheSameBitsAsBucketsWhileAllThatTouchesSharesAFace) {
   SceneSpec spec = scenes::hexagon_specimen(8, 5);
   spec.contact.friction = 0.2;
-  const State by_faces = crush(spec, 1200);
+  const State by_faces = scenes::state_after(*scenes::build(spec), 1200);
   spec.contact.search = ContactSpec::Search::buckets;
-  const State by_buckets = crush(spec, 1200);
+  const State by_buckets = scenes::state_after(*scenes::build(spec), 1200);
   ASSERT_GT(by_faces.contact_totals.count, 10);
   EXPECT_TRUE(by_buckets.contacts.front().face_list.empty());
   EXPECT_GT(by_buckets.contacts.front().search_count, 5);
@@ -230,10 +203,7 @@ TEST(FaceSearch, BeginsAgainWhenToldThatWallsHaveChanged) {
   Scene without_faces = *scene;
   without_faces.faces = {};
   without_faces.faces.premise = ContactFaces::Premise::several_parts;
-  State state = make_initial_state(*scene);
-  for (int i = 0; i < 1000; ++i) {
-    advance_step(*scene, state, nullptr);
-  }
+  State state = scenes::state_after(*scene, 1000);
   ASSERT_GT(state.contact_totals.count, 10);
   State by_faces = state;
   State by_buckets = state;
@@ -286,8 +256,8 @@ void move_one(const Scene& scene, State& state, int particle, const Vector2& goa
 TEST(FaceSearch, GoesOverToBucketsWhenAWallHasCrossedAnother) {
   const auto scene = scenes::build(scenes::hexagon_specimen(5, 4));
   State state = make_initial_state(*scene);
-  const int inner =
-      scene->faces.bands.front().particle[scene->faces.bands.front().offset[scene->faces.bands.front().count() / 2]];
+  const FacesOfBand& faces = scene->faces.bands.front();
+  const int inner = faces.particle[faces.offset[faces.count() / 2]];
   const Vector2 place = state.position[inner];
   move_one(*scene, state, inner, place + Vector2(1.0, 0.7), 100);
   EXPECT_TRUE(scenes::find_crossings(*scene, state).empty());
@@ -296,8 +266,6 @@ TEST(FaceSearch, GoesOverToBucketsWhenAWallHasCrossedAnother) {
   move_one(*scene, state, inner, place + Vector2(9.0, 6.0), 400);
   EXPECT_FALSE(scenes::find_crossings(*scene, state).empty());
   EXPECT_GT(state.crossing_step, 100);
-  State reference = state;
-  list_by_buckets(*scene, reference, reference.contacts.front());
   EXPECT_GT(state.contacts.front().search_count, 0);
   const Pairs listed = listed_pairs(state);
   for (const scenes::Overlap& overlap : scenes::overlaps_by_buckets(*scene, state)) {
@@ -307,13 +275,8 @@ TEST(FaceSearch, GoesOverToBucketsWhenAWallHasCrossedAnother) {
 
 // A triangle of three elements: none of them crosses another when it is turned over.
 TEST(FaceSearch, GoesOverToBucketsWhenAFaceIsTurnedInsideOut) {
-  FrameLattice frame;
-  for (const Vector2& node : {Vector2(0, 0), Vector2(20, 0), Vector2(10, 15)}) {
-    frame.nodes.push_back({node.x(), node.y(), 0.0, 0.0});
-  }
-  frame.beams = {scenes::beam(0, 1, 1.0, 1), scenes::beam(1, 2, 1.0, 1), scenes::beam(2, 0, 1.0, 1)};
-  frame.self_contact = true;
-  const auto scene = scenes::build(scenes::elastic_frame(frame));
+  const auto scene = scenes::build(
+      scenes::elastic_frame(scenes::touching_beams({{0, 0}, {20, 0}, {10, 15}}, {{0, 1}, {1, 2}, {2, 0}}, 1.0, 1)));
   ASSERT_TRUE(scene->faces.are_enough());
   State state = make_initial_state(*scene);
   move_one(*scene, state, 2, {10.0, -15.0}, 1000);
@@ -337,6 +300,60 @@ TEST(FaceSearch, LeavesTheListsAsTheyAreAfterAPositionThatIsNotFinite) {
     EXPECT_LT(spoiled.crossing_step, 0);
     EXPECT_EQ(spoiled.contacts.front().face_search_count, state.contacts.front().face_search_count);
   }
+}
+
+// Two beams side by side; then an end of one is moved through the other.
+TEST(ContactSearch, FindsThatAWallHasCrossedAnother) {
+  const auto scene = scenes::build(
+      scenes::elastic_frame(scenes::touching_beams({{0, 0}, {20, 0}, {10, 2}, {10, 20}}, {{0, 1}, {2, 3}}, 1.0, 1)));
+  ASSERT_FALSE(scene->faces.are_enough());
+  State state = make_initial_state(*scene);
+  Workers workers(1);
+  const auto move_to = [&](double height) {
+    state.position[2] = {10.0, height};
+    scenes::follow_positions(*scene, state);
+  };
+  move_to(-0.5);
+  find_contacts(*scene, state, workers);
+  EXPECT_LT(state.crossing_step, 0) << "the list holds";
+  move_to(15.0);
+  find_contacts(*scene, state, workers);
+  EXPECT_LT(state.crossing_step, 0);
+  move_to(-0.5);
+  state.step = 7;
+  find_contacts(*scene, state, workers);
+  EXPECT_EQ(state.crossing_step, 7);
+}
+
+// Walls of a lattice thrown about at random: sparse and dense, round the origin and far from it, in a line, on one
+// point. Where one particle flies away, the buckets must not grow with the distance, nor lose the rest.
+TEST(ContactSearch, AgreesWithBruteForceOnRandomScenes) {
+  const auto scene = scenes::build(scenes::hexagon_specimen(4, 4));
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  std::size_t most = 0;
+  const auto expect_all = [&](State& state) {
+    scenes::follow_positions(*scene, state);
+    list_by_buckets(*scene, state, state.contacts.front());
+    const Pairs near = scenes::near_pairs(*scene, state, scene->contact.skin);
+    EXPECT_EQ(listed_pairs(state), near);
+    most = std::max(most, near.size());
+  };
+  for (const Vector2& middle : {Vector2(0.0, 0.0), Vector2(-3e3, 7e2), Vector2(-1e6, -1e6)}) {
+    for (const Vector2& spread : {Vector2(300.0, 300.0), Vector2(30.0, 30.0), Vector2(4.0, 4.0), Vector2(0.1, 0.1),
+                                  Vector2(50.0, 0.0), Vector2(0.0, 20.0), Vector2(1e4, 1.0), Vector2(0.0, 0.0)}) {
+      SCOPED_TRACE(testing::Message() << middle.transpose() << " spread " << spread.transpose());
+      State state = place_particles(*scene);
+      for (Vector2& position : state.position) {
+        position = middle + spread.cwiseProduct(Vector2(even(generator), even(generator)));
+      }
+      expect_all(state);
+    }
+  }
+  EXPECT_EQ(most, scene->element_count() * (scene->particle_count() - 2));  // on one point, all
+  State state = place_particles(*scene);
+  state.position[7] = {4e7, -2e7};
+  expect_all(state);
 }
 
 }  // namespace

@@ -1,15 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "cellcrush/state.h"
-#include "scenes/crossings.h"
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/near_pairs.h"
 #include "scenes/presets.h"
 
 namespace cellcrush {
@@ -26,16 +25,14 @@ struct CountedCrush {
 CountedCrush crush(SceneSpec spec) {
   spec.output.sample_count = 400;
   const auto scene = scenes::build(spec);
-  const SceneFacts facts = facts_of(*scene);
   Simulation simulation(scene);
   CountedCrush crush;
-  while (simulation.status().kind == RunStatus::Kind::running) {
-    simulation.advance(facts.sample_interval);
-    crush.samples.push_back(simulation.take_sample());
+  scenes::watch(simulation, [&](const Sample& sample) {
+    crush.samples.push_back(sample);
     if (crush.samples.size() % 10 == 0) {
       crush.crossings += scenes::find_crossings(*scene, simulation.state()).size();
     }
-  }
+  });
   EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
   crush.summary = summarize(*scene, crush.samples);
   crush.deepest_birth = simulation.state().contact_totals.deepest_birth;
@@ -44,7 +41,6 @@ CountedCrush crush(SceneSpec spec) {
 
 void expect_sound_contact(const CountedCrush& crush) {
   EXPECT_EQ(crush.crossings, 0u);
-  EXPECT_LT(crush.summary.deepest_penetration, 0.25);
   EXPECT_LT(crush.deepest_birth, 0.14);
   // In the first samples the work is small, and a bounce of a few steps makes 0.5 % of it.
   for (const Sample& sample : crush.samples) {
@@ -58,7 +54,6 @@ void expect_sound_contact(const CountedCrush& crush) {
 /// 1.4 %, so a single crush is held to three and a half of them.
 void expect_shock_theory(const CountedCrush& crush) {
   ASSERT_TRUE(crush.summary.front && crush.summary.shock_error() && crush.summary.front_shock_error());
-  EXPECT_NEAR(*crush.summary.front_shock_error(), 0.0, 0.05);
   EXPECT_LT(std::abs(*crush.summary.front_shock_error()), std::abs(*crush.summary.shock_error()));
   EXPECT_GT(crush.summary.front->strain_behind, 0.89);
   EXPECT_LT(crush.summary.front->strain_behind, 0.92);
@@ -79,46 +74,31 @@ void expect_shock_theory(const CountedCrush& crush) {
   EXPECT_NEAR(advance, expected, 0.03 * expected);
 }
 
-/// The impact plate is carried by inertia whatever the elements are; the support plate tells them apart. MPa.
-void expect_plateaus(const CountedCrush& crush, double support_low, double support_high) {
-  ASSERT_TRUE(crush.summary.plateau_stress_impact && crush.summary.plateau_stress_support);
-  EXPECT_GT(*crush.summary.plateau_stress_impact, 3.1);
-  EXPECT_LT(*crush.summary.plateau_stress_impact, 3.7);
-  EXPECT_GT(*crush.summary.plateau_stress_support, support_low);
-  EXPECT_LT(*crush.summary.plateau_stress_support, support_high);
-}
-
-/// The two crushes stand in the same row of the evidence, so their quantities carry a name.
-void record(const CountedCrush& crush, const std::string& name) {
-  const Summary& summary = crush.summary;
+/// A crush of Type I, whose plateau at the support (MPa) and residual (%) are to be these. The impact plate is carried
+/// by inertia whatever the elements are; the support plate tells them apart. Quantities carry the elements' name.
+void expect_crush(const SceneSpec& spec, const std::string& name, const scenes::Expected& support, double residual) {
+  const CountedCrush counted = crush(spec);
+  const Summary& summary = counted.summary;
+  EXPECT_NEAR(counted.samples.back().strain, 0.8, 1e-3);
   ASSERT_TRUE(summary.plateau_stress_impact && summary.plateau_stress_support);
+  scenes::record_figure(name + "impact in MPa", *summary.plateau_stress_impact, 2, {3.4, 0.3});
+  scenes::record_figure(name + "support in MPa", *summary.plateau_stress_support, 2, support);
+  scenes::record_bound(name + "residual in %", 100.0 * summary.energy_error_relative, residual);
+  scenes::record_bound(name + "penetration over h", summary.deepest_penetration, 0.25);
+  expect_sound_contact(counted);
+  expect_shock_theory(counted);
   ASSERT_TRUE(summary.shock_error() && summary.front_shock_error());
-  scenes::record_figure(name + "impact in MPa", *summary.plateau_stress_impact, 2);
-  scenes::record_figure(name + "support in MPa", *summary.plateau_stress_support, 2);
-  scenes::record_bound(name + "residual in %", 100.0 * summary.energy_error_relative);
-  scenes::record_bound(name + "penetration over h", summary.deepest_penetration);
   scenes::record_figure(name + "Eq. 51 in %", 100.0 * *summary.shock_error(), 1);
-  scenes::record_bound(name + "Eq. 52 in %", 100.0 * *summary.front_shock_error());
+  scenes::record_bound(name + "Eq. 52 in %", 100.0 * *summary.front_shock_error(), 5.0);
 }
 
 TEST(TypeI, CrushAt100MetresASecondWithThePapersElementsAndStep) {
-  const CountedCrush paper = crush(scenes::papers_type_i());
-  EXPECT_NEAR(paper.samples.back().strain, 0.8, 1e-3);
-  expect_plateaus(paper, 0.38, 0.52);
-  EXPECT_LT(paper.summary.energy_error_relative, 0.025);
-  expect_sound_contact(paper);
-  expect_shock_theory(paper);
-  record(paper, "the paper's elements: ");
+  expect_crush(scenes::papers_type_i(), "the paper's elements: ", {0.45, 0.07}, 2.5);
 }
 
 // The support stress of the paper's elements falls from 0.46 to 0.39 MPa with 8 of them a wall; ours begin below.
 TEST(TypeI, CrushAt100MetresASecondByDefaultClosesItsLedgerWithinOnePercent) {
-  const CountedCrush ours = crush(scenes::preset("type-i"));
-  expect_plateaus(ours, 0.30, 0.42);
-  EXPECT_LT(ours.summary.energy_error_relative, 0.01);
-  expect_sound_contact(ours);
-  expect_shock_theory(ours);
-  record(ours, "default elements: ");
+  expect_crush(scenes::preset("type-i"), "default elements: ", {0.36, 0.06}, 1.0);
 }
 
 }  // namespace

@@ -1,13 +1,68 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <span>
+#include <vector>
 
+#include "cellcrush/convergence.h"
 #include "cellcrush/simulation.h"
+#include "measure/curve.h"
 #include "measure/theory.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
 namespace {
+
+/// Samples of a curve with the exact interval means of a stress given by its integral.
+std::vector<Sample> samples_of(const std::function<double(double)>& integral, double end, int count) {
+  std::vector<Sample> samples;
+  for (int i = 1; i <= count; ++i) {
+    Sample sample;
+    const double before = end * (i - 1) / count;
+    sample.strain = end * i / count;
+    sample.stress_impact = (integral(sample.strain) - integral(before)) / (sample.strain - before);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+TEST(Curve, PlateauIsTheMeanOfTheWindowWhateverTheSampling) {
+  const auto integral = [](double e) { return e + e * e; };  // stress 1 + 2 e, mean over .2-.4: 1.6
+  for (const int count : {80, 97, 1000}) {
+    const Curve curve(samples_of(integral, 0.8, count), &Sample::stress_impact);
+    EXPECT_NEAR(*curve.mean(0.2, 0.4), 1.6, 1e-3) << count;
+  }
+}
+
+TEST(Curve, PlateauIsAbsentBeforeTheWindowIsFull) {
+  const Curve curve(samples_of([](double e) { return e; }, 0.39, 100), &Sample::stress_impact);
+  EXPECT_FALSE(curve.mean(0.2, 0.4).has_value());
+}
+
+TEST(Curve, SmoothedIsTheMeanOfAWindow) {
+  const auto integral = [](double e) { return e * e; };  // stress 2 e
+  const Curve curve(samples_of(integral, 0.8, 800), &Sample::stress_impact);
+  EXPECT_NEAR(curve.smoothed(0.3, 0.02), 0.6, 1e-9);
+  EXPECT_NEAR(curve.smoothed(0.3), 0.6, 1e-9);
+}
+
+TEST(Curve, OfBothPlatesIsTheMeanOfTheirStresses) {
+  auto samples = samples_of([](double e) { return 3.0 * e; }, 0.5, 100);
+  for (Sample& sample : samples) sample.stress_support = 1.0;
+  EXPECT_NEAR(*curve_of_both_plates(samples).mean(0.1, 0.4), 2.0, 1e-9);
+}
+
+TEST(Theory, TypeIHasGibsonAshbyAndEquation51) {
+  const auto scene = scenes::build(scenes::hexagon_specimen(74, 21));
+  const Theory theory = facts_of(*scene).theory;
+  EXPECT_NEAR(theory.gibson_ashby, 2.0 / 3.0 * 76.0 * 0.0866 * 0.0866, 1e-9);
+  const double density = 72.1438e-6 / (512.687 * 128.0 * 4.0);
+  EXPECT_NEAR(theory.shock, theory.gibson_ashby + density * 1e10 / theory.densification_strain, 2e-4);
+}
 
 class SummaryTest : public testing::Test {
  protected:
@@ -100,6 +155,182 @@ TEST_F(SummaryTest, SolidFractionAtDensificationFollowsFromTheStrain) {
   EXPECT_NEAR(*summary.solid_fraction_at_densification,
               relative_density_of(*scene_) / (1.0 - *summary.densification_strain), 1e-12);
 }
+
+TEST(Convergence, OfAFirstOrderMeshIsTheDifferenceFromTheFinest) {
+  // mean = 1 + 0.8 / elements, without scatter; the order of the input does not matter.
+  const auto mesh = [](int elements) {
+    const double value = 1.0 + 0.8 / elements;
+    return MeshResult{elements, {value, value, value}};
+  };
+  const auto estimates = estimate_mesh_errors({mesh(8), mesh(2), mesh(4)});
+  ASSERT_EQ(estimates.size(), 3u);
+  EXPECT_EQ(estimates[0].elements_per_wall, 2);
+  EXPECT_NEAR(estimates[0].error, 0.3 / 1.1, 1e-12);
+  EXPECT_NEAR(estimates[1].error, 0.1 / 1.1, 1e-12);
+  // The bound of the finest is its distance from the limit here, 0.1, as the order is one.
+  EXPECT_NEAR(estimates[2].error * 1.1, 0.1, 1e-12);
+  for (const MeshEstimate& estimate : estimates) EXPECT_NEAR(estimate.uncertainty, 0.0, 1e-12);
+}
+
+TEST(Convergence, StatisticsAreThoseOfAKnownSample) {
+  const std::vector<double> values = {2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0};
+  const SeedStatistics of = statistics_of(values);
+  EXPECT_EQ(of.count, 8);
+  EXPECT_DOUBLE_EQ(of.mean, 5.0);
+  EXPECT_NEAR(of.deviation, std::sqrt(32.0 / 7.0), 1e-12);
+  // Against an exact value: t of 7 degrees of freedom is 2.365.
+  EXPECT_NEAR(interval_of_difference(of, {}), 2.365 * std::sqrt(32.0 / 7.0 / 8.0), 5e-3);
+}
+
+// Two meshes of the same mean: the interval holds the difference in 95 of 100 trials.
+TEST(Convergence, IntervalsHoldTheTrueDifferenceNineteenTimesInTwenty) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(10.0, 0.5);
+  int held = 0;
+  constexpr int kTrials = 4000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<MeshResult> results = {{2, {}}, {4, {}}};
+    for (MeshResult& result : results) {
+      for (int seed = 0; seed < 5; ++seed) result.values.push_back(normal(random));
+    }
+    const MeshEstimate coarse = estimate_mesh_errors(results).front();
+    held += coarse.error <= coarse.uncertainty ? 1 : 0;
+  }
+  EXPECT_NEAR(held / static_cast<double>(kTrials), 0.95, 0.015);
+}
+
+TEST(Convergence, ASingleRunHasNoInterval) {
+  const auto estimates = estimate_mesh_errors({{2, {1.0}}, {4, {1.1}}});
+  ASSERT_EQ(estimates.size(), 2u);
+  EXPECT_NEAR(estimates[0].error, 0.1 / 1.1, 1e-12);
+  EXPECT_TRUE(std::isinf(estimates[0].uncertainty));
+  EXPECT_TRUE(std::isinf(estimates[0].bound()));
+}
+
+TEST(Convergence, OneMeshTellsNothing) {
+  EXPECT_TRUE(estimate_mesh_errors({{2, {1.0, 1.1}}, {4, {}}}).empty());
+  EXPECT_TRUE(estimate_mesh_errors({}).empty());
+}
+
+using Stress = std::function<double(double strain)>;
+
+/// Samples of drawn curves of the two plates, each sample the mean over 20 points of its interval.
+std::vector<Sample> drawn(const Stress& impact, const Stress& support, double end, int count = 800) {
+  constexpr int kPoints = 20;
+  std::vector<Sample> samples;
+  for (int i = 0; i < count; ++i) {
+    Sample sample;
+    sample.strain = end * (i + 1) / count;
+    for (int k = 0; k < kPoints; ++k) {
+      const double strain = end * (i + (k + 0.5) / kPoints) / count;
+      sample.stress_impact += impact(strain) / kPoints;
+      sample.stress_support += support(strain) / kPoints;
+    }
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+std::optional<double> onset_of(std::span<const Sample> samples) {
+  return find_densification(curve_of_both_plates(samples));
+}
+
+std::optional<double> onset_of(const Stress& both, double end, int count = 800) {
+  return onset_of(drawn(both, both, end, count));
+}
+
+/// 1 up to `onset`, then rising by 50 a unit of strain: the efficiency is greatest at the onset.
+Stress flat_then_steep(double onset) {
+  return [onset](double e) { return 1.0 + 50.0 * std::max(0.0, e - onset); };
+}
+
+TEST(Densification, IsWhereThePlateauEndsWhateverTheSampling) {
+  for (const double onset : {0.45, 0.6, 0.75}) {
+    for (const int count : {100, 800, 5000}) {
+      const auto found = onset_of(flat_then_steep(onset), onset + 0.05, count);
+      ASSERT_TRUE(found) << onset << " " << count;
+      EXPECT_NEAR(*found, onset, 0.008) << count;
+    }
+  }
+}
+
+TEST(Densification, OfAHardeningPlateauIsWhereTheEfficiencyIsGreatest) {
+  // sigma = 1 + e + 40 (e - 0.5)^3 beyond 0.5, as of foams; its efficiency is greatest where sigma^2 = W sigma'.
+  const Stress stress = [](double e) { return 1.0 + e + 40.0 * std::pow(std::max(0.0, e - 0.5), 3.0); };
+  double expected = 0.5;
+  double work = 0.625;
+  const auto slope = [](double e) { return 1.0 + 120.0 * std::pow(e - 0.5, 2.0); };
+  for (; stress(expected) * stress(expected) > work * slope(expected); expected += 1e-4)
+    work += 1e-4 * stress(expected + 5e-5);
+  const auto found = onset_of(stress, 0.9);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(*found, expected, 0.01);
+}
+
+TEST(Densification, IsNotTheDipAfterTheFirstWave) {
+  const Stress stress = [](double e) {
+    if (e < 0.04) return 3.0;
+    if (e > 0.05 && e < 0.07) return 0.05;
+    if (e > 0.22 && e < 0.235) return 0.1;
+    return flat_then_steep(0.7)(e);
+  };
+  EXPECT_NEAR(onset_of(stress, 0.8).value_or(0.0), 0.7, 0.01);
+  EXPECT_FALSE(onset_of(stress, 0.69));
+}
+
+TEST(Densification, IsNotTheCollapseOfALayer) {
+  // Layers that bear three times the mean and fall to nothing, as squares do.
+  const Stress layers = [](double e) { return std::max(0.0, 1.0 + 2.0 * std::sin(2.0 * std::numbers::pi * e / 0.08)); };
+  for (double end = 0.35; end < 0.9; end += 0.01) EXPECT_FALSE(onset_of(layers, end)) << end;
+  const Stress then_solid = [layers](double e) { return layers(e) + 100.0 * std::max(0.0, e - 0.8); };
+  EXPECT_NEAR(onset_of(then_solid, 0.95).value_or(0.0), 0.8, 0.03);
+}
+
+TEST(Densification, OfAFastCrushIsWhenTheFrontArrivesAtTheSupport) {
+  const Stress impact = [](double e) { return 12.0 + 2.0 * std::sin(80.0 * e) + 300.0 * std::max(0.0, e - 0.88); };
+  const Stress support = [](double e) { return e < 0.85 ? 0.4 : 0.4 + 500.0 * (e - 0.85); };
+  EXPECT_NEAR(onset_of(drawn(impact, support, 0.92)).value_or(0.0), 0.85, 0.02);
+  EXPECT_FALSE(onset_of(drawn(impact, support, 0.84)));
+}
+
+TEST(Densification, IsNotReachedByAPlateauNorByARunThatEndsInARise) {
+  EXPECT_FALSE(onset_of([](double) { return 1.0; }, 0.8));
+  EXPECT_FALSE(onset_of(flat_then_steep(0.6), 0.61)) << "a rise by a half only at its end";
+  EXPECT_FALSE(onset_of([](double) { return 0.0; }, 0.8));
+  EXPECT_FALSE(onset_of(flat_then_steep(0.1), 0.19)) << "before the plateau is looked for";
+  EXPECT_FALSE(onset_of([](double e) { return std::sin(20.0 * e); }, 0.8)) << "stresses of both signs";
+}
+
+/// A crush of a small specimen.
+struct SmallCrush {
+  LoadingSpec::Direction direction;
+  double speed;  // m/s
+};
+class DensificationOfACrush : public testing::TestWithParam<SmallCrush> {};
+
+TEST_P(DensificationOfACrush, IsFoundOnceTheSupportBearsThePlateauToo) {
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
+  spec.loading.direction = GetParam().direction;
+  spec.loading.speed_m_per_s = GetParam().speed;
+  spec.loading.end_strain = 0.92;
+  const auto samples = scenes::run_frame(spec);
+  const auto onset = onset_of(samples);
+  ASSERT_TRUE(onset);
+  EXPECT_GT(*onset, 0.6);
+  EXPECT_LT(*onset, 0.9);
+  const Curve support(samples, &Sample::stress_support);
+  const Curve impact(samples, &Sample::stress_impact);
+  EXPECT_GT(support.smoothed(0.914), *impact.mean(0.2, *onset)) << "The front has arrived.";
+  std::vector<Sample> shorter = samples;
+  std::erase_if(shorter, [&](const Sample& sample) { return sample.strain > *onset - 0.03; });
+  EXPECT_FALSE(onset_of(shorter));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, DensificationOfACrush,
+    testing::Values(SmallCrush{LoadingSpec::Direction::x, 10.0}, SmallCrush{LoadingSpec::Direction::x, 100.0},
+                    SmallCrush{LoadingSpec::Direction::x, 150.0}, SmallCrush{LoadingSpec::Direction::y, 10.0},
+                    SmallCrush{LoadingSpec::Direction::y, 100.0}, SmallCrush{LoadingSpec::Direction::y, 125.0}));
 
 }  // namespace
 }  // namespace cellcrush

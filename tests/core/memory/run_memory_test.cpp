@@ -2,16 +2,14 @@
 #include "cellcrush/run_memory.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <variant>
 
+#include "bench/machine.h"
 #include "cellcrush/simulation.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
@@ -22,28 +20,17 @@ namespace {
 
 constexpr double kTolerance = 0.15;
 
-double resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  double total = 0.0;
-  double resident = 0.0;
-  file >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
+using bench::resident_bytes;
 
 /// The most that is resident while a simulation is crushed, samples and frames taken.
 double crush(const SceneSpec& spec) {
   const auto scene = scenes::build(spec);
-  const SceneFacts facts = facts_of(*scene);
   Simulation simulation(scene);
   double most = resident_bytes();
-  while (simulation.status().kind == RunStatus::Kind::running) {
-    simulation.advance(facts.sample_interval);
-    simulation.take_sample();
-    if (simulation.step() % facts.frame_interval == 0) {
-      simulation.take_frame(0);
-    }
+  scenes::watch(simulation, [&](const Sample&) {
+    if (simulation.step() % facts_of(*scene).frame_interval == 0) simulation.take_frame(0);
     most = std::max(most, resident_bytes());
-  }
+  });
   return simulation.status().kind == RunStatus::Kind::finished ? most : 0.0;
 }
 
@@ -71,23 +58,6 @@ Memory measure(const SceneSpec& spec) {
   const auto scene = scenes::build(spec);
   memory.predicted = static_cast<double>(memory_of_run(spec, *scene));
   memory.elements = static_cast<double>(scene->element_count());
-  return memory;
-}
-
-/// The same in a process of its own, whose heap nobody else has used.
-Memory measure_apart(const SceneSpec& spec) {
-  Memory memory;
-  int ends[2];
-  EXPECT_EQ(pipe(ends), 0);
-  const pid_t child = fork();
-  if (child == 0) {
-    memory = measure(spec);
-    _exit(write(ends[1], &memory, sizeof(memory)) == sizeof(memory) ? 0 : 1);
-  }
-  close(ends[1]);
-  EXPECT_EQ(read(ends[0], &memory, sizeof(memory)), static_cast<ssize_t>(sizeof(memory)));
-  close(ends[0]);
-  waitpid(child, nullptr, 0);
   return memory;
 }
 
@@ -122,7 +92,7 @@ TEST_P(RunMemory, IsResidentWithin15Percent) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "Sanitizers take memory of their own.";
 #endif
-  const Memory memory = measure_apart(spec_of(GetParam()));
+  const Memory memory = bench::measure_apart([] { return measure(spec_of(GetParam())); }).value_or(Memory());
   ASSERT_GT(memory.resident, 0.0) << "the crush did not reach its end";
   std::printf("%.0f elements: resident %.0f, predicted %.0f bytes an element, ratio %.3f\n", memory.elements,
               memory.resident / memory.elements, memory.predicted / memory.elements,
@@ -139,10 +109,7 @@ const Crush kCrushes[] = {
        spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
      }},
     {"hexagons_friction", "type-i", 30, 60, 0.8,
-     [](SceneSpec& spec) {
-       spec.contact.friction = 0.2;
-       spec.plates.friction = 0.2;
-     }},
+     [](SceneSpec& spec) { spec.contact.friction = spec.plates.friction = 0.2; }},
     {"hexagons_buckets", "type-i", 30, 60, 0.8,
      [](SceneSpec& spec) { spec.contact.search = ContactSpec::Search::buckets; }},
     {"hexagons_in_bands_papers_rule", "type-i", 12, 720, 0.8, with_papers_rule},

@@ -5,7 +5,6 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "core/reference/reference_crush.h"
-#include "core/reference/reference_lattice.h"
 
 namespace cellcrush {
 

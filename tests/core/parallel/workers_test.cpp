@@ -12,42 +12,6 @@
 namespace cellcrush {
 namespace {
 
-TEST(Workers, DealOutEveryItemOnceInContiguousParts) {
-  for (const int count : {1, 2, 3, 7}) {
-    Workers workers(count);
-    EXPECT_EQ(workers.count(), count);
-    for (const std::size_t items : {0u, 1u, 2u, 5u, 1000u}) {
-      std::vector<int> visits(items, 0);
-      workers.parallel_for(items, [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-          ++visits[i];
-        }
-      });
-      EXPECT_EQ(visits, std::vector<int>(items, 1)) << count << " threads, " << items << " items";
-    }
-  }
-}
-
-// Each loop reads what the other threads wrote in the loop before.
-TEST(Workers, ALoopSeesAllThatTheLoopBeforeWrote) {
-  Workers workers(4);
-  std::vector<long> values(64, 1);
-  for (int round = 0; round < 2000; ++round) {
-    std::vector<long> next(values.size());
-    workers.parallel_for(values.size(), [&](std::size_t first, std::size_t end) {
-      for (std::size_t i = first; i < end; ++i) {
-        next[i] = (values[i] + values[(i + 31) % values.size()]) % 1000003;
-      }
-    });
-    values = next;
-  }
-  long expected = 1;
-  for (int round = 0; round < 2000; ++round) {
-    expected = 2 * expected % 1000003;
-  }
-  EXPECT_EQ(values, std::vector<long>(values.size(), expected));
-}
-
 TEST(Workers, WakeAfterARest) {
   Workers workers(2);
   for (int round = 0; round < 3; ++round) {

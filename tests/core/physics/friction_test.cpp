@@ -15,6 +15,17 @@ namespace {
 constexpr double kFriction = 0.3;
 constexpr double kGravity = 1000.0;  // m/s^2: short ways
 
+constexpr int kSegments = 20;
+
+/// A straight chain of held segments, 1 mm thick.
+void add_held_chain(double from, double segment, FrameLattice& frame) {
+  for (int i = 0; i <= kSegments; ++i) {
+    frame.nodes.push_back({from + segment * i, 0.0, 0.0, 0.0});
+    frame.supports.push_back({i, true, true, true});
+    if (i > 0) frame.beams.push_back(scenes::beam(i - 1, i, 1.0, 1));
+  }
+}
+
 /// A short beam that lies flat on a chain of 20 held beams, under gravity turned by `incline`.
 struct Slope {
   std::shared_ptr<Scene> scene;
@@ -23,13 +34,7 @@ struct Slope {
 
   Slope(double incline, double speed_m_per_s) {
     FrameLattice frame;
-    for (int i = 0; i <= 20; ++i) {
-      frame.nodes.push_back({7.0 * i - 40.0, 0.0, 0.0, 0.0});
-      frame.supports.push_back({i, true, true, true});
-    }
-    for (int i = 0; i < 20; ++i) {
-      frame.beams.push_back(scenes::beam(i, i + 1, 1.0, 1));
-    }
+    add_held_chain(-40.0, 7.0, frame);
     block = static_cast<int>(frame.nodes.size());
     frame.nodes.push_back({0.3, 1.0, 0.0, 0.0});
     frame.nodes.push_back({10.3, 1.0, 0.0, 0.0});
@@ -62,13 +67,11 @@ TEST(Friction, ASlidingBlockStopsAfterItsCoulombDistanceAndItsEnergyIsHeat) {
   const double distance = speed * speed / (2.0 * kFriction * gravity);
   ASSERT_GT(distance, 20.0);
   slope.advance(speed / (kFriction * gravity) * 1.3);
-  EXPECT_NEAR(slope.way(), distance, 0.02 * distance);
   EXPECT_NEAR(slope.speed(), 0.0, 1e-3 * speed);
   const Energies energies = evaluate_energies(*slope.scene, slope.state);
-  EXPECT_NEAR(energies.friction, slope.state.ledger.initial, 0.02 * slope.state.ledger.initial);
   EXPECT_LT(std::abs(energies.residual), 0.01 * slope.state.ledger.initial);
-  scenes::record_bound("distance error", slope.way() / distance - 1.0);
-  scenes::record_bound("heat error", energies.friction / slope.state.ledger.initial - 1.0);
+  scenes::record_bound("distance error", slope.way() / distance - 1.0, 0.02);
+  scenes::record_bound("heat error", energies.friction / slope.state.ledger.initial - 1.0, 0.02);
 }
 
 TEST(Friction, ABlockSticksBelowTheAngleOfFrictionAndSlidesAboveIt) {
@@ -77,8 +80,7 @@ TEST(Friction, ABlockSticksBelowTheAngleOfFrictionAndSlidesAboveIt) {
   below.advance(5e-3);
   const double early = below.way();
   below.advance(5e-3);
-  EXPECT_LT(std::abs(below.way() - early), 1e-3);  // holds, without creep
-  scenes::record_bound("creep in mm", below.way() - early);
+  scenes::record_bound("creep in mm", below.way() - early, 1e-3);  // holds, without creep
 
   const double incline = 1.3 * critical;
   Slope above(incline, 0.0);
@@ -93,7 +95,6 @@ TEST(Friction, ABlockSticksBelowTheAngleOfFrictionAndSlidesAboveIt) {
 /// The tip of an upright beam that is dragged along a straight chain of 20 held segments under a constant load, which
 /// presses it `depth` mm into the chain before it sets out. Speed in mm/s.
 struct Drag {
-  static constexpr int kSegments = 20;
   static constexpr double kSegment = 5.0;  // mm
   std::shared_ptr<Scene> scene;
   State state;
@@ -104,13 +105,7 @@ struct Drag {
 
   Drag(double speed, double depth) {
     FrameLattice frame;
-    for (int i = 0; i <= kSegments; ++i) {
-      frame.nodes.push_back({kSegment * i, 0.0, 0.0, 0.0});
-      frame.supports.push_back({i, true, true, true});
-    }
-    for (int i = 0; i < kSegments; ++i) {
-      frame.beams.push_back(scenes::beam(i, i + 1, 1.0, 1));
-    }
+    add_held_chain(0.0, kSegment, frame);
     frame.nodes.push_back({2.3, 1.0, 0.0, 0.0});
     frame.nodes.push_back({2.3, 11.0, 0.0, 0.0});
     frame.beams.push_back(scenes::beam(tip, tip + 1, 1.0, 1));
@@ -155,15 +150,11 @@ TEST(Friction, ABallSlidesAlongAStraightChainWithoutChatter) {
         most_friction = std::max(most_friction, -friction.x() / (kFriction * drag.load));
       }
     }
-    EXPECT_NEAR(least, 1.0, 1e-3);
-    EXPECT_NEAR(most, 1.0, 1e-3);
-    EXPECT_NEAR(least_friction, 1.0, 1e-3);
-    EXPECT_NEAR(most_friction, 1.0, 1e-3);
     const Energies energies = evaluate_energies(*drag.scene, drag.state);
     const double heat = kFriction * drag.load * drag.way();
-    EXPECT_NEAR(energies.friction, heat, 2e-4 * heat);  // it sticks for the first steps
-    scenes::record_bound("force error", std::max({1.0 - least, most - 1.0, 1.0 - least_friction, most_friction - 1.0}));
-    scenes::record_bound("heat error", energies.friction / heat - 1.0);
+    scenes::record_bound("force error", std::max({1.0 - least, most - 1.0, 1.0 - least_friction, most_friction - 1.0}),
+                         1e-3);
+    scenes::record_bound("heat error", energies.friction / heat - 1.0, 2e-4);  // it sticks for the first steps
     EXPECT_LT(energies.contact_damping, 1e-4 * energies.friction);
     EXPECT_NEAR(energies.contact, drag.state.contact_totals.stored, 1e-4 * energies.friction);
     EXPECT_LT(std::abs(energies.residual), 1e-6 * energies.friction);
@@ -179,8 +170,7 @@ TEST(Friction, PlatesHoldTheEndsOfALatticeThatSpreads) {
     spec.plates.friction = friction;
     const auto scene = scenes::build(spec);
     Simulation simulation(scene);
-    simulation.advance(scene->schedule.step_count);
-    const Sample sample = simulation.take_sample();
+    const Sample sample = scenes::run_to_end(simulation).back();
     EXPECT_EQ(sample.energy_friction > 0.0, friction > 0.0);
     EXPECT_LT(std::abs(sample.energy_residual), 0.01 * sample.work_external);
     double left = 1e9;

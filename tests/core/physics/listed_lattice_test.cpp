@@ -6,7 +6,6 @@
 
 #include "cellcrush/simulation.h"
 #include "scenes/frames.h"
-#include "scenes/run_frame.h"
 
 namespace cellcrush {
 namespace {

@@ -6,7 +6,6 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include "cellcrush/state.h"
 #include "energy/ledger.h"
@@ -151,13 +150,10 @@ TEST(RollingRing, KeepsItsSpeed) {
         ring.advance(kHalfTurn);
         worst = std::max(worst, std::abs(ring.speed() / kRingSpeed - 1.0));
       }
-      EXPECT_LT(worst, 0.003) << thickness;
-      EXPECT_LT(ring.friction(), 2e-4) << thickness;
-      EXPECT_LT(std::abs(ring.residual()), 1e-8) << thickness;
       const std::string on = floor == Floor::wall ? " on a wall" : " on a plate";
-      scenes::record_bound("change of speed in %" + on, 100.0 * worst);
-      scenes::record_bound("heat" + on, ring.friction());
-      scenes::record_bound("residual" + on, ring.residual());
+      scenes::record_bound("change of speed in %" + on, 100.0 * worst, 0.3);
+      scenes::record_bound("heat" + on, ring.friction(), 2e-4);
+      scenes::record_bound("residual" + on, ring.residual(), 1e-8);
     }
   }
 }
@@ -192,9 +188,8 @@ TEST(SlidingRing, GoesOverToRollingAtTheSpeedOfTheClosedForm) {
         ring.advance(0.2 * kHalfTurn);
         mean += ring.speed() / kSamples;
       }
-      EXPECT_NEAR(mean / (ratio * kRingSpeed), 1.0, 0.01) << thickness;
       EXPECT_LT(std::abs(ring.residual()), 1e-8) << thickness;
-      scenes::record_bound("speed error in %", 100.0 * (mean / (ratio * kRingSpeed) - 1.0));
+      scenes::record_bound("speed error in %", 100.0 * (mean / (ratio * kRingSpeed) - 1.0), 1.0);
       // Kinetic energy lost: that of the sliding part of the motion, (1 - ratio) of it.
       EXPECT_NEAR(ring.friction(), 1.0 - ratio, 0.01) << thickness;
       if (floor == Floor::wall) {
@@ -214,24 +209,14 @@ struct Bars {
   State state;
 
   explicit Bars(int elements, double friction) {
-    FrameLattice frame;
-    frame.nodes = {{-12.0, 0.0, 0.0, 0.0}, {12.0, 0.3, 0.0, 0.0}, {-8.0, 1.3, 0.0, 0.0}, {9.0, 1.6, 0.0, 0.0}};
-    frame.beams = {scenes::beam(0, 1, 1.0, elements), scenes::beam(2, 3, 1.2, elements)};
+    FrameLattice frame =
+        scenes::touching_beams({{-12.0, 0.0}, {12.0, 0.3}, {-8.0, 1.3}, {9.0, 1.6}}, {{0, 1}, {2, 3}}, 1.0, elements);
+    frame.beams[1].thickness_mm = 1.2;
     frame.initial_velocities = {{0, 3.0, 0.0, 0.0}, {1, 3.0, 0.0, 0.0}, {2, -4.0, -2.0, 0.0}, {3, -4.0, -2.0, 0.0}};
-    frame.self_contact = true;
-    SceneSpec spec = scenes::elastic_frame(frame);
+    SceneSpec spec = scenes::in_double_precision(scenes::elastic_frame(frame));
     spec.contact.friction = friction;
-    spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
     scene = scenes::build(spec);
     state = make_initial_state(*scene);
-  }
-
-  [[nodiscard]] double angular_momentum() const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < scene->particle_count(); ++i) {
-      sum += scene->mass[i] * cross(state.position[i], state.velocity[i]) + scene->inertia[i] * state.spin[i];
-    }
-    return sum;
   }
 };
 
@@ -239,7 +224,7 @@ struct Bars {
 TEST(RubbingBars, KeepTheirAngularMomentum) {
   for (const int elements : {1, 3, 4}) {
     Bars bars(elements, kCoefficient);
-    const double start = bars.angular_momentum();
+    const double start = scenes::momentum_of(*bars.scene, bars.state).angular;
     double impulse = 0.0;
     double worst = 0.0;
     while (bars.state.time < kPassing) {
@@ -250,12 +235,11 @@ TEST(RubbingBars, KeepTheirAngularMomentum) {
         force += is_upper ? bars.state.friction_force[i] : Vector2(Vector2::Zero());
       }
       impulse += bars.scene->schedule.time_step * force.norm();
-      worst = std::max(worst, std::abs(bars.angular_momentum() - start));
+      worst = std::max(worst, std::abs(scenes::momentum_of(*bars.scene, bars.state).angular - start));
     }
     const double lost_at_mid_lines = impulse * 1.1;
     EXPECT_GT(lost_at_mid_lines, 1e-3 * std::abs(start)) << elements;
-    EXPECT_LT(worst, 1e-9 * lost_at_mid_lines) << elements;
-    scenes::record_bound("change over impulse times distance", worst / lost_at_mid_lines);
+    scenes::record_bound("change over impulse times distance", worst / lost_at_mid_lines, 1e-9);
   }
 }
 
@@ -269,9 +253,8 @@ TEST(RubbingBars, TurnIntoHeatWhatFrictionTakes) {
       }
       const Energies energies = evaluate_energies(*bars.scene, bars.state);
       const double residual = energies.residual / bars.state.ledger.initial;
-      EXPECT_LT(std::abs(residual), 1e-4) << elements;
       EXPECT_EQ(energies.friction > 0.001 * bars.state.ledger.initial, friction > 0.0) << elements;
-      scenes::record_bound(friction > 0.0 ? "residual" : "residual without friction", residual);
+      scenes::record_bound(friction > 0.0 ? "residual" : "residual without friction", residual, 1e-4);
     }
   }
 }

@@ -1,13 +1,10 @@
-#include "core/reference/reference_contact.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
-#include "core/reference/reference_penalty.h"
-#include "core/reference/reference_rim.h"
+#include "core/reference/reference_crush.h"
 
 namespace cellcrush::reference {
 namespace {

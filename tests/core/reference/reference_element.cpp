@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/reference/reference_section.h"
-
 namespace cellcrush::reference {
 namespace {
 

@@ -1,11 +1,41 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
-#include "core/reference/plane.h"
-#include "core/reference/reference_fibre.h"
-
 namespace cellcrush::reference {
+
+using Vector = Eigen::Vector2d;
+
+inline double cross(const Vector& a, const Vector& b) { return a.x() * b.y() - a.y() * b.x(); }
+inline Vector turned_left(const Vector& a) { return {-a.y(), a.x()}; }
+inline Vector turned_right(const Vector& a) { return {a.y(), -a.x()}; }
+
+/// Bilinear law with mixed hardening. MPa.
+struct Material {
+  double modulus = 0.0;             ///< E
+  double yield_stress = 0.0;        ///< sigma_y
+  double hardening_modulus = 0.0;   ///< H
+  double isotropic_fraction = 1.0;  ///< beta
+  double density = 0.0;             ///< rho, tonne / mm^3
+  bool plane_strain = false;        ///< otherwise plane stress
+};
+
+/// History of a fibre. MPa.
+struct Fibre {
+  double stress = 0.0;          ///< sigma
+  double back_stress = 0.0;     ///< alpha
+  double plastic_strain = 0.0;  ///< ep, accumulated
+};
+
+/// What a fibre does in a step.
+struct Flow {
+  double strain = 0.0;  ///< plastic strain increment, with its sign
+  double work = 0.0;    ///< plastic work, MPa: over the mean of the stresses at which the flow begins and ends (E10)
+};
+
+/// Return mapping of a fibre under a strain increment (Eq. 33-39).
+Flow return_fibre(const Material& material, double strain_increment, Fibre& fibre);
 
 /// A point of an integration rule; the weights of a rule sum to 1.
 struct RulePoint {
@@ -83,5 +113,20 @@ Thickening thickening_of(const ElementRule& rule, const ElementData& data, doubl
 
 /// Energy stored by the stresses, N mm (E10).
 double elastic_energy(const ElementRule& rule, const ElementData& data, const ElementHistory& history);
+
+/// L of E5c: the length over which strains are taken.
+double strained_length(const ElementRule& rule, const ElementData& data, double length);
+
+/// V_0, mm^3.
+double volume_of(const ElementData& data);
+
+/// Area and modulus of an element of the length l, which may be squashed (E5c).
+struct SquashedBar {
+  double area;
+  double modulus;
+  double slope;  // d ln E_l / dl
+};
+
+SquashedBar squash(const ElementRule& rule, const ElementData& data, double length);
 
 }  // namespace cellcrush::reference

@@ -16,7 +16,8 @@
 namespace cellcrush {
 namespace {
 
-TEST(Presets, HaveExactlyTheParticlesOfThePaper) {
+// As in the paper, with two elements per wall.
+TEST(Presets, HaveExactlyTheParticlesOfThePaperAndExampleTwoOneLengthWidthAndMass) {
   const std::pair<const char*, std::int64_t> counts[] = {{"type-i", 8099},
                                                          {"type-ii-as-stated", 12609},
                                                          {"type-ii-as-counted", 4125},
@@ -26,18 +27,22 @@ TEST(Presets, HaveExactlyTheParticlesOfThePaper) {
                                                          {"papka-kyriakides-2", 814}};
   for (const auto& [name, particles] : counts) {
     SceneSpec spec = scenes::preset(name);
-    spec.elements_per_wall = 2;  // as in the paper
+    spec.elements_per_wall = 2;
     const auto scene = scenes::build(spec);
     ASSERT_TRUE(scene) << name;
-    EXPECT_EQ(facts_of(*scene).particle_count, particles) << name;
+    const SceneFacts facts = facts_of(*scene);
+    EXPECT_EQ(facts.particle_count, particles) << name;
+    if (std::string(name).starts_with("papka")) continue;
+    EXPECT_NEAR(facts.length, 512.0, 1.0) << name;
+    EXPECT_NEAR(facts.width, 128.0, 2.5) << name;
+    EXPECT_NEAR(facts.mass * 1e6, 72.5, 1.8) << name;  // grams of the walls; Eq. 48-50 count the joints' overlap once
   }
 }
 
-TEST(TypeI, HasExactlyTheParticlesElementsAndMassOfThePaper) {
+TEST(TypeI, HasExactlyTheElementsMassAndStepsOfThePaper) {
   const auto scene = scenes::build(scenes::preset("type-i"));
   ASSERT_TRUE(scene);
   const SceneFacts facts = facts_of(*scene);
-  EXPECT_EQ(facts.particle_count, 8099);
   EXPECT_EQ(facts.element_count, 9642);
   EXPECT_NEAR(facts.mass * 1e6, 4821 * 4.0 * 0.3464 * 4.0 * 2700e-6, 1e-9);  // grams
   EXPECT_NEAR(facts.mass * 1e6, 72.15, 0.01);
@@ -49,17 +54,6 @@ TEST(TypeI, HasExactlyTheParticlesElementsAndMassOfThePaper) {
   EXPECT_NEAR(static_cast<double>(facts_of(*scenes::build(fixed)).step_count), 20500.0, 20.0);
   EXPECT_EQ(scene->section.section_count(), 4u);
   EXPECT_EQ(scene->section.depth_count(), 6u);
-}
-
-TEST(Presets, ExampleTwoHasOneLengthWidthAndMass) {
-  for (const char* name :
-       {"type-i", "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated", "type-iii-as-counted"}) {
-    const auto scene = scenes::build(scenes::preset(name));
-    const SceneFacts facts = facts_of(*scene);
-    EXPECT_NEAR(facts.length, 512.0, 1.0) << name;
-    EXPECT_NEAR(facts.width, 128.0, 2.5) << name;
-    EXPECT_NEAR(facts.mass * 1e6, 72.5, 1.8) << name;  // grams of the walls; Eq. 48-50 count the joints' overlap once
-  }
 }
 
 SceneSpec spec_of(const RegularLattice& lattice) {
@@ -111,23 +105,16 @@ TEST(Lattices, StiffRowsThickenAllWallsOfTheirCells) {
   EXPECT_EQ(thick, 4 * 6 - 3);  // the four cells of row 2 share three walls
 }
 
-TEST(Hexagons, CrushAlongYTurnsLengthAndWidth) {
+TEST(Hexagons, AlongYTurnLengthAndWidthAndElementsAWallDivideEveryWall) {
   SceneSpec spec = scenes::hexagon_specimen(5, 4);
-  spec.loading.direction = LoadingSpec::Direction::y;
-  const auto scene = scenes::build(spec);
-  ASSERT_TRUE(scene);
-  EXPECT_NEAR(scene->length, 26.0, 1e-9);
-  EXPECT_NEAR(scene->width, 5.0 * 4.0 * std::sqrt(3.0), 1e-9);
-  EXPECT_EQ(scene->plates.axis, 1);
-}
-
-TEST(Hexagons, ElementsAWallDivideEveryWall) {
-  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   const auto two = scenes::build(spec);
+  spec.loading.direction = LoadingSpec::Direction::y;
   spec.elements_per_wall = 5;
-  spec.numerics.time_step_s = 0.0;
   const auto five = scenes::build(spec);
   ASSERT_TRUE(two && five);
+  EXPECT_NEAR(five->length, 26.0, 1e-9);
+  EXPECT_NEAR(five->width, 5.0 * 4.0 * std::sqrt(3.0), 1e-9);
+  EXPECT_EQ(five->plates.axis, 1);
   EXPECT_EQ(five->element_count(), two->element_count() / 2 * 5);
   EXPECT_NEAR(five->total_mass, two->total_mass, 1e-15);
 }
@@ -210,10 +197,8 @@ double first_peak_of_squares(double bow) {
   Simulation simulation(scenes::build(crushed_squares({0.001, 1, bow})));
   EXPECT_NEAR(simulation.take_sample().energy_elastic, 0.0, 1e-20) << "walls have no stress in the bowed shape";
   double peak = 0.0;
-  while (simulation.status().kind == RunStatus::Kind::running) {
-    simulation.advance(50);
-    peak = std::max(peak, simulation.take_sample().stress_impact);
-  }
+  scenes::watch(
+      simulation, [&](const Sample& sample) { peak = std::max(peak, sample.stress_impact); }, 50);
   return peak;
 }
 

@@ -1,9 +1,17 @@
+// What a run says of itself: every shortcut with its reason, what was asked for as such, and the mesh by its fidelity.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cellcrush/simulation.h"
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "cellcrush/fidelity.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "scenes/presets.h"
+#include "scenes/rigid_walls.h"
+#include "scenes/state_hash.h"
 
 namespace cellcrush {
 namespace {
@@ -11,26 +19,29 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using Fidelity = NumericsSpec::Fidelity;
 
-// As in `check` and result.h5: every shortcut with its reason, and what was asked for as such.
+std::vector<std::string> said_of(const SceneSpec& spec) { return facts_of(*scenes::build(spec)).modelled; }
+
+// As in `check` and result.h5.
 TEST(WhatIsModelled, SaysWhyEachShortcutIsTaken) {
-  const SceneSpec spec = scenes::hexagon_specimen(4, 3);
-  const auto said = facts_of(*scenes::build(spec)).modelled;
+  const auto said = said_of(scenes::hexagon_specimen(4, 3));
   EXPECT_THAT(said, Contains(HasSubstr("by the faces of the lattice: it is connected, planar and closed")));
   EXPECT_THAT(said, Contains(HasSubstr("perfectly plastic; each stores only its stress")));
   EXPECT_THAT(said, Contains(HasSubstr("in single precision, which halves the memory")));
   EXPECT_THAT(said, Contains(HasSubstr("Plates: rigid, unilateral, not meshed")));
   EXPECT_THAT(said, Contains(HasSubstr("Symmetry: not used")));
   EXPECT_THAT(said, Not(Contains(HasSubstr("as requested"))));
+  EXPECT_THAT(said_of(scenes::TossedFrame::spec(0.0)),
+              Contains(HasSubstr("Rigid walls: 1 half plane, 1 of them moving")));
 }
 
 TEST(WhatIsModelled, SaysWhatWasAskedFor) {
-  SceneSpec spec = scenes::hexagon_specimen(4, 3);
+  SceneSpec spec = scenes::in_double_precision(scenes::hexagon_specimen(4, 3));
   spec.contact.search = ContactSpec::Search::buckets;
-  spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   spec.numerics.time_step_s = 1e-8;
   spec.material.hardening_modulus_mpa = 1000.0;
-  const auto said = facts_of(*scenes::build(spec)).modelled;
+  const auto said = said_of(spec);
   EXPECT_THAT(said, Contains("Contacts are searched by buckets in space, as requested (contact.search)."));
   EXPECT_THAT(said, Contains("Step: as requested (numerics.time_step_s)."));
   EXPECT_THAT(said,
@@ -40,53 +51,117 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
 // Beyond 1 / sqrt(2) of the stable step force-based elements can vibrate in cycles of four steps.
 TEST(WhatIsModelled, WarnsOfALongStepOfForceBasedElements) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
-  const auto warning = Contains(HasSubstr("more than 0.7 of the stability limit"));
-  const double stable = scenes::build(spec)->stable_step;
-  spec.numerics.time_step_s = 0.7 * stable;
-  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(warning));
-  spec.numerics.time_step_s = 0.72 * stable;
-  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, warning);
+  const auto warns_at = [&spec](double share) {
+    spec.numerics.time_step_s = 0.0;
+    spec.numerics.time_step_s = share * scenes::build(spec)->stable_step;
+    return testing::Value(said_of(spec), Contains(HasSubstr("more than 0.7 of the stability limit")));
+  };
+  EXPECT_FALSE(warns_at(0.7));
+  EXPECT_TRUE(warns_at(0.72));
   spec.section.formulation = SectionSpec::Formulation::displacement_based;
-  spec.numerics.time_step_s = 0.0;
-  spec.numerics.time_step_s = 0.9 * scenes::build(spec)->stable_step;
-  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(warning));
+  EXPECT_FALSE(warns_at(0.9));
 }
 
 TEST(WhatIsModelled, SaysThatSlowLoadingNeedsDoublePrecision) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
   const auto said = Contains(HasSubstr("rounding errors of slow loading add up"));
   spec.loading.speed_m_per_s = 0.1;
-  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(said));
+  EXPECT_THAT(said_of(spec), Not(said));
   spec.loading.speed_m_per_s = 0.001;
-  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, said);
+  EXPECT_THAT(said_of(spec), said);
 }
 
 // A formulation that is changed alone keeps the points of the other.
 TEST(WhatIsModelled, WarnsOfPointsThatAreComputedOneByOne) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
   const auto warning = Contains(HasSubstr("these are computed one element at a time"));
-  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(warning));
+  EXPECT_THAT(said_of(spec), Not(warning));
   spec.section.formulation = SectionSpec::Formulation::displacement_based;
   spec.section.axial_points = 4;
-  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, warning);
+  EXPECT_THAT(said_of(spec), warning);
   spec.section.axial_points = 2;
-  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(warning));
+  EXPECT_THAT(said_of(spec), Not(warning));
 }
 
 TEST(WhatIsModelled, NamesTheBoundOfTheStep) {
-  const auto step_of = [](const char* preset, double speed) {
+  const auto expect_step = [](const char* preset, double speed, const char* bound) {
     SceneSpec spec = scenes::preset(preset);
     spec.loading.speed_m_per_s = speed;
-    for (const std::string& line : facts_of(*scenes::build(spec)).modelled) {
-      if (line.rfind("Step: ", 0) == 0) {
-        return line;
-      }
-    }
-    return std::string();
+    EXPECT_THAT(said_of(spec), Contains(testing::AllOf(testing::StartsWith("Step: "), HasSubstr(bound))));
   };
-  EXPECT_THAT(step_of("type-i", 10.0), HasSubstr("lightest, stiffest element"));
-  EXPECT_THAT(step_of("type-i", 400.0), HasSubstr("plate moves by 0.08"));
-  EXPECT_THAT(step_of("type-iii-as-counted", 10.0), HasSubstr("stacked along the crush"));
+  expect_step("type-i", 10.0, "lightest, stiffest element");
+  expect_step("type-i", 400.0, "plate moves by 0.08");
+  expect_step("type-iii-as-counted", 10.0, "stacked along the crush");
+}
+
+TEST(Fidelity, WithoutOneTheMeshIsTheLatticesStandard) {
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
+  EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 2);
+  EXPECT_EQ(describe_fidelity(spec), "Mesh: elements_per_wall is 2, STANDARD for hexagons.");
+  for (const char* preset : {"type-ii-as-counted", "type-iii-as-counted"}) {
+    spec = scenes::preset(preset);
+    EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 16) << preset;
+    EXPECT_THAT(describe_fidelity(spec),
+                HasSubstr("is 16, STANDARD for " + scenes::cells_of(spec).kind + "s, whose walls"));
+    spec.section.formulation = SectionSpec::Formulation::displacement_based;
+    EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 2) << "the paper's elements keep the paper's mesh";
+    EXPECT_THAT(describe_fidelity(spec), HasSubstr("not known"));
+  }
+  const SceneSpec frame = scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2);
+  EXPECT_EQ(fill_in_fidelity(frame).elements_per_wall, 2);
+  EXPECT_EQ(describe_fidelity(frame), "");
+}
+
+TEST(Fidelity, EveryLatticeHasACoarserAndAFinerMesh) {
+  const auto expect_meshes = [](const SceneSpec& spec, const std::vector<int>& expected) {
+    std::vector<int> meshes;
+    for (const FidelityPoint& point : fidelity_points(spec)) meshes.push_back(point.elements_per_wall);
+    EXPECT_EQ(meshes, expected);
+  };
+  SceneSpec spec = scenes::preset("type-i");
+  expect_meshes(spec, {1, 2, 8});
+  spec.loading.direction = LoadingSpec::Direction::y;
+  expect_meshes(spec, {2, 8, 16});
+  expect_meshes(scenes::preset("type-ii-as-counted"), {8, 16, 32});
+  expect_meshes(scenes::preset("type-iii-as-counted"), {8, 16, 32});
+}
+
+TEST(Fidelity, FastCrushesOfHexagonsAlongYHaveAFinerMesh) {
+  SceneSpec spec = scenes::preset("type-i");
+  const auto standard_at = [&spec](double speed) {
+    spec.loading.speed_m_per_s = speed;
+    return fill_in_fidelity(spec).elements_per_wall;
+  };
+  EXPECT_EQ(standard_at(100.0), 2);
+  spec.loading.direction = LoadingSpec::Direction::y;
+  EXPECT_EQ(standard_at(25.0), 2);
+  EXPECT_EQ(describe_fidelity(spec), "Mesh: elements_per_wall is 2, STANDARD for hexagons.");
+  EXPECT_EQ(standard_at(26.0), 8);
+  EXPECT_EQ(describe_fidelity(spec),
+            "Mesh: elements_per_wall is 8, STANDARD for hexagons crushed along y faster than 25 m/s.");
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  EXPECT_EQ(standard_at(26.0), 2);
+}
+
+TEST(Fidelity, IsTheSameCrushBitForBitAsWhatItFillsInAndTells) {
+  const auto hash_after_steps = [](const SceneSpec& spec) {
+    return scenes::hash_of(scenes::state_after(*scenes::build(spec), 200));
+  };
+  const SceneSpec plain = scenes::hexagon_specimen(4, 3);
+  for (const FidelityPoint& point : fidelity_points(plain)) {
+    SceneSpec spec = plain;
+    spec.numerics.fidelity = point.fidelity;
+    SceneSpec spelled = plain;
+    spelled.elements_per_wall = point.elements_per_wall;
+    EXPECT_EQ(hash_after_steps(spec), hash_after_steps(spelled)) << point.name;
+    EXPECT_EQ(describe_fidelity(spec), "Mesh: elements_per_wall is " + std::to_string(point.elements_per_wall) + ", " +
+                                           point.name + " for hexagons.");
+    EXPECT_EQ(complete_spec(spec, *scenes::build(spec)).elements_per_wall, point.elements_per_wall);
+    EXPECT_EQ(std::ranges::count(said_of(spec), describe_fidelity(spec)), 1) << point.name;
+    spec.elements_per_wall = 3;
+    EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 3) << "what is given stays";
+    EXPECT_THAT(describe_fidelity(spec), HasSubstr("is given"));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,218 @@
+// What is refused of a case, with field, value and remedy, and what is noted of one that is accepted.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "cellcrush/spec_checker.h"
+#include "scenes/frames.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
+#include "scenes/rigid_walls.h"
+
+namespace cellcrush {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::IsSupersetOf;
+using testing::UnorderedElementsAre;
+using Fields = std::vector<std::string>;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+Fields fields_of(const Problems& problems) {
+  Fields fields;
+  for (const Problem& problem : problems) {
+    fields.push_back(problem.field);
+    EXPECT_FALSE(problem.remedy.empty()) << problem.field;
+  }
+  return fields;
+}
+
+/// Problems of 20 x 7 hexagons, changed.
+Problems problems_with(const std::function<void(SceneSpec&)>& change) {
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
+  change(spec);
+  return build_scene(spec).problems;
+}
+
+TEST(CheckSpec, EveryPresetIsSoundAndPlausible) {
+  for (const auto& [name, spec] : scenes::presets()) {
+    EXPECT_TRUE(build_scene(spec).problems.empty()) << name;
+    EXPECT_THAT(find_implausible(spec), IsEmpty()) << name;
+  }
+}
+
+TEST(CheckSpec, EmptyCaseNamesEverythingThatIsMissing) {
+  EXPECT_THAT(fields_of(build_scene({}).problems),
+              IsSupersetOf({"lattice", "depth_mm", "material.youngs_modulus_mpa", "material.yield_stress_mpa",
+                            "material.density_kg_per_m3", "loading.speed_m_per_s"}));
+}
+
+TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
+  const Problems problems = problems_with([](SceneSpec& spec) {
+    scenes::cells_of(spec) = scenes::hexagons(20, 7, 4.0, -0.1);
+    spec.loading.speed_m_per_s = 0.0;
+    spec.material.density_kg_per_m3 = std::numeric_limits<double>::quiet_NaN();
+    spec.material.isotropic_fraction = -0.5;
+    spec.contact.impact_speed_m_per_s = -1.0;
+    spec.section.depth_points = 1;
+  });
+  EXPECT_THAT(fields_of(problems), UnorderedElementsAre("lattice.hexagon.wall_thickness_mm", "loading.speed_m_per_s",
+                                                        "material.density_kg_per_m3", "material.isotropic_fraction",
+                                                        "contact.impact_speed_m_per_s", "section.depth_points"));
+  for (const Problem& problem : problems) {
+    if (problem.field == "lattice.hexagon.wall_thickness_mm") {
+      EXPECT_EQ(problem.value, "-0.1");
+    } else if (problem.field == "material.density_kg_per_m3") {
+      EXPECT_THAT(problem.message, HasSubstr("finite"));
+    }
+  }
+}
+
+TEST(CheckSpec, RefusesAFixedStepAboveTheStableOneAndSaysBoth) {
+  const Problems problems = problems_with([](SceneSpec& spec) { spec.numerics.time_step_s = 4e-7; });
+  ASSERT_THAT(fields_of(problems), ElementsAre("numerics.time_step_s"));
+  EXPECT_EQ(problems[0].value, "4e-07");
+  EXPECT_THAT(problems[0].message, HasSubstr("3.91"));
+}
+
+TEST(CheckSpec, ImperfectionBowAndInclusionsAreBoundedByTheLattice) {
+  EXPECT_THAT(fields_of(problems_with([](SceneSpec& spec) {
+                spec.imperfection.amplitude_mm = 0.5;
+                spec.imperfection.bow_mm = 0.21;
+                spec.inclusions.rows = {0, 3, 8};
+                spec.inclusions.thickness_factor = 100.0;
+              })),
+              UnorderedElementsAre("lattice.imperfection.amplitude_mm", "lattice.imperfection.bow_mm",
+                                   "lattice.inclusions.rows[0]", "lattice.inclusions.rows[2]",
+                                   "lattice.inclusions.thickness_factor"));
+  const auto bowed = [](int elements) {
+    return problems_with([elements](SceneSpec& spec) {
+      spec.imperfection.bow_mm = 0.01;
+      spec.elements_per_wall = elements;
+    });
+  };
+  EXPECT_THAT(bowed(2), IsEmpty());
+  EXPECT_THAT(fields_of(bowed(1)), ElementsAre("lattice.imperfection.bow_mm"));
+  SceneSpec frame = scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2);
+  frame.imperfection.bow_mm = 0.01;
+  EXPECT_THAT(fields_of(build_scene(frame).problems), IsSupersetOf({"lattice.imperfection.bow_mm"}));
+}
+
+TEST(CheckSpec, RefusesALatticeOfRigidCellsAlone) {
+  SceneSpec spec = scenes::hexagon_specimen(8, 3);
+  spec.inclusions.rows = {1, 2, 3, 2};
+  EXPECT_THAT(fields_of(build_scene(spec).problems), ElementsAre("lattice.inclusions.rows"));
+  spec.inclusions.model = Inclusions::Model::meshed;
+  EXPECT_THAT(build_scene(spec).problems, IsEmpty());
+  spec.inclusions = {{1, 3}};
+  EXPECT_THAT(build_scene(spec).problems, IsEmpty());
+}
+
+/// A bar along x, 1 mm thick, from 0 to 100, that has a wall.
+Problems problems_of(const FrameLattice::RigidWall& wall, bool pinned = false) {
+  SceneSpec spec = scenes::FallingBar::spec(2);
+  auto& frame = std::get<FrameLattice>(spec.lattice);
+  frame.rigid_walls = {wall};
+  frame.beams[0].pin_start = pinned;
+  return build_scene(spec).problems;
+}
+
+TEST(CheckRigidWalls, AcceptsThemWhereTheyTouchTheFrameOrNot) {
+  EXPECT_THAT(problems_of({-10.0, 5.0, 2.0, 0.0, 0.3, {}}), IsEmpty());
+  EXPECT_THAT(problems_of({-0.25, 0.0, 1.0, 0.0, 0.0, {}}), IsEmpty());
+  EXPECT_THAT(problems_of({-0.25, 7.0, 1.0, 0.0, 0.0, {{0.0, -1.0}, {1.0, 3.0}}}), IsEmpty());
+}
+
+TEST(CheckRigidWalls, RefusesWhatIsNoneAndAFrameThatStandsInOne) {
+  struct Refused {
+    FrameLattice::RigidWall wall;
+    std::string field, value, message;
+  };
+  for (const auto& [wall, field, value, message] : std::vector<Refused>{
+           {{-10.0, 0.0, 0.0, 0.0, 0.0, {}}, ".normal_x", "0", "no direction"},
+           {{kInfinite, 0.0, 1.0, 0.0, 0.0, {}}, ".x_mm", "inf", "finite"},
+           {{-10.0, 2e9, 1.0, 0.0, 0.0, {}}, ".y_mm", "2e+09", "too large"},
+           {{-10.0, 0.0, 1.0, kInfinite, 0.0, {}}, ".normal_y", "inf", "finite"},
+           {{-10.0, 0.0, 1.0, 0.0, -0.1, {}}, ".friction", "-0.1", "too small"},
+           {{-10.0, 0.0, 1.0, 0.0, 0.0, {{1.0, 0.0}, {1.0, 2.0}}}, ".displacement_mm.points", "", "function of time"},
+           {{0.0, 0.0, 1.0, 0.0, 0.0, {}}, "", "0.25 mm", "lattice.frame.nodes[0]"},
+           {{-10.0, 0.0, -3.0, 0.0, 0.0, {}}, "", "110.25 mm", "lattice.frame.nodes[1]"},  // the wrong way round
+           {{-0.25, 0.0, 1.0, 0.0, 0.0, {{0.0, 0.5}, {1.0, 0.0}}}, "", "0.5 mm", "time 0"}}) {
+    const Problems problems = problems_of(wall);
+    ASSERT_THAT(fields_of(problems), ElementsAre("lattice.frame.rigid_walls[0]" + field)) << message;
+    EXPECT_EQ(problems[0].value, value);
+    EXPECT_THAT(problems[0].message, HasSubstr(message));
+  }
+  const Problems of_pins = problems_of({-10.0, 0.0, 1.0, 0.0, 0.0, {}}, true);
+  ASSERT_THAT(fields_of(of_pins), ElementsAre("lattice.frame.rigid_walls"));
+  EXPECT_THAT(of_pins[0].message, HasSubstr("pinned"));
+}
+
+Fields fields_noted(const std::function<void(SceneSpec&)>& change) {
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
+  change(spec);
+  return fields_of(find_implausible(spec));
+}
+
+TEST(Plausibility, SoundMaterialsAreNotNoted) {
+  struct Sound {
+    double modulus, yield, density;
+  };
+  // Steel, titanium, nylon, tungsten, soft annealed copper.
+  for (const Sound& sound : {Sound{210000, 800, 7850}, Sound{114000, 880, 4430}, Sound{2700, 60, 1140},
+                             Sound{400000, 750, 19250}, Sound{117000, 33, 8960}}) {
+    const auto noted = fields_noted([&](SceneSpec& spec) {
+      spec.material.youngs_modulus_mpa = sound.modulus;
+      spec.material.yield_stress_mpa = sound.yield;
+      spec.material.density_kg_per_m3 = sound.density;
+    });
+    EXPECT_THAT(noted, IsEmpty()) << sound.modulus;
+  }
+}
+
+TEST(Plausibility, UnitsThatAreMistakenAndWhatIsBeyondTheModelAreNotedByName) {
+  const auto with = [](std::optional<double> MaterialSpec::*field, double value) {
+    return fields_noted([&](SceneSpec& spec) { spec.material.*field = value; });
+  };
+  for (const double density : {2.68, 2.7e-9, 270.0}) {
+    EXPECT_THAT(with(&MaterialSpec::density_kg_per_m3, density), ElementsAre("material.density_kg_per_m3"));
+  }
+  EXPECT_THAT(with(&MaterialSpec::youngs_modulus_mpa, 70),
+              ElementsAre("material.youngs_modulus_mpa", "material.yield_stress_mpa", "loading.speed_m_per_s"));
+  EXPECT_THAT(with(&MaterialSpec::youngs_modulus_mpa, 69e9),
+              ElementsAre("material.youngs_modulus_mpa", "material.yield_stress_mpa"));
+  for (const double yield : {76e3, 0.292}) {
+    EXPECT_THAT(with(&MaterialSpec::yield_stress_mpa, yield), ElementsAre("material.yield_stress_mpa"));
+  }
+  const auto of_walls = [](double share) {
+    return fields_noted([share](SceneSpec& spec) { scenes::cells_of(spec).wall_thickness_mm = share * 4.0; });
+  };
+  EXPECT_THAT(of_walls(0.26), ElementsAre("lattice.hexagon.wall_thickness_mm"));
+  EXPECT_THAT(of_walls(0.24), IsEmpty());
+  EXPECT_THAT(of_walls(0.0004), ElementsAre("lattice.hexagon.wall_thickness_mm"));
+  const auto at_speed = [](double speed) {
+    return fields_noted([speed](SceneSpec& spec) { spec.loading.speed_m_per_s = speed; });
+  };
+  EXPECT_THAT(at_speed(600), ElementsAre("loading.speed_m_per_s"));
+  EXPECT_THAT(at_speed(400), IsEmpty());
+}
+
+TEST(Plausibility, ANoteSaysWhatMayBeMeant) {
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
+  spec.material.density_kg_per_m3 = 2.68;
+  const auto notes = find_implausible(spec);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].value, "2.68");
+  EXPECT_THAT(notes[0].message, HasSubstr("g/cm^3"));
+  EXPECT_THAT(notes[0].remedy, HasSubstr("2680 kg/m^3"));
+}
+
+}  // namespace
+}  // namespace cellcrush
