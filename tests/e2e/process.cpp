@@ -58,6 +58,8 @@ Process::Process(const std::vector<std::string>& command) : start_(Clock::now())
   arguments.push_back(nullptr);
   const auto [output_read, output_write] = make_pipe();
   const auto [error_read, error_write] = make_pipe();
+  // A daemon whose log nobody reads yet must not stand still.
+  fcntl(error_write, F_SETPIPE_SZ, 1 << 20);
   const pid_t parent = getpid();
   id_ = fork();
   if (id_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
@@ -95,8 +97,12 @@ bool Process::read_some(Clock::time_point deadline) {
 }
 
 bool Process::wait_for_output(const std::string& text, std::chrono::milliseconds limit) {
+  return read_until([&] { return output_.find(text) != std::string::npos; }, limit);
+}
+
+bool Process::read_until(const std::function<bool()>& condition, std::chrono::milliseconds limit) {
   const auto deadline = Clock::now() + limit;
-  while (output_.find(text) == std::string::npos) {
+  while (!condition()) {
     if (!read_some(deadline)) return false;
   }
   return true;

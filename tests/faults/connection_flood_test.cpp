@@ -15,7 +15,6 @@
 
 #include "access/token_file.h"
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "server/certificates.h"
 #include "server/small_case.h"

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <iostream>
 #include <set>
-#include <thread>
 
-#include "faults/rounds.h"
+#include "faults/fault_fixture.h"
 #include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
@@ -34,13 +34,12 @@ class LittleMemoryTest : public DaemonFixture {
   // FAILED; or PENDING, where not even the program could be loaded, which holds the queue; or RUNNING, where there was
   // enough.
   static v1::Job::State wait_for_an_end(Client& client, const std::string& job) {
-    v1::Job now = client.get(job);
-    for (int i = 0; i < 300; ++i) {
-      const bool is_held = now.state() == v1::Job::PENDING && !now.cause_message().empty();
-      if (now.state() == v1::Job::FAILED || is_held) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    v1::Job now;
+    wait_until([&] {
       now = client.get(job);
-    }
+      const bool is_held = now.state() == v1::Job::PENDING && !now.cause_message().empty();
+      return now.state() == v1::Job::FAILED || is_held;
+    });
     return now.state();
   }
 

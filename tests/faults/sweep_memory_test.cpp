@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/sweep_requests.h"
 
 namespace cellcrush::testing {
@@ -14,21 +13,13 @@ class SweepMemoryTest : public FaultFixture {
  protected:
   // A sweep of a preset, checked but not queued.
   static void check(Client& client, int points) {
-    v1::GetPresetRequest preset_request;
-    preset_request.set_name("hexagon-small");
-    v1::Preset preset;
-    ASSERT_TRUE(client.cases->GetPreset(bounded_context().get(), preset_request, &preset).ok());
-    v1::CreateSweepRequest request;
+    auto request = sweep_of(client.preset("hexagon-small"), kSpeed, {});
     request.set_validate_only(true);
-    *request.mutable_sweep()->mutable_case_() = preset.case_();
-    auto& axis = *request.mutable_sweep()->add_axes();
-    axis.set_field(kSpeed);
+    auto& axis = *request.mutable_sweep()->mutable_axes(0);
     axis.mutable_linear()->set_first(50.0);
     axis.mutable_linear()->set_last(150.0);
     axis.mutable_linear()->set_count(points);
-    v1::Sweep sweep;
-    const auto status = client.sweeps->CreateSweep(bounded_context().get(), request, &sweep);
-    ASSERT_TRUE(status.ok()) << status.error_message();
+    create(client, request);
   }
 };
 

@@ -1,7 +1,6 @@
 // What the log tells of calls: those that changed something, and those that were refused.
 #include <gmock/gmock.h>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "log_format.h"
 #include "server/gate_fixture.h"
 #include "server/log_capture.h"
@@ -30,8 +29,7 @@ TEST_F(CallLogTest, EachCallThatChangesSomethingIsOneLine) {
   options.workers = 1;
   start(options);
   const auto jobs = v1::Jobs::NewStub(channel({}));
-  v1::CreateJobRequest create;
-  *create.mutable_case_() = endless_case();
+  auto create = job_of(endless_case());
   create.set_validate_only(true);
   v1::Job job;
   ASSERT_TRUE(jobs->CreateJob(as("anna").get(), create, &job).ok());
@@ -65,12 +63,8 @@ TEST_F(CallLogTest, EachCallThatChangesSomethingIsOneLine) {
   for (const char* words : {"jobs/1 resumed by anna", "jobs/1 cancelled by anna", "jobs/1 deleted by anna"})
     EXPECT_EQ(told(words), 1) << words;
 
-  v1::CancelSweepRequest cancel;
-  cancel.set_name("sweeps/1");
-  ASSERT_TRUE(sweeps->CancelSweep(as("chief").get(), cancel, &sweep).ok());
-  v1::RetryFailedJobsRequest retry;
-  retry.set_name("sweeps/1");
-  ASSERT_TRUE(sweeps->RetryFailedJobs(as("bob").get(), retry, &sweep).ok());
+  ASSERT_TRUE(sweeps->CancelSweep(as("chief").get(), named<v1::CancelSweepRequest>("sweeps/1"), &sweep).ok());
+  ASSERT_TRUE(sweeps->RetryFailedJobs(as("bob").get(), named<v1::RetryFailedJobsRequest>("sweeps/1"), &sweep).ok());
   v1::DrainResponse drained;
   ASSERT_TRUE(v1::Admin::NewStub(channel({}))->Drain(as("chief").get(), {}, &drained).ok());
   for (const char* words :
@@ -103,10 +97,9 @@ TEST_F(CallLogTest, WhoMayNotIsNamed) {
   daemon_.reset();
   start(with_tokens(tcp_options()));
   const std::string job = client().create(small_case());
-  v1::CancelJobRequest cancel;
-  cancel.set_name(job);
   v1::Job found;
-  EXPECT_FALSE(v1::Jobs::NewStub(channel({}))->CancelJob(as("bob").get(), cancel, &found).ok());
+  EXPECT_FALSE(
+      v1::Jobs::NewStub(channel({}))->CancelJob(as("bob").get(), named<v1::CancelJobRequest>(job), &found).ok());
   EXPECT_EQ(told("refused a call with PERMISSION_DENIED: " + job + " belongs to local; bob has scope submit"), 1)
       << log_.text();
   EXPECT_EQ(told("cancelled by"), 0);

@@ -12,14 +12,12 @@
 #include "jobs/worker_process.h"
 #include "server/daemon_fixture.h"
 #include "server/held_worker.h"
+#include "server/job_numbers.h"
 #include "server/small_case.h"
-#include "server/watch_contract.h"
 #include "worker/worker_main.h"
 
 namespace cellcrush::testing {
 namespace {
-
-using ::testing::IsEmpty;
 
 // What the service puts together to run jobs, around a HeldWorker.
 struct HeldJobs {
@@ -122,11 +120,7 @@ class CancelRaceTest : public DaemonFixture {
   static void expect_sound(Client client) {
     const std::string job = "jobs/1";
     ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED)) << v1::Job::State_Name(client.get(job).state());
-    WatchContract contract;
-    const auto watched = client.watch(job, 0, false, [&](const v1::JobEvent& event) { contract.see(event); });
-    EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
-    contract.end(watched.status);
-    EXPECT_THAT(contract.broken(), IsEmpty());
+    EXPECT_TRUE(watch_soundly(client, job).ok());
     const auto samples = client.history(job);
     ASSERT_GT(samples.size(), static_cast<std::size_t>(kBefore));
     for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_GT(samples[i].step(), samples[i - 1].step());

@@ -80,10 +80,8 @@ TEST_F(ConvergenceServiceTest, IsThatOfTheTableAndItsCostIsToldBefore) {
   const auto sweep = create(client, request);
   EXPECT_EQ(sweep.predicted_seconds(), predicted);
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 4));
-  v1::GetConvergenceRequest asked;
-  asked.set_name(sweep.name());
-  v1::Convergence found;
-  ASSERT_TRUE(client.sweeps->GetConvergence(bounded_context().get(), asked, &found).ok());
+  auto asked = named<v1::GetConvergenceRequest>(sweep.name());
+  const auto found = answer_of(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked);
   EXPECT_EQ(found.wanted_error_relative(), 0.05);
   ASSERT_GE(found.quantities_size(), 3);
   const auto& coarse = found.quantities(0).meshes(0);
@@ -92,12 +90,12 @@ TEST_F(ConvergenceServiceTest, IsThatOfTheTableAndItsCostIsToldBefore) {
   EXPECT_NEAR(coarse.mean(), 0.5 * (first + second), 1e-9);
   EXPECT_NEAR(coarse.scatter_relative() * coarse.mean(), std::abs(first - second) / std::sqrt(2.0), 1e-9);
   asked.set_wanted_error_relative(-0.1);
-  const auto refused = client.sweeps->GetConvergence(bounded_context().get(), asked, &found);
+  const auto refused = try_call(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked);
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_THAT(refused.error_message(), HasSubstr("wanted_error_relative"));
   asked.set_name("sweeps/99");
   asked.set_wanted_error_relative(0.1);
-  EXPECT_EQ(client.sweeps->GetConvergence(bounded_context().get(), asked, &found).error_code(),
+  EXPECT_EQ(try_call(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked).error_code(),
             grpc::StatusCode::NOT_FOUND);
 }
 

@@ -1,12 +1,16 @@
+// cellcrushd as a process: its addresses, its options and its signals.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
-#include <filesystem>
 
+#include "access/token_file.h"
+#include "server/certificates.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
-#include "server/raw_call.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
@@ -48,10 +52,8 @@ TEST_F(DaemonTest, EndsInOrderWhileAJobIsWatched) {
   const std::string job = client.create(endless_case());
   ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
   const std::string waiting = client.create(small_case());
-  v1::WatchJobRequest request;
-  request.set_name(waiting);
   const auto context = bounded_context();
-  const auto reader = client.jobs->WatchJob(context.get(), request);
+  const auto reader = client.jobs->WatchJob(context.get(), named<v1::WatchJobRequest>(waiting));
   v1::JobEvent event;
   ASSERT_TRUE(reader->Read(&event));
   daemon.send_signal(SIGINT);
@@ -59,35 +61,6 @@ TEST_F(DaemonTest, EndsInOrderWhileAJobIsWatched) {
   while (reader->Read(&event)) {
   }
   EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
-}
-
-TEST_F(DaemonTest, KilledItLosesNothingAndTheNextOneGoesOn) {
-  std::string running;
-  std::string waiting;
-  std::string done;
-  {
-    DaemonProcess daemon({"--data", data(), "--listen", socket(), "--workers", "1"});
-    ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
-    Client client(socket());
-    done = client.create(small_case());
-    ASSERT_TRUE(client.wait_for_state(done, v1::Job::SUCCEEDED));
-    running = client.create(endless_case());
-    ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
-    waiting = client.create(small_case());
-    daemon.send_signal(SIGKILL);
-    EXPECT_EQ(daemon.wait(), -1 - SIGKILL);
-  }
-  DaemonProcess daemon({"--data", data(), "--listen", socket(), "--workers", "1"});
-  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U) << "The stale socket is replaced.";
-  Client client(socket());
-  EXPECT_EQ(client.get(running).state(), v1::Job::RUNNING);
-  EXPECT_EQ(client.get(waiting).state(), v1::Job::PENDING);
-  ASSERT_TRUE(client.cancel(running).ok());
-  EXPECT_TRUE(client.watch(waiting).status.ok());
-  EXPECT_EQ(client.get(waiting).state(), v1::Job::SUCCEEDED);
-  EXPECT_EQ(client.get(done).state(), v1::Job::SUCCEEDED);
-  grpc::Status status;
-  EXPECT_GT(client.download(done, 0, status).size(), 10'000U);
 }
 
 TEST_F(DaemonTest, ASecondDaemonOnTheSameFolderIsRefused) {
@@ -112,31 +85,67 @@ TEST_F(DaemonTest, APortOrASocketInUseIsRefused) {
   EXPECT_FALSE(Client(addresses[0]).create(small_case()).empty()) << "The first one goes on.";
 }
 
-TEST_F(DaemonTest, AHostThatOthersCanReachAndWrongFlagsAreRefused) {
-  DaemonProcess open({"--data", data(), "--listen", "0.0.0.0:0"});
-  EXPECT_EQ(open.wait(), 1);
-  EXPECT_THAT(open.errors(), HasSubstr("--tls-cert FILE --tls-key FILE"));
-  DaemonProcess misspelt({"--lisen", "127.0.0.1:0"});
-  EXPECT_EQ(misspelt.wait(), 2);
-  DaemonProcess none({"--workers", "0"});
-  EXPECT_EQ(none.wait(), 2);
+TEST_F(DaemonTest, ATestThatIsAbortedLeavesNoDaemonBehind) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t test = fork();
+  ASSERT_GE(test, 0);
+  if (test == 0) {
+    DaemonProcess daemon({"--data", data(), "--listen", socket()});
+    const pid_t number = daemon.wait_for_addresses(1).empty() ? 0 : daemon.number();
+    _exit(write(ends[1], &number, sizeof number) == sizeof number ? 0 : 1);
+  }
+  close(ends[1]);
+  pid_t daemon = 0;
+  ASSERT_EQ(read(ends[0], &daemon, sizeof daemon), static_cast<ssize_t>(sizeof daemon));
+  close(ends[0]);
+  ASSERT_EQ(waitpid(test, nullptr, 0), test);
+  ASSERT_GT(daemon, 0);
+  EXPECT_TRUE(wait_until_gone(daemon, std::chrono::seconds(5)));
+  kill(daemon, SIGKILL);
 }
 
-TEST_F(DaemonTest, HealthAndReflectionAnswer) {
-  DaemonProcess daemon({"--data", data(), "--listen", socket()});
-  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
-  const auto channel = grpc::CreateChannel(socket(), grpc::InsecureChannelCredentials());
-  // HealthCheckResponse{status: SERVING} is field 1 with value 1.
-  EXPECT_EQ(call_raw(channel, "/grpc.health.v1.Health/Check", "", false), std::string("\x08\x01"));
-  // HealthCheckRequest{service: "cellcrush.v1.Jobs"} is field 1 with that text.
-  EXPECT_EQ(call_raw(channel, "/grpc.health.v1.Health/Check",
-                     "\x0a\x11"
-                     "cellcrush.v1.Jobs",
-                     false),
-            std::string("\x08\x01"));
-  // ServerReflectionRequest{list_services: "*"} is field 7 with that text.
-  EXPECT_THAT(call_raw(channel, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", "\x3a\x01*", true),
-              HasSubstr("cellcrush.v1.Jobs"));
+TEST_F(DaemonTest, AHangupReadsTheTokensAgainAndNeverEndsTheDaemon) {
+  const auto made = access::make_token("anna", access::Scope::read);
+  write_secret(folder_.path() / "tokens", made.line + "\n");
+  for (const bool has_tokens : {true, false}) {
+    std::vector<std::string> arguments = {"--data", data(), "--listen", socket()};
+    if (has_tokens) arguments.insert(arguments.end(), {"--tokens", (folder_.path() / "tokens").string()});
+    DaemonProcess daemon(arguments);
+    ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
+    daemon.send_signal(SIGHUP);
+    EXPECT_TRUE(daemon.wait_for_error(has_tokens ? "tokens reloaded: 1 of --tokens" : "nothing to reload"));
+    daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait(), 0) << daemon.errors();
+  }
+}
+
+TEST_F(DaemonTest, AKeyOfTheConfigFileThatIsNoOptionIsRefusedWithTheNearest) {
+  const auto start_with = [&](const std::string& text) {
+    write_secret(folder_.path() / "config.toml", text);
+    DaemonProcess daemon(
+        {"--data", data(), "--listen", socket(), "--config", (folder_.path() / "config.toml").string()});
+    const bool serves = daemon.wait_for_addresses(1).size() == 1;
+    if (serves) daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait(), serves ? 0 : 2);
+    return serves ? "" : daemon.errors();
+  };
+  EXPECT_EQ(start_with("workers = 1\nmin-free-disk = 0\n"), "");
+  EXPECT_THAT(start_with("min-fre-disk = 0\n"), HasSubstr("Did you mean \"min-free-disk\"?"));
+  EXPECT_THAT(start_with("colour = \"red\"\n"), HasSubstr("\"colour\", which is not an option"));
+}
+
+TEST_F(DaemonTest, AnUnknownOptionIsRefusedWithTheNearest) {
+  const auto errors_of = [](const std::vector<std::string>& arguments) {
+    DaemonProcess daemon(arguments);
+    EXPECT_EQ(daemon.wait(), 2);
+    return daemon.errors();
+  };
+  EXPECT_THAT(errors_of({"--wokers", "3"}),
+              HasSubstr("cellcrushd: --wokers is not an option. Did you mean \"--workers\"?"));
+  EXPECT_THAT(errors_of({"token", "anna", "--scope", "read", "--scopes=admin"}),
+              HasSubstr("Did you mean \"--scope\"?"));
+  EXPECT_THAT(errors_of({"--colour=red"}), HasSubstr("--colour is not an option.\n`cellcrushd --help`"));
 }
 
 }  // namespace

@@ -60,8 +60,7 @@ class ExportJobTest : public DaemonFixture {
   Export export_of(const std::string& job, std::int64_t max_bytes = 0) {
     auto client = this->client();
     const auto context = bounded_context();
-    v1::ExportJobRequest request;
-    request.set_name(job);
+    auto request = named<v1::ExportJobRequest>(job);
     request.set_max_bytes(max_bytes);
     const auto reader = client.jobs->ExportJob(context.get(), request);
     Export out;
@@ -76,17 +75,10 @@ class ExportJobTest : public DaemonFixture {
     out.status = reader->Finish();
     return out;
   }
-
-  std::string finished_job(const v1::Case& submitted) {
-    auto client = this->client();
-    std::string job = client.create(submitted);
-    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
-    return job;
-  }
 };
 
 TEST_F(ExportJobTest, TheFileHasTheAnswersOfTheDaemon) {
-  const std::string job = finished_job(small_case());
+  const std::string job = finished_job();
   const Export exported = export_of(job);
   ASSERT_TRUE(exported.status.ok()) << exported.status.error_message();
   EXPECT_THAT(exported.file, StartsWith("<!doctype html>\n<!-- cellcrush export -->\n"));
@@ -114,7 +106,7 @@ TEST_F(ExportJobTest, TheFileHasTheAnswersOfTheDaemon) {
 }
 
 TEST_F(ExportJobTest, ASmallerFileHasFewerFramesEvenlySpacedWithTheFirstAndTheLast) {
-  const std::string job = finished_job(small_case());
+  const std::string job = finished_job();
   const Export all = export_of(job);
   const Export few = export_of(job, 1);
   ASSERT_TRUE(few.status.ok());

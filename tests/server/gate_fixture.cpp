@@ -15,12 +15,12 @@ constexpr std::chrono::seconds kAtOnce{1};
 }  // namespace
 
 void GateFixture::SetUp() {
-  std::string lines;
+  std::string lines = "# who may call\n\n";
   for (const auto& [name, scope] : {std::pair("reader", Scope::read), std::pair("anna", Scope::submit),
                                     std::pair("bob", Scope::submit), std::pair("chief", Scope::admin)}) {
     const auto made = access::make_token(name, scope);
     tokens_[name] = made.token;
-    lines += made.line + "\n";
+    lines += "  " + made.line + " # until spring\r\n";
   }
   write_secret(folder_.path() / "tokens", lines);
 }

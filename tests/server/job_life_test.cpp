@@ -143,9 +143,7 @@ TEST_F(JobLifeTest, ARunThatIsUntrueFailsByNameAndKeepsWhatItComputedBefore) {
 }
 
 TEST_F(JobLifeTest, AWaitingJobIsCancelledAtOnceAndNeverRuns) {
-  auto options = default_options();
-  options.workers = 1;
-  start(options);
+  start(with_workers(1));
   auto client = this->client();
   const std::string first = running_job();
   const std::string waiting = client.create(small_case());
@@ -205,9 +203,7 @@ TEST_F(JobLifeTest, ADeletedJobIsGoneWithAllItLeft) {
   EXPECT_FALSE(std::filesystem::exists(folder_of(job)));
   EXPECT_EQ(client.remove(job).error_code(), grpc::StatusCode::NOT_FOUND);
   EXPECT_EQ(client.watch(job).status.error_code(), grpc::StatusCode::NOT_FOUND);
-  v1::ListJobsResponse listed;
-  ASSERT_TRUE(client.jobs->ListJobs(bounded_context().get(), {}, &listed).ok());
-  EXPECT_EQ(listed.jobs_size(), 0);
+  EXPECT_TRUE(client.list().empty());
   EXPECT_EQ(client.create(small_case()), "jobs/2") << "Its number is not used again.";
 }
 

@@ -1,7 +1,7 @@
 #include "server/job_numbers.h"
 
-#include <thread>
-
+#include "server/daemon_process.h"
+#include "server/watch_contract.h"
 #include "store/result_reader.h"
 
 namespace cellcrush::testing {
@@ -19,9 +19,17 @@ JobNumbers numbers_of(Client& client, const std::filesystem::path& data_folder, 
   return out;
 }
 
+grpc::Status watch_soundly(Client& client, const std::string& job, std::int64_t after, std::int64_t* last) {
+  WatchContract contract(after);
+  const auto watched = client.watch(job, after, false, [&](const v1::JobEvent& event) { contract.see(event); });
+  contract.end(watched.status);
+  for (const auto& broken : contract.broken()) ADD_FAILURE() << job << ": " << broken;
+  if (last != nullptr) *last = contract.sequence();
+  return watched.status;
+}
+
 void wait_for_samples(Client& client, const std::string& job, std::size_t count) {
-  for (int i = 0; i < 600 && client.history(job).size() < count; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  wait_until([&] { return client.history(job).size() >= count; }, std::chrono::seconds(12));
 }
 
 }  // namespace cellcrush::testing

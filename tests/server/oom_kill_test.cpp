@@ -43,7 +43,9 @@ TEST_F(OomKillTest, AKillThatTheKernelCountedIsOutOfMemory) {
   const auto exit = run(7, 8);
   EXPECT_EQ(exit.kind, WorkerExit::Kind::signalled);
   EXPECT_TRUE(exit.out_of_memory);
+  EXPECT_TRUE(is_lost(exit));
   EXPECT_EQ(outcome_of(exit).cause, v1::Job::OUT_OF_MEMORY);
+  EXPECT_NE(outcome_of(exit).remedy.find("--workers"), std::string::npos);
 }
 
 TEST_F(OomKillTest, AnyOtherKillIsNot) {

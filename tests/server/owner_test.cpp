@@ -3,16 +3,17 @@
 #include <atomic>
 #include <thread>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "server/daemon_process.h"
 #include "server/gate_fixture.h"
 #include "server/small_case.h"
+#include "server/sweep_requests.h"
 
 namespace cellcrush::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
-class OwnerTest : public GateFixture {};
+using OwnerTest = GateFixture;
 
 /// Calls of one owner.
 class Owner {
@@ -21,21 +22,16 @@ class Owner {
       : jobs_(v1::Jobs::NewStub(channel)), sweeps_(v1::Sweeps::NewStub(channel)), token_(std::move(token)) {}
 
   v1::Job create(const v1::Case& submitted, const std::string& request_id = "", int priority = 0) {
-    v1::CreateJobRequest request;
+    auto request = job_of(submitted);
     request.set_priority(priority);
-    *request.mutable_case_() = submitted;
     request.set_request_id(request_id);
     v1::Job out;
     last = jobs_->CreateJob(context().get(), request, &out);
     return out;
   }
   v1::Sweep create_sweep() {
-    v1::CreateSweepRequest request;
+    auto request = sweep_of(small_case(), kSpeed, {100.0});
     request.mutable_sweep()->set_owner("someone-else");
-    *request.mutable_sweep()->mutable_case_() = small_case();
-    auto& axis = *request.mutable_sweep()->add_axes();
-    axis.set_field("loading.speed_m_per_s");
-    axis.mutable_list()->add_values(100.0);
     v1::Sweep out;
     last = sweeps_->CreateSweep(context().get(), request, &out);
     return out;
@@ -68,12 +64,6 @@ class Owner {
   grpc::Status last;
 
  private:
-  template <class Request>
-  static Request named(const std::string& name) {
-    Request out;
-    out.set_name(name);
-    return out;
-  }
   [[nodiscard]] std::unique_ptr<grpc::ClientContext> context() const {
     auto out = bounded_context();
     if (!token_.empty()) out->AddMetadata("authorization", "Bearer " + token_);
@@ -148,8 +138,7 @@ TEST_F(OwnerTest, AnOwnerBeyondAQuotaIsRefusedAndOthersAreNot) {
   const std::string of_bob = bob.create(endless_case(), "", 10).name();
   EXPECT_TRUE(client().wait_for_state(of_bob, v1::Job::RUNNING));
   EXPECT_EQ(client().get(waiting).state(), v1::Job::PENDING) << "A worker is free, but not for anna.";
-  v1::Queue queue;
-  ASSERT_TRUE(v1::Admin::NewStub(client().channel)->GetQueue(bounded_context().get(), {}, &queue).ok());
+  const auto queue = client().queue();
   ASSERT_EQ(queue.entries_size(), 2);
   EXPECT_THAT(queue.entries(0).reason(),
               HasSubstr("anna, is already running the 1 job that --owner-max-running allows"));
@@ -191,10 +180,10 @@ TEST_F(OwnerTest, AnOwnerWhoseJobsFillTheirDiskIsRefusedUntilSomeAreDeleted) {
   const std::string job = anna.create(small_case()).name();
   ASSERT_TRUE(client().wait_for_state(job, v1::Job::SUCCEEDED));
   // What it left is counted soon after its end.
-  for (int i = 0; i < 100 && anna.last.ok(); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  wait_until([&] {
     anna.create(tiny_case());
-  }
+    return !anna.last.ok();
+  });
   EXPECT_EQ(anna.last.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_THAT(anna.last.error_message(), HasSubstr("--owner-max-disk"));
   bob.create(tiny_case());

@@ -48,23 +48,6 @@ TEST(QueueForecast, ASweepAtItsLimitSaysSoAndOthersPassIt) {
   expect_entry(queue, 2, "jobs/102", 70.0, limit + "2 jobs start before it.");
 }
 
-TEST(QueueForecast, WithWorkersFreeAJobWaitsForThoseBeforeItAlone) {
-  const auto queue = forecast_queue({}, {lasting(1, 7), lasting(2, 1)}, {1, kStepCost}, plain);
-  expect_entry(queue, 0, "jobs/1", 0.0, "A worker is starting it now.");
-  expect_entry(queue, 1, "jobs/2", 7.0, "1 job starts before it.");
-  EXPECT_EQ(forecast_queue({{lasting(1, 1), 1.0}}, {lasting(2, 1)}, {1, kStepCost}, plain).entries(0).reason(),
-            "The only worker is busy.");
-}
-
-TEST(QueueForecast, APriorityIsToldAndComesFirst) {
-  auto urgent = lasting(3, 1);
-  urgent.priority = 5;
-  const auto queue = forecast_queue({{lasting(1, 1), 2.0}}, {lasting(2, 1), urgent}, {1, kStepCost}, plain);
-  expect_entry(queue, 0, "jobs/3", 2.0, "The only worker is busy.");
-  EXPECT_EQ(queue.entries(0).priority(), 5);
-  expect_entry(queue, 1, "jobs/2", 3.0, "The only worker is busy, and 1 job starts before it.");
-}
-
 TEST(QueueForecast, AJobWithThreadsHoldsSoManyCoresAndTakesLess) {
   const auto queue = forecast_queue({{lasting(1, 100), 8.0, 2}}, {lasting(2, 10), lasting(3, 1)}, {4, kStepCost},
                                     [](std::int64_t job) {
@@ -115,11 +98,6 @@ TEST(QueueForecast, OwnersTakeTurnsAndOneAtTheLimitSaysSo) {
   const std::string limit = "Its owner, anna, is already running the 1 job that --owner-max-running allows, and ";
   expect_entry(held, 1, "jobs/2", 5.0, limit + "1 job starts before it.");
   expect_entry(held, 2, "jobs/3", 15.0, limit + "2 jobs start before it.");
-}
-
-TEST(QueueForecast, AnEmptyQueueHasNoEntries) {
-  EXPECT_EQ(forecast_queue({{lasting(1, 1), 1.0}}, {}, {1, kStepCost}, plain).entries_size(), 0);
-  EXPECT_EQ(forecast_queue({}, {}, {1, kStepCost}, plain).entries_size(), 0);
 }
 
 TEST(QueueForecast, AFullQueueIsCutAtAThousandEntriesAndCountsTheRest) {

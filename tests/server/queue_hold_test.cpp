@@ -7,8 +7,6 @@
 #include <system_error>
 
 #include "error.h"
-#include "log_format.h"
-#include "server/log_capture.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -27,13 +25,6 @@ class QueueHoldTest : public ::testing::Test {
   int changes_ = 0;
   QueueHold hold_{{seconds(1), seconds(8)}, [this](const std::vector<Hold>&) { ++changes_; }, [this] { return now_; }};
 };
-
-TEST_F(QueueHoldTest, NothingHoldsItAtFirst) {
-  EXPECT_TRUE(hold_.is_open());
-  EXPECT_FALSE(hold_.begin_start()) << "It is no trial.";
-  EXPECT_TRUE(hold_.is_open()) << "Any number may start.";
-  EXPECT_TRUE(hold_.holds().empty());
-}
 
 TEST_F(QueueHoldTest, ThePausesDoubleUpToTheLongestAndEachLetsOneJobTry) {
   hold_.failed(trouble(Shortage::descriptors));
@@ -112,20 +103,6 @@ TEST_F(QueueHoldTest, ALowDiskAndTroubleHoldItTogether) {
   EXPECT_FALSE(hold_.is_open());
   hold_.set_low_disk(std::nullopt);
   EXPECT_TRUE(hold_.is_open());
-}
-
-TEST_F(QueueHoldTest, TheLogSaysWhenItIsHeldForAnotherReasonAndReleasedAndNotEachTry) {
-  const testing::LogCapture log(make_text_formatter());
-  for (int i = 0; i < 5; ++i) {
-    hold_.failed(trouble(Shortage::descriptors));
-    now_ += seconds(8);
-    ASSERT_TRUE(try_to_start());
-  }
-  hold_.failed(trouble(Shortage::memory));
-  hold_.succeeded();
-  EXPECT_EQ(log.count_lines("LimitNOFILE"), 1);
-  EXPECT_EQ(log.count_lines("No memory."), 1);
-  EXPECT_EQ(log.count_lines("released"), 1);
 }
 
 TEST(Shortages, AreFoundBehindExceptions) {

@@ -33,18 +33,7 @@ class StreamFramesTest : public DaemonFixture {
     return out;
   }
 
-  static v1::StreamFramesRequest all_of(const std::string& job) {
-    v1::StreamFramesRequest out;
-    out.set_name(job);
-    return out;
-  }
-
-  std::string finished_job() {
-    auto client = this->client();
-    std::string job = client.create(small_case());
-    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
-    return job;
-  }
+  static v1::StreamFramesRequest all_of(const std::string& job) { return named<v1::StreamFramesRequest>(job); }
 
   grpc::StatusCode code_of(const v1::StreamFramesRequest& request) { return series_of(request).status.error_code(); }
 };
@@ -91,8 +80,7 @@ TEST_F(StreamFramesTest, SomeFramesCanBeAskedForInEitherForm) {
 TEST_F(StreamFramesTest, ARunningOrSuspendedJobSendsTheFramesSoFar) {
   auto client = this->client();
   const std::string job = client.create(case_of_seconds());
-  v1::WatchJobRequest request;
-  request.set_name(job);
+  auto request = named<v1::WatchJobRequest>(job);
   request.set_frames(true);
   const auto context = bounded_context();
   const auto reader = client.jobs->WatchJob(context.get(), request);

@@ -18,16 +18,13 @@ using Clock = std::chrono::steady_clock;
 class TimeLimitTest : public DaemonFixture {
  protected:
   static v1::CreateJobRequest limited(double seconds) {
-    v1::CreateJobRequest request;
-    *request.mutable_case_() = endless_case();
+    auto request = job_of(endless_case());
     request.set_time_limit_s(seconds);
     return request;
   }
 
   static std::string create_limited(Client& client, double seconds) {
-    v1::Job job;
-    const auto status = client.jobs->CreateJob(bounded_context().get(), limited(seconds), &job);
-    EXPECT_TRUE(status.ok()) << status.error_message();
+    const auto job = client.create(limited(seconds));
     EXPECT_EQ(job.time_limit_s(), seconds);
     return job.name();
   }
@@ -77,8 +74,7 @@ TEST_F(TimeLimitTest, TheDaemonsLimitHoldsForThoseWithoutOneAndMoreIsRefused) {
   ASSERT_TRUE(client.wait_for_state(limited_by_daemon, v1::Job::FAILED));
   EXPECT_THAT(client.get(limited_by_daemon).cause_message(), HasSubstr("the daemon's time limit of"));
   EXPECT_THAT(client.get(limited_by_daemon).remedy(), HasSubstr("--max-job-time"));
-  v1::Job job;
-  const auto refused = client.jobs->CreateJob(bounded_context().get(), limited(2.0), &job);
+  const auto refused = client.try_to(limited(2.0));
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_THAT(refused.error_message(), HasSubstr("time_limit_s"));
   EXPECT_THAT(refused.error_message(), HasSubstr("--max-job-time"));
@@ -86,27 +82,18 @@ TEST_F(TimeLimitTest, TheDaemonsLimitHoldsForThoseWithoutOneAndMoreIsRefused) {
 
 TEST_F(TimeLimitTest, WhatIsNoTimeIsRefused) {
   auto client = this->client();
-  for (const double seconds :
-       {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-    v1::Job job;
-    EXPECT_EQ(client.jobs->CreateJob(bounded_context().get(), limited(seconds), &job).error_code(),
-              grpc::StatusCode::INVALID_ARGUMENT)
-        << seconds;
-  }
+  for (const double seconds : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(client.try_to(limited(seconds)).error_code(), grpc::StatusCode::INVALID_ARGUMENT) << seconds;
 }
 
 TEST_F(TimeLimitTest, ASweepsJobsAndThoseTriedAgainHaveItsLimit) {
   auto client = this->client();
   auto request = sweep_of(endless_case(), kSpeed, {50.0});
   request.mutable_sweep()->set_time_limit_s(0.5);
-  v1::Sweep sweep;
-  ASSERT_TRUE(client.sweeps->CreateSweep(bounded_context().get(), request, &sweep).ok());
+  const auto sweep = create(client, request);
   ASSERT_EQ(sweep.jobs_size(), 1);
   expect_out_of_time(client, sweep.jobs(0));
-  v1::RetryFailedJobsRequest retry;
-  retry.set_name(sweep.name());
-  v1::Sweep again;
-  ASSERT_TRUE(client.sweeps->RetryFailedJobs(bounded_context().get(), retry, &again).ok());
+  const auto again = retry(client, sweep.name());
   ASSERT_EQ(again.jobs_size(), 1);
   EXPECT_NE(again.jobs(0), sweep.jobs(0));
   expect_out_of_time(client, again.jobs(0));

@@ -31,31 +31,6 @@ std::vector<std::int64_t> order_of(WaitingJobs waiting) {
   return out;
 }
 
-TEST(WaitingJobs, TheOldestComesFirst) {
-  WaitingJobs waiting;
-  for (const std::int64_t job : {4, 3, 5}) waiting.add(alone(job));
-  EXPECT_EQ(order_of(waiting), (std::vector<std::int64_t>{3, 4, 5}));
-}
-
-TEST(WaitingJobs, AHigherPriorityComesFirstAndALowerOneLast) {
-  WaitingJobs waiting;
-  waiting.add(alone(1, -5));
-  waiting.add(alone(2));
-  waiting.add(alone(3, 100));
-  waiting.add(alone(4, 7));
-  waiting.add(alone(5, 100));
-  EXPECT_EQ(order_of(waiting), (std::vector<std::int64_t>{3, 5, 4, 2, 1}));
-}
-
-TEST(WaitingJobs, OfOneSweepTheLongestComesFirstAndEqualOnesInTheirOrder) {
-  WaitingJobs waiting;
-  waiting.add(in_sweep(1, 1, 1, 0, 10));
-  waiting.add(in_sweep(2, 1, 1, 0, 30));
-  waiting.add(in_sweep(3, 1, 1, 0, 20));
-  waiting.add(in_sweep(4, 1, 1, 0, 30));
-  EXPECT_EQ(order_of(waiting), (std::vector<std::int64_t>{2, 4, 3, 1}));
-}
-
 TEST(WaitingJobs, ALongJobOfAYoungerSubmissionDoesNotPassAnOlderOne) {
   WaitingJobs waiting;
   waiting.add(in_sweep(1, 1, 1, 0, 10));
@@ -64,24 +39,6 @@ TEST(WaitingJobs, ALongJobOfAYoungerSubmissionDoesNotPassAnOlderOne) {
   waiting.add(in_sweep(4, 2, 4, 0, 1000));
   waiting.add(in_sweep(5, 1, 5, 0, 2000));  // retried
   EXPECT_EQ(order_of(waiting), (std::vector<std::int64_t>{2, 1, 3, 4, 5}));
-}
-
-TEST(WaitingJobs, ASweepAtItsLimitLetsOthersPass) {
-  WaitingJobs waiting;
-  for (const std::int64_t job : {1, 2, 3}) waiting.add(in_sweep(job, 1, 1, 2));
-  waiting.add(in_sweep(4, 2, 4, 0));
-  waiting.add(in_sweep(5, 2, 4, 0));
-  const auto first = waiting.take();
-  EXPECT_EQ(first->job, 1);
-  EXPECT_EQ(waiting.take()->job, 2);
-  EXPECT_EQ(waiting.count(), 3U);
-  EXPECT_EQ(waiting.take()->job, 4);
-  EXPECT_EQ(waiting.take()->job, 5);
-  EXPECT_FALSE(waiting.take());
-  EXPECT_EQ(waiting.limit_of(*first), WaitingJobs::Limit::sweep);
-  waiting.give_back(*first);
-  EXPECT_EQ(waiting.take()->job, 3);
-  EXPECT_EQ(waiting.count(), 0U);
 }
 
 TEST(WaitingJobs, AJobThatRunsAlreadyCountsForItsSweep) {

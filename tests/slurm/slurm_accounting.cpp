@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "server/daemon_process.h"
 #include "slurm/slurm_conf.h"
 
 namespace cellcrush::testing {

@@ -1,4 +1,6 @@
 // Commands of Slurm that give no answer, or a wrong one.
+#include <unistd.h>
+
 #include <fstream>
 
 #include "slurm/slurm_fixture.h"
@@ -68,13 +70,51 @@ TEST_F(SlurmAnswerTest, WhatSacctSaysOfASilentTaskCounts) {
   EXPECT_THAT(line, HasSubstr("--jobs=1 "));
 }
 
-class SlurmAccountingAnswerTest : public SlurmFixture {};
+class SlurmAccountingTest : public SlurmFixture {
+ protected:
+  void SetUp() override {
+    if (!slurm_accounting_is_installed()) GTEST_SKIP() << kSlurmAccountingIsMissing;
+  }
+
+  // Submits a job that runs the shell command; returns its number.
+  std::string submit(std::vector<std::string> options, const std::string& command) {
+    options.insert(options.begin(), {"sbatch", "--parsable", "-o", "/dev/null"});
+    options.insert(options.end(), {"--wrap", command});
+    const e2e::Outcome outcome = cluster_->run(options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+    return outcome.output.substr(0, outcome.output.find('\n'));
+  }
+
+  // Whether `sacct` shows these lines of a job in time.
+  bool wait_for_record(const std::string& job, const std::string& lines) {
+    return cluster_->wait_for({"sacct", "--noheader", "--parsable2", "--allocations", "--jobs=" + job,
+                               "--format=JobID,State,NodeList,JobName"},
+                              lines, std::chrono::seconds(60));
+  }
+};
+
+// What parse_sacct_line (slurm_parts_test) reads is what sacct writes.
+TEST_F(SlurmAccountingTest, EndedCancelledAndPendingJobsAreRecorded) {
+  start_cluster({.accounting = true});
+  const std::string user = std::to_string(geteuid());
+  const std::string endless = submit({"-J", "endless", "-w", "n1"}, "sleep 1000");
+  const std::string ended = submit({"-J", "ended", "-w", "n2"}, "true");
+  const std::string array = submit({"-J", "array", "-w", "n2", "--array=1-2"}, "exit $SLURM_ARRAY_TASK_ID");
+  const std::string pending = submit({"-J", "pending", "-w", "n1", "--array=1-5%2"}, "true");
+  EXPECT_TRUE(wait_for_record(endless, endless + "|RUNNING|n1|endless")) << cluster_->logs();
+  EXPECT_TRUE(wait_for_record(ended, ended + "|COMPLETED|n2|ended")) << cluster_->logs();
+  EXPECT_TRUE(wait_for_record(array, array + "_1|FAILED|n2|array\n" + array + "_2|FAILED|n2|array"));
+  EXPECT_TRUE(wait_for_record(pending, pending + "_[1-5%2]|PENDING|None assigned|pending"));
+  EXPECT_EQ(cluster_->run({"scancel", pending, endless}).exit_code, 0);
+  const std::string cancelled = "|CANCELLED by " + user + "|";
+  EXPECT_TRUE(wait_for_record(endless, endless + cancelled + "n1|endless")) << cluster_->logs();
+  EXPECT_TRUE(wait_for_record(pending, pending + "_[1-5%2]" + cancelled + "None assigned|pending"));
+}
+
+class SlurmAccountingAnswerTest : public SlurmAccountingTest {};
 
 TEST_F(SlurmAccountingAnswerTest, ARealSacctTellsOfATaskThatSqueueHides) {
-  if (!slurm_accounting_is_installed()) GTEST_SKIP() << kSlurmAccountingIsMissing;
-  SlurmOptions accounting;
-  accounting.accounting = true;
-  start_cluster(accounting);
+  start_cluster({.accounting = true});
   auto options = quick_options();
   options.commands = replace_command("squeue", "exit 0");
   options.times.lease = std::chrono::minutes(10);

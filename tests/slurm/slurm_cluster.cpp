@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "server/daemon_process.h"
 #include "slurm/process_tree.h"
 
 namespace cellcrush::testing {
@@ -66,7 +67,7 @@ SlurmCluster::SlurmCluster(const SlurmOptions& options) : config_(folder_.path()
   nodes_.resize(kNodes);
   for (int node = 1; node <= kNodes; ++node) start_node(node);
   for (int node = 1; node <= kNodes; ++node) {
-    if (!wait_for_node(node, "idle", kStartLimit))
+    if (!wait_until([&] { return node_state(node) == "idle"; }, kStartLimit))
       throw std::runtime_error(node_name(node) + " is " + node_state(node) + ", not idle:\n" + logs());
   }
 }
@@ -146,10 +147,6 @@ std::vector<int> SlurmCluster::wait_for_exit_codes(const std::string& job, std::
 std::string SlurmCluster::node_state(int node) const {
   const e2e::Outcome outcome = run({"sinfo", "-h", "-p", "main", "-n", node_name(node), "-o", "%T"});
   return outcome.output.substr(0, outcome.output.find('\n'));
-}
-
-bool SlurmCluster::wait_for_node(int node, const std::string& state, std::chrono::milliseconds limit) const {
-  return wait_until([&] { return node_state(node) == state; }, limit);
 }
 
 void SlurmCluster::kill_node(int node, JobProcesses processes) {

@@ -59,7 +59,7 @@ class SlurmCluster {
   [[nodiscard]] e2e::Outcome run(const std::vector<std::string>& command,
                                  std::chrono::milliseconds limit = std::chrono::seconds(10)) const;
 
-  /// Runs the command every 100 ms until it succeeds with this output, but for blanks at its end. False when the time
+  /// Runs the command again and again until it succeeds with this output, but for blanks at its end. False when the time
   /// was up before.
   [[nodiscard]] bool wait_for(const std::vector<std::string>& command, const std::string& output,
                               std::chrono::milliseconds limit) const;
@@ -68,15 +68,8 @@ class SlurmCluster {
   /// Quicker than `sbatch --wait`, which looks every ten seconds.
   [[nodiscard]] std::vector<int> wait_for_exit_codes(const std::string& job, std::chrono::milliseconds limit) const;
 
-  /// As `sinfo` says it, such as `idle`, `allocated`, `down*`; the asterisk is for a node that does not answer.
-  [[nodiscard]] std::string node_state(int node) const;
-  /// False when the node does not come into the state in this time.
-  [[nodiscard]] bool wait_for_node(int node, const std::string& state, std::chrono::milliseconds limit) const;
-
   /// SIGKILL for slurmd and its slurmstepd. Slurm sees it after about 10 s; the state is then `down*`.
   void kill_node(int node, JobProcesses processes = JobProcesses::die);
-  /// REQUIRES: the node was killed. Does not wait for the controller to know of it.
-  void start_node(int node);
 
   /// SIGTERM for slurmctld, which saves its state; waits for its end. Nodes and jobs run on.
   void stop_controller();
@@ -88,6 +81,9 @@ class SlurmCluster {
 
  private:
   int reserve_port();
+  void start_node(int node);
+  /// As `sinfo` says it, such as `idle`, `allocated`, `down*`; the asterisk is for a node that does not answer.
+  [[nodiscard]] std::string node_state(int node) const;
   KeptDaemon start(const std::string& name, const std::vector<std::string>& command) const;
   void start_munge();
   void start_accounting();

@@ -1,7 +1,5 @@
 // Jobs that a real Slurm cluster computes.
-#include <algorithm>
 #include <set>
-#include <thread>
 
 #include "slurm/slurm_fixture.h"
 
@@ -10,7 +8,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using Kind = jobs::WorkerExit::Kind;
-using std::chrono::milliseconds;
 
 class SlurmExecutorTest : public SlurmFixture {
  protected:
@@ -46,6 +43,8 @@ TEST_F(SlurmExecutorTest, JobsThatComeTogetherShareAnArrayAndShortOnesATask) {
   }
   for (const auto& job : jobs) job->cancel();
   for (const auto& job : jobs) EXPECT_EQ(job->wait().kind, Kind::cancelled);
+  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader", "--states=PENDING"}, "", std::chrono::seconds(20)))
+      << "Two of them waited in Slurm.";
   EXPECT_THAT(*places.begin(), HasSubstr("_"));
   EXPECT_EQ(places.size(), 4U);
 
@@ -61,33 +60,6 @@ TEST_F(SlurmExecutorTest, JobsThatComeTogetherShareAnArrayAndShortOnesATask) {
   EXPECT_EQ(attempt_count(), 0U);
 }
 
-TEST_F(SlurmExecutorTest, ACancelledRunKeepsItsResult) {
-  const auto job = run(endless_case());
-  ASSERT_TRUE(job->wait_for_samples(3));
-  job->cancel();
-  const auto exit = job->wait();
-  EXPECT_EQ(exit.kind, Kind::cancelled);
-  ASSERT_TRUE(exit.final.has_value());
-  EXPECT_TRUE(exit.final->cancelled());
-  EXPECT_TRUE(std::filesystem::exists(job_folder().result()));
-}
-
-TEST_F(SlurmExecutorTest, AJobThatWaitsInSlurmIsCancelledThere) {
-  const auto first = run(endless_case(), 1);
-  const auto second = run(endless_case(), 2);
-  ASSERT_NE(first->wait_for_start(), 0);
-  ASSERT_NE(second->wait_for_start(), 0);
-  const auto third = run(endless_case(), 3);
-  EXPECT_THAT(third->wait_for_place("PENDING"), HasSubstr("Slurm job"));
-  third->cancel();
-  EXPECT_EQ(third->wait().kind, Kind::cancelled);
-  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader", "--states=PENDING"}, "", std::chrono::seconds(20)));
-  first->cancel();
-  second->cancel();
-  first->wait();
-  second->wait();
-}
-
 TEST_F(SlurmExecutorTest, ASuspendedJobContinuesWithTheSameBits) {
   auto job = run(slow_case());
   ASSERT_TRUE(job->wait_for_samples(10));
@@ -101,32 +73,6 @@ TEST_F(SlurmExecutorTest, ASuspendedJobContinuesWithTheSameBits) {
   ASSERT_EQ(job->begun_steps().size(), 2U);
   EXPECT_EQ(job->begun_steps().back(), exit.final->suspended_step());
   EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
-}
-
-TEST_F(SlurmExecutorTest, TheNextDaemonAdoptsWhatRunsAndWhatWaits) {
-  std::vector<std::unique_ptr<ExecutorRun>> jobs;
-  for (int i = 1; i <= 3; ++i) jobs.push_back(run(slow_case(), i));
-  for (const auto& job : jobs) job->wait_for_place("Slurm job");
-  // Two of them, in an order of Slurm's own.
-  const auto has_begun = [&] {
-    return std::any_of(jobs.begin(), jobs.end(),
-                       [](const auto& job) { return job->wait_for_start(milliseconds(1)) != 0; });
-  };
-  for (int i = 0; i < 6000 && !has_begun(); ++i) std::this_thread::sleep_for(milliseconds(5));
-  for (const auto& job : jobs) {
-    job->leave();
-    EXPECT_EQ(job->wait().kind, Kind::left);
-  }
-  start_executor();
-  for (int i = 1; i <= 3; ++i) EXPECT_TRUE(executor_->has_worker(job_folder(i)));
-  for (int i = 1; i <= 3; ++i) jobs[static_cast<std::size_t>(i - 1)] = run(slow_case(), i);
-  const auto expected = local_samples(slow_case());
-  for (const auto& job : jobs) {
-    EXPECT_EQ(job->wait().kind, Kind::exited);
-    // One worker computed it from its first step to its last.
-    EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
-    EXPECT_EQ(job->samples(), expected);
-  }
 }
 
 }  // namespace
