@@ -17,8 +17,7 @@ class AdoptionTest : public FaultFixture {
   pid_t run_and_kill(const v1::Case& submitted, std::string& job) {
     start_daemon({"--workers", "1"});
     auto client = this->client();
-    job = client.create(submitted);
-    wait_for_samples(client, job, 10);
+    job = create_with_samples(client, submitted, 10);
     const pid_t worker = client.worker_of(job);
     kill_daemon();
     return worker;
@@ -44,8 +43,7 @@ TEST_F(AdoptionTest, AWorkerOutlivesItsDaemonAndTheNextOneGoesAlongWithIt) {
   auto client = this->client();
   const auto now = client.get(job);
   EXPECT_TRUE(now.state() == v1::Job::RUNNING || now.state() == v1::Job::SUCCEEDED);
-  EXPECT_TRUE(client.watch(job).status.ok());
-  EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
+  expect_success(client, job);
   EXPECT_EQ(client.get(job).attempt(), 1);
   expect_every_sample_once(client, job);
   EXPECT_TRUE(wait_until_gone(worker, std::chrono::seconds(2)));
@@ -69,8 +67,7 @@ TEST_F(AdoptionTest, AWorkerThatWentWhileThereWasNoDaemonIsReplaced) {
   ASSERT_TRUE(wait_until_gone(worker, std::chrono::seconds(5)));
   start_daemon({"--workers", "1"});
   auto client = this->client();
-  EXPECT_TRUE(client.watch(job).status.ok());
-  EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
+  expect_success(client, job);
   EXPECT_EQ(client.get(job).attempt(), 2);
   expect_every_sample_once(client, job);
 }
@@ -87,8 +84,7 @@ TEST_F(AdoptionTest, AnAdoptedWorkerHeedsACancel) {
   EXPECT_TRUE(client.get(job).has_summary());
   EXPECT_TRUE(wait_until_gone(worker, std::chrono::seconds(2)));
   const std::string next = client.create(small_case());
-  EXPECT_TRUE(client.watch(next).status.ok());
-  EXPECT_EQ(client.get(next).state(), v1::Job::SUCCEEDED) << "Its core is free again.";
+  expect_success(client, next);
 }
 
 }  // namespace

@@ -72,8 +72,7 @@ class FullDiskTest : public FaultFixture {
   // Of a run that nothing disturbs.
   JobNumbers undisturbed(Client& client) {
     const std::string job = client.create(submitted());
-    EXPECT_TRUE(client.watch(job).status.ok());
-    EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
+    expect_success(client, job);
     return numbers_of(client, data_folder(), job);
   }
 
@@ -143,8 +142,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
   const auto whole = undisturbed(client);
   for (int i = 0; i < rounds(1, 10); ++i) {
     resize_the_disk(i);
-    const std::string cancelled = client.create(endless_case());
-    wait_for_samples(client, cancelled, 10);
+    const std::string cancelled = create_with_samples(client, endless_case(), 10);
     {
       const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(1500)); });
       std::this_thread::sleep_for(std::chrono::milliseconds(37 * i));
@@ -156,8 +154,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
     EXPECT_TRUE(client.wait_for_state(cancelled, v1::Job::CANCELLED))
         << v1::Job::State_Name(client.get(cancelled).state());
 
-    const std::string suspended = client.create(submitted());
-    wait_for_samples(client, suspended, 10);
+    const std::string suspended = create_with_samples(client, submitted(), 10);
     {
       const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(1500)); });
       std::this_thread::sleep_for(std::chrono::milliseconds(37 * i));
@@ -187,8 +184,7 @@ TEST_F(FullDiskTest, ADaemonStartsWithNextToNoRoomServesReadingAndRunsNothingUnt
     std::string job;
     {
       auto client = this->client();
-      job = client.create(submitted());
-      wait_for_samples(client, job, 20);
+      job = create_with_samples(client, submitted(), 20);
     }
     const bool killed = kibibytes / step % 2 == 1;
     if (killed) {

@@ -40,8 +40,7 @@ TEST_F(SweepDeletionTest, ADaemonThatIsKilledMeanwhileIsContinuedByTheNext) {
   for (int i = 0; i < count; ++i) {
     start_daemon({"--workers", "1"});
     auto client = this->client();
-    const std::string running = client.create(endless_case());
-    ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
+    const std::string running = client.create(endless_case(), v1::Job::RUNNING);
     const std::string kept = client.create(tiny_case());
     const std::string name = make_ended_sweep(client, points);
     auto code = grpc::StatusCode::OK;

@@ -72,8 +72,7 @@ TEST_F(AbsentExecutorTest, AJobThatRunsOnAnExecutorThatIsGoneEndsOnceItIsCancell
   auto client = this->client();
   EXPECT_EQ(client.get(job).state(), v1::Job::RUNNING);
   const auto refused = client.suspend(job);
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_THAT(refused.error_message(), HasSubstr("jobs/1 is for slurm/test"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::FAILED_PRECONDITION, "jobs/1 is for slurm/test"));
   EXPECT_TRUE(client.cancel(job).ok());
   EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLED);
   EXPECT_THAT(client.get(job).cause_message(), HasSubstr("slurm/test"));
@@ -95,8 +94,8 @@ TEST_F(AbsentExecutorTest, ARetryStaysOnTheExecutorOfItsSweep) {
     auto client = this->client();
     const auto refused =
         try_call(*client.sweeps, &v1::Sweeps::Stub::RetryFailedJobs, named<v1::RetryFailedJobsRequest>(name));
-    EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-    EXPECT_THAT(refused.error_message(), HasSubstr("slurm/test, an executor that this daemon does not have"));
+    EXPECT_THAT(refused,
+                Fails(grpc::StatusCode::FAILED_PRECONDITION, "slurm/test, an executor that this daemon does not have"));
   }
   restart(with_program(CELLCRUSHD_PROGRAM));
   auto client = this->client();

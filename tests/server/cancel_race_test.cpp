@@ -11,6 +11,7 @@
 #include "jobs/scheduler.h"
 #include "jobs/worker_process.h"
 #include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
 #include "server/held_worker.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
@@ -100,9 +101,7 @@ class CancelRaceTest : public DaemonFixture {
   }
 
   [[nodiscard]] bool wait_until_cancelled(std::int64_t job) {
-    for (int i = 0; i < 3000 && state_of(job) != v1::Job::CANCELLED; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return state_of(job) == v1::Job::CANCELLED;
+    return wait_until([&] { return state_of(job) == v1::Job::CANCELLED; }, std::chrono::seconds(30));
   }
 
   [[nodiscard]] v1::Job::State state_of(std::int64_t job) { return jobs_->reader.find_job(job)->job.state(); }

@@ -42,8 +42,6 @@ TEST_F(CasesServiceTest, ACheckNamesAllProblemsAtOnce) {
   EXPECT_EQ(response.particle_count(), 0);
 }
 
-TEST_F(CasesServiceTest, AnEmptyCaseIsAnAnswerWithProblems) { EXPECT_GE(check({}).problems_size(), 4); }
-
 TEST_F(CasesServiceTest, WhatIsHardlyMeantIsNotedByACheckAndByTheJob) {
   auto submitted = small_case();
   EXPECT_EQ(check(submitted).notes_size(), 0);
@@ -97,12 +95,10 @@ TEST_F(CasesServiceTest, APreviewOfABadOrHugeCaseIsRefused) {
   request.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_columns(300);
   request.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_rows(300);
   const auto huge = try_call(*client().cases, &v1::Cases::Stub::PreviewCase, request);
-  EXPECT_EQ(huge.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(huge.error_message(), HasSubstr("elements_per_wall"));
+  EXPECT_THAT(huge, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "elements_per_wall"));
   request.mutable_case_()->set_depth_mm(-1.0);
   const auto bad = try_call(*client().cases, &v1::Cases::Stub::PreviewCase, request);
-  EXPECT_EQ(bad.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(bad.error_message(), HasSubstr("depth_mm"));
+  EXPECT_THAT(bad, Fails(grpc::StatusCode::INVALID_ARGUMENT, "depth_mm"));
 }
 
 // A preset that would give what a fidelity fills in could not be run at one.
@@ -167,19 +163,11 @@ TEST(CheckCase, IsLeftBetweenStages) {
   }
 }
 
-TEST_F(CasesServiceTest, AnUnknownPresetIsNotFoundAndTheKnownOnesAreNamed) {
-  const auto status = try_call(*client().cases, &v1::Cases::Stub::GetPreset, named<v1::GetPresetRequest>("type-iv"));
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_THAT(status.error_message(), HasSubstr("type-iv"));
-  EXPECT_THAT(status.error_message(), HasSubstr("hexagon-small"));
-}
-
 TEST_F(CasesServiceTest, AMessageOverFourMebibytesIsRefusedAndTheDaemonGoesOn) {
   v1::CheckCaseRequest request;
   request.mutable_case_()->set_title(std::string(5 * 1024 * 1024, 'x'));
   const auto status = try_call(*client().cases, &v1::Cases::Stub::CheckCase, request);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(status.error_message(), HasSubstr("4194304"));
+  EXPECT_THAT(status, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "4194304"));
   EXPECT_EQ(check(small_case()).problems_size(), 0);
 }
 

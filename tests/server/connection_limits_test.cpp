@@ -36,8 +36,7 @@ class ConnectionLimitsTest : public GateFixture {
     const auto first = own_channel(visitor);
     ASSERT_TRUE(check(first).ok());
     const auto refused = check(own_channel(visitor));
-    EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-    EXPECT_THAT(refused.error_message(), HasSubstr("--max-connections"));
+    EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "--max-connections"));
     EXPECT_TRUE(check(first).ok()) << "who is connected already is served";
     EXPECT_TRUE(check(client().channel).ok()) << "the Unix socket has places of its own";
   }
@@ -75,8 +74,7 @@ TEST_F(ConnectionLimitsTest, StreamsBeyondACallersLimitAreRefusedUntilOneEnds) {
   const auto third = client.jobs->WatchJob(three.get(), request);
   EXPECT_FALSE(third->Read(&event));
   const auto refused = third->Finish();
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(refused.error_message(), HasSubstr("local has 2 streams open"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "local has 2 streams open"));
   one->TryCancel();
   while (first->Read(&event)) continue;
   (void)first->Finish();
@@ -104,8 +102,7 @@ TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
   Client client(daemon_->addresses().front(), small_window);
   auto with_frames = small_case();
   with_frames.mutable_output()->set_frame_count(200);
-  const std::string job = client.create(with_frames);
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
+  const std::string job = client.create(with_frames, v1::Job::SUCCEEDED);
   const auto context = bounded_context();
   const auto unread = client.jobs->DownloadResult(context.get(), named<v1::DownloadResultRequest>(job));
   unread->WaitForInitialMetadata();

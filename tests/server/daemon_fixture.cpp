@@ -14,7 +14,10 @@ std::unique_ptr<grpc::ClientContext> bounded_context(std::chrono::seconds bound)
 }
 
 Client::Client(const std::string& address, const grpc::ChannelArguments& arguments)
-    : channel(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments)),
+    : Client(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments)) {}
+
+Client::Client(std::shared_ptr<grpc::Channel> through)
+    : channel(std::move(through)),
       cases(v1::Cases::NewStub(channel)),
       jobs(v1::Jobs::NewStub(channel)),
       sweeps(v1::Sweeps::NewStub(channel)) {}
@@ -35,6 +38,12 @@ bool is_serving(const Client& client, const std::string& service) {
 }
 
 std::string Client::create(const v1::Case& submitted) { return create(job_of(submitted)).name(); }
+
+std::string Client::create(const v1::Case& submitted, v1::Job::State state) {
+  std::string job = create(submitted);
+  EXPECT_TRUE(wait_for_state(job, state)) << get(job).cause_message();
+  return job;
+}
 
 v1::Job Client::create(const v1::CreateJobRequest& request) {
   return answer_of(*jobs, &v1::Jobs::Stub::CreateJob, request);
@@ -91,8 +100,7 @@ std::vector<v1::Sample> Client::history(const std::string& job) {
 }
 
 std::vector<v1::Sample> Client::history(const std::string& job, grpc::Status& status) {
-  v1::GetHistoryRequest request;
-  request.set_name(job);
+  auto request = named<v1::GetHistoryRequest>(job);
   std::vector<v1::Sample> out;
   do {
     v1::GetHistoryResponse page;
@@ -105,8 +113,7 @@ std::vector<v1::Sample> Client::history(const std::string& job, grpc::Status& st
 
 Client::Watched Client::watch(const std::string& job, std::int64_t after_sequence, bool frames,
                               const OnEvent& on_event) {
-  v1::WatchJobRequest request;
-  request.set_name(job);
+  auto request = named<v1::WatchJobRequest>(job);
   request.set_after_sequence(after_sequence);
   request.set_frames(frames);
   const auto context = bounded_context(std::chrono::minutes(4));
@@ -133,8 +140,7 @@ pid_t Client::worker_of(const std::string& job) {
 }
 
 std::string Client::download(const std::string& job, std::int64_t offset, grpc::Status& status) {
-  v1::DownloadResultRequest request;
-  request.set_name(job);
+  auto request = named<v1::DownloadResultRequest>(job);
   request.set_offset(offset);
   const auto context = bounded_context();
   const auto reader = jobs->DownloadResult(context.get(), request);
@@ -164,10 +170,7 @@ DaemonOptions DaemonFixture::default_options() const {
 }
 
 std::string DaemonFixture::finished_job(const v1::Case& submitted) {
-  auto client = this->client();
-  std::string job = client.create(submitted);
-  EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << client.get(job).cause_message();
-  return job;
+  return client().create(submitted, v1::Job::SUCCEEDED);
 }
 
 DaemonOptions DaemonFixture::with_workers(int workers) const {

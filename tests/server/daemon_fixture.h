@@ -1,7 +1,7 @@
 #pragma once
 
+#include <gmock/gmock.h>
 #include <grpcpp/grpcpp.h>
-#include <gtest/gtest.h>
 #include <sys/types.h>
 
 #include <chrono>
@@ -54,6 +54,7 @@ Request named(const std::string& name) {
 class Client {
  public:
   explicit Client(const std::string& address, const grpc::ChannelArguments& arguments = {});
+  explicit Client(std::shared_ptr<grpc::Channel> through);
 
   /// What a watch gave, and how it ended.
   struct Watched {
@@ -65,6 +66,8 @@ class Client {
   /// Makes a job; fails the test when it is refused. Returns its name.
   std::string create(const v1::Case& submitted);
   v1::Job create(const v1::CreateJobRequest& request);
+  /// Makes a job and waits until it is in the state; fails the test when it never is.
+  std::string create(const v1::Case& submitted, v1::Job::State state);
   /// How a call ends that may be refused.
   grpc::Status try_to(const v1::CreateJobRequest& request) const;
   grpc::Status try_to(const v1::CreateSweepRequest& request) const;
@@ -101,6 +104,12 @@ class Client {
 
 /// A request for a job of the case.
 v1::CreateJobRequest job_of(const v1::Case& submitted);
+
+/// A call that was refused with this code, and with these words in its message.
+MATCHER_P2(Fails, code, words, "") {
+  *result_listener << arg.error_code() << ", " << arg.error_message();
+  return arg.error_code() == code && arg.error_message().find(words) != std::string::npos;
+}
 
 /// Whether grpc.health.v1 says that the service serves.
 bool is_serving(const Client& client, const std::string& service);

@@ -1,17 +1,18 @@
-// cellcrushd as a process: its addresses, its options and its signals.
+// cellcrushd as a process: its addresses, its options, its signals and its log.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
 #include <csignal>
+#include <sstream>
+#include <string>
 
 #include "access/token_file.h"
 #include "server/certificates.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
+#include "server/http/http_socket.h"
 #include "server/small_case.h"
+#include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -49,8 +50,7 @@ TEST_F(DaemonTest, EndsInOrderWhileAJobIsWatched) {
   DaemonProcess daemon({"--data", data(), "--listen", socket(), "--workers", "1"});
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
   Client client(socket());
-  const std::string job = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
+  const std::string job = client.create(endless_case(), v1::Job::RUNNING);
   const std::string waiting = client.create(small_case());
   const auto context = bounded_context();
   const auto reader = client.jobs->WatchJob(context.get(), named<v1::WatchJobRequest>(waiting));
@@ -83,26 +83,6 @@ TEST_F(DaemonTest, APortOrASocketInUseIsRefused) {
     EXPECT_THAT(second.errors(), HasSubstr("Cannot listen on " + address));
   }
   EXPECT_FALSE(Client(addresses[0]).create(small_case()).empty()) << "The first one goes on.";
-}
-
-TEST_F(DaemonTest, ATestThatIsAbortedLeavesNoDaemonBehind) {
-  std::array<int, 2> ends{};
-  ASSERT_EQ(pipe(ends.data()), 0);
-  const pid_t test = fork();
-  ASSERT_GE(test, 0);
-  if (test == 0) {
-    DaemonProcess daemon({"--data", data(), "--listen", socket()});
-    const pid_t number = daemon.wait_for_addresses(1).empty() ? 0 : daemon.number();
-    _exit(write(ends[1], &number, sizeof number) == sizeof number ? 0 : 1);
-  }
-  close(ends[1]);
-  pid_t daemon = 0;
-  ASSERT_EQ(read(ends[0], &daemon, sizeof daemon), static_cast<ssize_t>(sizeof daemon));
-  close(ends[0]);
-  ASSERT_EQ(waitpid(test, nullptr, 0), test);
-  ASSERT_GT(daemon, 0);
-  EXPECT_TRUE(wait_until_gone(daemon, std::chrono::seconds(5)));
-  kill(daemon, SIGKILL);
 }
 
 TEST_F(DaemonTest, AHangupReadsTheTokensAgainAndNeverEndsTheDaemon) {
@@ -146,6 +126,61 @@ TEST_F(DaemonTest, AnUnknownOptionIsRefusedWithTheNearest) {
   EXPECT_THAT(errors_of({"token", "anna", "--scope", "read", "--scopes=admin"}),
               HasSubstr("Did you mean \"--scope\"?"));
   EXPECT_THAT(errors_of({"--colour=red"}), HasSubstr("--colour is not an option.\n`cellcrushd --help`"));
+}
+
+constexpr const char* kForgery = "x\n[2030-01-01 00:00:00.000] [cellcrushd] [info] jobs/9 deleted by root";
+
+// A frame of HTTP/2 (RFC 9113, 4.1).
+std::string http2_frame(char type, char flags, char stream, const std::string& payload) {
+  const auto size = static_cast<unsigned>(payload.size());
+  std::string out{static_cast<char>(size >> 16U), static_cast<char>(size >> 8U), static_cast<char>(size), type, flags};
+  return out + std::string(3, '\0') + stream + payload;
+}
+
+// A header without compression (RFC 7541, 6.2.2).
+std::string http2_header(const std::string& name, const std::string& value) {
+  return std::string(1, '\0') + static_cast<char>(name.size()) + name + static_cast<char>(value.size()) + value;
+}
+
+// A call without a message, and one header of it forged.
+std::string forged_call(const std::string& header) {
+  constexpr char kSettings = 4;
+  constexpr char kHeaders = 1;
+  constexpr char kEndOfAll = 5;
+  std::string headers;
+  for (const auto& [name, value] : {std::pair(":method", "POST"), std::pair(":scheme", "http"),
+                                    std::pair(":path", "/cellcrush.v1.Jobs/ListJobs"), std::pair(":authority", "x")})
+    headers += http2_header(name, value);
+  headers += http2_header(header, kForgery);
+  return "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + http2_frame(kSettings, 0, 0, "") +
+         http2_frame(kHeaders, kEndOfAll, 1, headers);
+}
+
+// The daemon's line about it, with the line break of the forgery escaped.
+std::string logged_of(const std::string& header) {
+  return "[error] gRPC: Error parsing metadata: error=invalid value key=" + header + " value=x\\x0a[2030-01-01";
+}
+
+// Sends a call whose header is forged, and keeps the connection until the daemon has logged that.
+void send_forged_call(DaemonProcess& daemon, const std::string& address, const std::string& header) {
+  const HttpSocket connection(std::stoi(address.substr(address.rfind(':') + 1)));
+  connection.send(forged_call(header));
+  EXPECT_TRUE(daemon.wait_for_error(logged_of(header))) << daemon.errors();
+}
+
+TEST(ForgedLog, AHeaderWithALineInItIsPartOfOneLine) {
+  const TemporaryFolder folder;
+  DaemonProcess daemon({"--data", (folder.path() / "data").string(), "--listen", "127.0.0.1:0"});
+  const auto addresses = daemon.wait_for_addresses(1);
+  ASSERT_EQ(addresses.size(), 1U);
+  for (const char* header : {"te", "grpc-timeout"}) send_forged_call(daemon, addresses.front(), header);
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0);
+  std::istringstream lines(daemon.errors());
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_THAT(line, StartsWith("[20"));
+    EXPECT_THAT(line, ::testing::Not(StartsWith("[2030")));
+  }
 }
 
 }  // namespace

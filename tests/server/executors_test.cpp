@@ -74,8 +74,7 @@ TEST_F(ExecutorsTest, AnUnknownOneIsRefusedWithThoseThereAre) {
   auto request = sweep_of(tiny_case(), "plates.friction", {0.0, 0.1});
   request.mutable_sweep()->set_executor("slurm/other");
   const auto refused_sweep = client.try_to(request);
-  EXPECT_EQ(refused_sweep.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(refused_sweep.error_message(), HasSubstr("sweep.executor is \"slurm/other\""));
+  EXPECT_THAT(refused_sweep, Fails(grpc::StatusCode::INVALID_ARGUMENT, "sweep.executor is \"slurm/other\""));
 }
 
 TEST_F(ExecutorsTest, TroubleOfOneHoldsItsOwnQueueOnly) {

@@ -53,8 +53,7 @@ TEST_F(GateTest, TcpTakesGoodTokensOnlyAndTheSocketNeedsNone) {
   EXPECT_THAT(list(none).error_message(), HasSubstr("--token-file"));
   for (const std::string& wrong : {tokens_.at("anna") + "0", tokens_.at("anna").substr(1), std::string("x")}) {
     const auto status = list({authority_.certificate(), {}, wrong});
-    EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
-    EXPECT_THAT(status.error_message(), HasSubstr("cellcrushd token"));
+    EXPECT_THAT(status, Fails(grpc::StatusCode::UNAUTHENTICATED, "cellcrushd token"));
   }
   EXPECT_TRUE(client().list().empty());
 }
@@ -213,16 +212,7 @@ TEST_F(GateTest, ACertificateThatIsNotForClientsIsRefused) {
   EXPECT_EQ(status_of("serverAuth").error_code(), grpc::StatusCode::UNAVAILABLE) << "TLS refuses it.";
   // The daemon's own certificate, which says nothing about its use.
   const auto server = status_of("");
-  EXPECT_EQ(server.error_code(), grpc::StatusCode::UNAUTHENTICATED);
-  EXPECT_THAT(server.error_message(), HasSubstr("extendedKeyUsage = clientAuth"));
-}
-
-TEST_F(GateTest, AClientIsNotFooledByAnotherServer) {
-  start(with_tokens(with_tls(tcp_options(), {"server", "DNS:cellcrush.example,IP:127.0.0.1"})));
-  EXPECT_TRUE(list(with("anna")).ok());
-  EXPECT_EQ(list({other_authority_.certificate(), {}, tokens_.at("anna")}).error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_EQ(list(with("anna"), "localhost").error_code(), grpc::StatusCode::UNAVAILABLE) << "Another host's name.";
-  EXPECT_EQ(list({}).error_code(), grpc::StatusCode::UNAVAILABLE) << "Plain text.";
+  EXPECT_THAT(server, Fails(grpc::StatusCode::UNAUTHENTICATED, "extendedKeyUsage = clientAuth"));
 }
 
 }  // namespace

@@ -95,8 +95,7 @@ TEST_F(HeldQueueTest, AWorkerThatIsStoppedIsSuspendedAtItsLastCheckpointInBounde
   options.stall_limit = std::chrono::milliseconds(2000);
   start(options);
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  wait_for_samples(client, job, 20);
+  const std::string job = create_with_samples(client, endless_case(), 20);
   const pid_t worker = client.worker_of(job);
   ASSERT_EQ(kill(worker, SIGSTOP), 0);
   EXPECT_TRUE(client.suspend(job).ok());

@@ -28,6 +28,17 @@ grpc::Status watch_soundly(Client& client, const std::string& job, std::int64_t 
   return watched.status;
 }
 
+void expect_success(Client& client, const std::string& job) {
+  EXPECT_TRUE(client.watch(job).status.ok());
+  EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << job << ": " << client.get(job).cause_message();
+}
+
+std::string create_with_samples(Client& client, const v1::Case& submitted, std::size_t count) {
+  std::string job = client.create(submitted);
+  wait_for_samples(client, job, count);
+  return job;
+}
+
 void wait_for_samples(Client& client, const std::string& job, std::size_t count) {
   wait_until([&] { return client.history(job).size() >= count; }, std::chrono::seconds(12));
 }

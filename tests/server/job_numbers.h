@@ -25,6 +25,12 @@ JobNumbers numbers_of(Client& client, const std::filesystem::path& data_folder, 
 grpc::Status watch_soundly(Client& client, const std::string& job, std::int64_t after = 0,
                            std::int64_t* last = nullptr);
 
+/// Watches the job to its end, which must be a success.
+void expect_success(Client& client, const std::string& job);
+
+/// Makes a job and waits until it has so many samples.
+std::string create_with_samples(Client& client, const v1::Case& submitted, std::size_t count);
+
 /// Waits until the job has so many samples, at most 12 s.
 void wait_for_samples(Client& client, const std::string& job, std::size_t count);
 

@@ -72,8 +72,7 @@ TEST_F(JobOrderTest, TheNextDaemonStartsTheRestOfASweepLongestFirstToo) {
 
 TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
   auto client = this->client();
-  const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
+  const std::string running = client.create(endless_case(), v1::Job::RUNNING);
   auto request = sweep_of(endless_case(), kSpeed, {1.0, 2.0});
   request.mutable_sweep()->set_priority(-1);
   const auto sweep = create(client, request);
@@ -90,8 +89,7 @@ TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
 TEST_F(JobOrderTest, TheQueueTellsTheOrderInWhichJobsStartAndWhyTheyWait) {
   auto client = this->client();
   EXPECT_EQ(client.queue().entries_size(), 0);
-  const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
+  const std::string running = client.create(endless_case(), v1::Job::RUNNING);
   auto request = sweep_of(endless_case(), kSpeed, {4.0, 1.0, 2.0});
   request.mutable_sweep()->set_max_parallel(1);
   create(client, request);
@@ -120,8 +118,7 @@ TEST_F(JobOrderTest, APriorityOutOfRangeIsRefused) {
   auto request = job_of(small_case());
   request.set_priority(101);
   const auto status = client.try_to(request);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("priority is 101. Use -100 to 100"));
+  EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, "priority is 101. Use -100 to 100"));
   auto sweep = sweep_of(small_case(), kSpeed, {100.0});
   sweep.mutable_sweep()->set_priority(-101);
   EXPECT_THAT(client.try_to(sweep).error_message(), HasSubstr("sweep.priority is -101"));
@@ -154,11 +151,9 @@ TEST_F(JobOrderTest, AThousandSpeedsSeedsOrSizesOfTypeIAreQueuedTogether) {
 
 TEST_F(JobOrderTest, AQueueIsToldOfAlsoWhenASampleOfAJobInItCannotBeRead) {
   auto client = this->client();
-  const std::string damaged = client.create(endless_case());
-  wait_for_samples(client, damaged, 5);
+  const std::string damaged = create_with_samples(client, endless_case(), 5);
   ASSERT_TRUE(client.suspend(damaged).ok());
-  const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
+  const std::string running = client.create(endless_case(), v1::Job::RUNNING);
   store::Database(data_folder() / "journal.sqlite").execute("UPDATE events SET payload = x'ff' WHERE kind = 2");
   ASSERT_TRUE(client.resume(damaged).ok());
   const auto queue = client.queue();

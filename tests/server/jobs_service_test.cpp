@@ -100,25 +100,6 @@ TEST_F(JobsServiceTest, ADownloadIsTheFileFromAnyOffset) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
 }
 
-TEST_F(JobsServiceTest, TheResultHoldsWhatTheHistorySays) {
-  const std::string job = finished_job();
-  auto client = this->client();
-  const auto history = client.history(job);
-  const store::ResultReader result(result_path(job));
-  const auto stored = result.history();
-  ASSERT_EQ(stored.size(), history.size());
-  EXPECT_GE(stored.size(), 90U);
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    EXPECT_EQ(stored[i].strain(), history[i].strain());
-    EXPECT_EQ(stored[i].stress_impact_mpa(), history[i].stress_impact_mpa());
-  }
-  const auto finished = client.get(job);
-  EXPECT_NEAR(stored.back().strain(), small_case().loading().end_strain(), 1e-3);
-  EXPECT_GT(finished.summary().plateau_stress_impact_mpa(), 0.0);
-  EXPECT_GT(finished.summary().solver_seconds(), 0.0);
-  EXPECT_GT(finished.summary().stage_times().evaluate_internal_forces_s(), 0.0);
-}
-
 TEST_F(JobsServiceTest, FramesAreFoundByIndexStrainAndTime) {
   const std::string job = finished_job();
   const store::ResultReader result(result_path(job));

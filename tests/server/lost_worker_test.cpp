@@ -34,8 +34,7 @@ class LostWorkerTest : public DaemonFixture {
     pid_t worker;
   };
   static Unheeded cancel_in_vain(Client& client) {
-    const std::string job = client.create(endless_case());
-    wait_for_samples(client, job, 5);
+    const std::string job = create_with_samples(client, endless_case(), 5);
     const pid_t worker = client.worker_of(job);
     EXPECT_EQ(kill(worker, SIGSTOP), 0);
     EXPECT_TRUE(client.cancel(job).ok());
@@ -79,8 +78,7 @@ class LostWorkerTest : public DaemonFixture {
 TEST_F(LostWorkerTest, ASuspendedJobHoldsStillOverARestartAndHasTheSameBitsWhenItIsResumed) {
   auto client = this->client();
   const auto whole = undisturbed(client);
-  const std::string job = client.create(case_of_seconds());
-  wait_for_samples(client, job, 20);
+  const std::string job = create_with_samples(client, case_of_seconds(), 20);
   const pid_t worker = client.worker_of(job);
   ASSERT_TRUE(client.suspend(job).ok());
   EXPECT_EQ(client.get(job).state(), v1::Job::SUSPENDED);
@@ -93,8 +91,7 @@ TEST_F(LostWorkerTest, ASuspendedJobHoldsStillOverARestartAndHasTheSameBitsWhenI
   EXPECT_EQ(next.get(job).state(), v1::Job::SUSPENDED);
   EXPECT_EQ(next.history(job).size(), samples);
   ASSERT_TRUE(next.resume(job).ok());
-  ASSERT_TRUE(next.watch(job).status.ok());
-  EXPECT_EQ(next.get(job).state(), v1::Job::SUCCEEDED) << next.get(job).cause_message();
+  expect_success(next, job);
   EXPECT_EQ(next.get(job).attempt(), 2);
   EXPECT_TRUE(numbers_of(next, job) == whole);
   EXPECT_TRUE(watch_soundly(next, job).ok());
@@ -119,8 +116,7 @@ TEST_F(LostWorkerTest, AWaitingJobIsSuspendedAtOnceAndCanBeResumedOrCancelled) {
   EXPECT_EQ(client.get(second).state(), v1::Job::SUSPENDED);
   ASSERT_TRUE(client.resume(second).ok());
   ASSERT_TRUE(client.resume(second).ok()) << "Twice is once.";
-  ASSERT_TRUE(client.watch(second).status.ok());
-  EXPECT_EQ(client.get(second).state(), v1::Job::SUCCEEDED);
+  expect_success(client, second);
 }
 
 TEST_F(LostWorkerTest, ACancelThatItsWorkerNeverHeedsKeepsWhatWasComputed) {
@@ -153,16 +149,14 @@ TEST_F(LostWorkerTest, ACancelThatTheDaemonsEndCutsOffIsEndedByTheNextOneWithIts
 TEST_F(LostWorkerTest, ADaemonsEndLeavesRunningJobsAtACheckpointAndTheNextOneGoesOn) {
   auto client = this->client();
   const auto whole = undisturbed(client);
-  const std::string job = client.create(case_of_seconds());
-  wait_for_samples(client, job, 20);
+  const std::string job = create_with_samples(client, case_of_seconds(), 20);
   const pid_t worker = client.worker_of(job);
   daemon_->stop();
   EXPECT_FALSE(is_alive(worker));
   EXPECT_TRUE(std::filesystem::exists(file_of(job, "checkpoint")));
   start(often_checkpointed());
   auto next = this->client();
-  ASSERT_TRUE(next.watch(job).status.ok());
-  EXPECT_EQ(next.get(job).state(), v1::Job::SUCCEEDED) << next.get(job).cause_message();
+  expect_success(next, job);
   EXPECT_TRUE(numbers_of(next, job) == whole);
   EXPECT_TRUE(watch_soundly(next, job).ok());
 }
@@ -172,8 +166,7 @@ TEST_F(LostWorkerTest, AWorkerThatStandsStillIsShownAndReplaced) {
   options.stall_limit = std::chrono::milliseconds(1500);
   start(options);
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  wait_for_samples(client, job, 5);
+  const std::string job = create_with_samples(client, endless_case(), 5);
   const pid_t worker = client.worker_of(job);
   const auto start = Clock::now();
   ASSERT_EQ(kill(worker, SIGSTOP), 0);
@@ -208,8 +201,7 @@ TEST_F(LostWorkerTest, AJobWhoseWorkersAreKilledAgainAndAgainAtTheSamePlaceFails
     EXPECT_EQ(failed.worker_pid(), 0);
   }
   const std::string next = client.create(small_case());
-  ASSERT_TRUE(client.watch(next).status.ok());
-  EXPECT_EQ(client.get(next).state(), v1::Job::SUCCEEDED) << "The daemon goes on.";
+  expect_success(client, next);
 }
 
 TEST_F(LostWorkerTest, WhatKilledWorkersReportedIsKeptAsAResultUpToTheLastSample) {
@@ -219,8 +211,7 @@ TEST_F(LostWorkerTest, WhatKilledWorkersReportedIsKeptAsAResultUpToTheLastSample
   auto client = this->client();
   const auto full = undisturbed(client);
   // Each worker is killed as soon as it gets to where the first one was: none gets further.
-  const std::string job = client.create(case_of_seconds());
-  wait_for_samples(client, job, 60);
+  const std::string job = create_with_samples(client, case_of_seconds(), 60);
   const auto failed = kill_until_it_fails(client, job, SIGKILL);
   ASSERT_TRUE(failed.has_summary());
   const auto kept = numbers_of(client, job);

@@ -139,8 +139,7 @@ TEST_F(PagesTest, AHistorysPageIsAsLongAsAskedForAndItsTokenIsOfOneJob) {
   EXPECT_THAT(page.next_page_token(), IsEmpty());
   const auto refused = [&](const std::string& words) {
     const auto status = client.jobs->GetHistory(bounded_context().get(), request, &page);
-    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-    EXPECT_THAT(status.error_message(), HasSubstr(words));
+    EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, words));
   };
   request.set_page_size(-1);
   refused("page_size is negative.");
@@ -184,15 +183,13 @@ TEST_F(PagesTest, ACaseOrASweepThatCouldNotBeToldOfIsRefused) {
   auto create = job_of(small_case());
   create.mutable_case_()->set_title(std::string(4'000'001, 'x'));
   auto status = client.try_to(create);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("bytes. Use at most 4000000."));
+  EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, "bytes. Use at most 4000000."));
   v1::CreateSweepRequest request;
   *request.mutable_sweep()->mutable_case_() = small_case();
   (*request.mutable_sweep()->add_points()->mutable_fields())[kSpeed] = 50.0;
   (*request.mutable_sweep()->mutable_labels())["a"] = std::string(4'000'000, 'x');
   status = client.try_to(request);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("sweep has 4000"));
+  EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, "sweep has 4000"));
 }
 
 }  // namespace

@@ -204,8 +204,7 @@ TEST_F(RetentionTest, ASweepIsDeletedWithItsJobsOnceTheyHaveEnded) {
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::RUNNING, 2));
   const std::string alone = client.create(tiny_case());
   const auto refused = delete_sweep(client, sweep.name());
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_THAT(refused.error_message(), HasSubstr(sweep.jobs(0) + " is RUNNING"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::FAILED_PRECONDITION, sweep.jobs(0) + " is RUNNING"));
   cancel_sweep(client, sweep.name());
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::CANCELLED, 3));
   ASSERT_TRUE(client.wait_for_state(alone, v1::Job::SUCCEEDED));

@@ -44,8 +44,7 @@ bool wait_for_count(Client& client, const std::string& name, v1::Job::State stat
 }
 
 WatchedSweep watch_sweep(Client& client, const std::string& name, const std::string& token, int tokens) {
-  v1::WatchSweepRequest request;
-  request.set_name(name);
+  auto request = named<v1::WatchSweepRequest>(name);
   request.set_resume_token(token);
   const auto context = bounded_context();
   const auto reader = client.sweeps->WatchSweep(context.get(), request);

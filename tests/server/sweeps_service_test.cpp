@@ -1,6 +1,11 @@
+// Sweeps: their points, their jobs and what their tables tell.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
+#include "error.h"
 #include "google/rpc/status.pb.h"
+#include "jobs/convergence.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 
@@ -56,8 +61,7 @@ TEST_F(SweepsServiceTest, ABadPointLeavesNoJobAndIsNamed) {
   rows.set_field("lattice.hexagon.rows");
   for (const double value : {5.0, 2.5, 0.0}) rows.mutable_list()->add_values(value);
   const auto status = client().try_to(request);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("The sweep has 3 problems"));
+  EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, "The sweep has 3 problems"));
   const auto list = problems_of(status);
   ASSERT_EQ(list.problems_size(), 3);
   EXPECT_EQ(list.problems(0).field(), "lattice.hexagon.rows");
@@ -156,8 +160,7 @@ TEST_F(SweepsServiceTest, ASweepKeepsToItsShareOfTheWorkers) {
   auto request = sweep_of(endless_case(), kSpeed, {1.0, 1.5, 2.0});
   request.mutable_sweep()->set_max_parallel(1);
   const auto sweep = create(client, request);
-  const std::string other = client.create(small_case());
-  EXPECT_TRUE(client.wait_for_state(other, v1::Job::SUCCEEDED)) << "The second worker is free for others.";
+  const std::string other = client.create(small_case(), v1::Job::SUCCEEDED);
   const auto now = get_sweep(client, sweep.name());
   EXPECT_EQ(count_in(now, v1::Job::RUNNING), 1);
   EXPECT_EQ(count_in(now, v1::Job::PENDING), 2);
@@ -186,25 +189,89 @@ TEST_F(SweepsServiceTest, SweepsAreListedInPagesAndUnknownOnesAreNotFound) {
   EXPECT_EQ(watch_sweep(client, "jobs/1").status.error_code(), grpc::StatusCode::NOT_FOUND);
 }
 
-TEST_F(SweepsServiceTest, AHalfDoneSweepIsFinishedByTheNextDaemon) {
-  start(with_workers(1));
-  std::string name;
-  {
-    auto client = this->client();
-    auto request = sweep_of(small_case(), kSpeed, {});
-    for (int i = 0; i < 8; ++i) request.mutable_sweep()->mutable_axes(0)->mutable_list()->add_values(50.0 + i);
-    request.mutable_sweep()->set_max_parallel(1);
-    name = create(client, request).name();
-    ASSERT_TRUE(client.wait_for_state("jobs/2", v1::Job::SUCCEEDED));
+constexpr const char* kMesh = "elements_per_wall";
+constexpr const char* kSeed = "lattice.imperfection.seed";
+
+v1::CreateSweepRequest sweep_over_meshes(const std::vector<double>& meshes, int seeds) {
+  auto request = sweep_of(small_case(), kMesh, meshes);
+  auto& sweep = *request.mutable_sweep();
+  sweep.mutable_case_()->mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.01);
+  auto& axis = *sweep.add_axes();
+  axis.set_field(kSeed);
+  axis.set_seed_count(seeds);
+  return request;
+}
+
+v1::SweepTable::Row row_of(int elements, int seed, v1::Job::State state, double plateau) {
+  v1::SweepTable::Row row;
+  row.add_values(elements);
+  row.add_values(seed);
+  row.mutable_result()->set_state(state);
+  auto& summary = *row.mutable_result()->mutable_summary();
+  summary.set_plateau_stress_impact_mpa(plateau);
+  summary.set_plateau_stress_support_mpa(2.0 * plateau);
+  summary.set_absorbed_energy_mj(plateau);
+  return row;
+}
+
+TEST(SweepConvergence, LeavesOutJobsThatHaveNotSucceededAndPicksTheCoarsestMesh) {
+  const auto sweep = sweep_over_meshes({2.0, 4.0, 8.0}, 2).sweep();
+  const std::vector<v1::SweepTable::Row> rows = {
+      row_of(2, 1, v1::Job::SUCCEEDED, 0.90), row_of(2, 2, v1::Job::SUCCEEDED, 0.9002),
+      row_of(4, 1, v1::Job::SUCCEEDED, 0.98), row_of(4, 2, v1::Job::SUCCEEDED, 0.9802),
+      row_of(8, 1, v1::Job::SUCCEEDED, 1.00), row_of(8, 2, v1::Job::SUCCEEDED, 1.0002),
+      row_of(8, 3, v1::Job::FAILED, 5.0),     row_of(8, 4, v1::Job::RUNNING, 5.0)};
+  const auto found = jobs::convergence_of(sweep, rows, 0.05);
+  EXPECT_EQ(found.elements_per_wall(), 4);
+  EXPECT_EQ(found.job_count_left_out(), 2);
+  ASSERT_EQ(found.quantities_size(), 3) << "no run densified";
+  const auto& support = found.quantities(1);
+  EXPECT_EQ(support.field(), "plateau_stress_support_mpa");
+  ASSERT_EQ(support.meshes_size(), 3);
+  EXPECT_NEAR(support.meshes(0).error_relative(), 0.1, 1e-3);
+  EXPECT_NEAR(support.meshes(1).mean(), 1.9602, 1e-9);
+  EXPECT_EQ(support.meshes(2).job_count(), 2);
+  EXPECT_FALSE(jobs::convergence_of(sweep, rows, 0.001).has_elements_per_wall());
+}
+
+TEST(SweepConvergence, OfASweepOverAnythingElseIsRefused) {
+  for (const auto& request : {sweep_of(small_case(), kSpeed, {50.0, 100.0}), [] {
+                                auto both = sweep_over_meshes({2.0, 4.0}, 2);
+                                both.mutable_sweep()->mutable_axes(1)->set_field("depth_mm");
+                                return both;
+                              }()}) {
+    EXPECT_THROW(jobs::convergence_of(request.sweep(), {}, 0.05), ServiceError);
   }
-  daemon_->stop();
-  start(with_workers(1));
+}
+
+class ConvergenceServiceTest : public DaemonFixture {};
+
+TEST_F(ConvergenceServiceTest, IsThatOfTheTableAndItsCostIsToldBefore) {
   auto client = this->client();
-  EXPECT_TRUE(watch_sweep(client, name).status.ok());
-  const auto sweep = get_sweep(client, name);
-  EXPECT_EQ(sweep.jobs_size(), 8);
-  EXPECT_LE(count_in(sweep, v1::Job::FAILED), 1) << "Only the job that ran may be lost.";
-  EXPECT_EQ(count_in(sweep, v1::Job::SUCCEEDED) + count_in(sweep, v1::Job::FAILED), 8);
+  auto request = sweep_over_meshes({1.0, 2.0}, 2);
+  request.set_validate_only(true);
+  const double predicted = create(client, request).predicted_seconds();
+  EXPECT_GT(predicted, 0.0);
+  request.set_validate_only(false);
+  const auto sweep = create(client, request);
+  EXPECT_EQ(sweep.predicted_seconds(), predicted);
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 4));
+  auto asked = named<v1::GetConvergenceRequest>(sweep.name());
+  const auto found = answer_of(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked);
+  EXPECT_EQ(found.wanted_error_relative(), 0.05);
+  ASSERT_GE(found.quantities_size(), 3);
+  const auto& coarse = found.quantities(0).meshes(0);
+  const double first = client.get(sweep.jobs(0)).summary().plateau_stress_impact_mpa();
+  const double second = client.get(sweep.jobs(1)).summary().plateau_stress_impact_mpa();
+  EXPECT_NEAR(coarse.mean(), 0.5 * (first + second), 1e-9);
+  EXPECT_NEAR(coarse.scatter_relative() * coarse.mean(), std::abs(first - second) / std::sqrt(2.0), 1e-9);
+  asked.set_wanted_error_relative(-0.1);
+  const auto refused = try_call(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked);
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::INVALID_ARGUMENT, "wanted_error_relative"));
+  asked.set_name("sweeps/99");
+  asked.set_wanted_error_relative(0.1);
+  EXPECT_EQ(try_call(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked).error_code(),
+            grpc::StatusCode::NOT_FOUND);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
-// Commands of Slurm that give no answer, or a wrong one.
+// What is asked of the commands of Slurm, and those that give no answer or a wrong one.
 #include <unistd.h>
 
 #include <fstream>
+#include <set>
 
 #include "slurm/slurm_fixture.h"
 
@@ -68,6 +69,35 @@ TEST_F(SlurmAnswerTest, WhatSacctSaysOfASilentTaskCounts) {
   std::string line;
   EXPECT_TRUE(std::getline(asked, line));
   EXPECT_THAT(line, HasSubstr("--jobs=1 "));
+}
+
+// Each task takes jobs until it is predicted to run for the length of a task.
+TEST_F(SlurmAnswerTest, JobsThatComeTogetherShareAnArrayAndShortOnesATask) {
+  start_executor();
+  std::vector<std::unique_ptr<ExecutorRun>> jobs;
+  std::set<std::string> places;
+  for (int i = 1; i <= 4; ++i) jobs.push_back(run(endless_case(), i));
+  for (const auto& job : jobs) {
+    const std::string place = job->wait_for_place("Slurm job");
+    places.insert(place.substr(0, place.find(',')));
+  }
+  for (const auto& job : jobs) job->cancel();
+  for (const auto& job : jobs) EXPECT_EQ(job->wait().kind, Kind::cancelled);
+  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader", "--states=PENDING"}, "", std::chrono::seconds(20)))
+      << "Two of them waited in Slurm.";
+  EXPECT_THAT(*places.begin(), HasSubstr("_"));
+  EXPECT_EQ(places.size(), 4U);
+
+  auto options = quick_options();
+  options.task_length = std::chrono::seconds(3600);
+  start_executor(options);
+  jobs.clear();
+  places.clear();
+  for (int i = 1; i <= 4; ++i) jobs.push_back(run(tiny_case(), 10 + i));
+  for (const auto& job : jobs) places.insert(job->wait_for_place("Slurm job").substr(0, 11));
+  for (const auto& job : jobs) EXPECT_TRUE(job->wait().final.has_value());
+  EXPECT_EQ(places.size(), 1U);
+  EXPECT_EQ(attempt_count(), 0U);
 }
 
 class SlurmAccountingTest : public SlurmFixture {
@@ -137,16 +167,6 @@ TEST_F(SlurmAnswerTest, ASilentTaskOfWhichNobodyKnowsIsGivenUpAfterItsLease) {
   EXPECT_GT(std::chrono::steady_clock::now() - begin, milliseconds(12'000));
   EXPECT_EQ(exit.kind, Kind::displaced);
   EXPECT_THAT(exit.detail, HasSubstr("no sign of life for 16 s"));
-}
-
-TEST_F(SlurmAnswerTest, AJobThatSqueueNeverShowsRunsToItsEnd) {
-  auto options = quick_options();
-  options.commands = replace_command("squeue", "exit 0");
-  options.times.squeue = milliseconds(200);
-  start_executor(options);
-  const auto job = run(slow_case());
-  EXPECT_EQ(job->wait().kind, Kind::exited);
-  EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
 }
 
 // Each line is hidden at random, of jobs that run and of jobs that wait for long.

@@ -9,7 +9,6 @@
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
 #include "slurm/kept_daemon.h"
-#include "slurm/slurm_accounting.h"
 #include "slurm/slurm_conf.h"
 
 namespace cellcrush::testing {
@@ -86,13 +85,14 @@ class SlurmCluster {
   [[nodiscard]] std::string node_state(int node) const;
   KeptDaemon start(const std::string& name, const std::vector<std::string>& command) const;
   void start_munge();
-  void start_accounting();
+  void start_accounting(int port, const std::filesystem::path& munge_socket);
 
   TemporaryFolder folder_;
   std::filesystem::path config_;
   std::vector<std::unique_ptr<ReservedPort>> reserved_ports_;
   KeptDaemon munge_;
-  std::unique_ptr<SlurmAccounting> accounting_;
+  KeptDaemon database_;
+  KeptDaemon slurmdbd_;
   KeptDaemon controller_;
   std::vector<KeptDaemon> nodes_;
   std::vector<KeptDaemon> lost_;  // of killed nodes whose jobs survive

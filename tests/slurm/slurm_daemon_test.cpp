@@ -80,6 +80,9 @@ TEST_F(SlurmDaemonTest, AVelocitySweepOnTwoNodesHasTheBitsOfALocalOne) {
   std::set<std::string> nodes;
   for (std::string line; std::getline(lines, line);) nodes.insert(line);
   EXPECT_EQ(nodes, (std::set<std::string>{"n1", "n2"}));
+  for (const char* left : {"attempts", "batches"})
+    EXPECT_TRUE(wait_until([&] { return std::filesystem::is_empty(cluster_->shared_folder() / "cellcrush" / left); }))
+        << left;
 }
 
 TEST_F(SlurmDaemonTest, AJobIsWatchedSuspendedResumedAndCancelledAsAnyOther) {
@@ -93,8 +96,11 @@ TEST_F(SlurmDaemonTest, AJobIsWatchedSuspendedResumedAndCancelledAsAnyOther) {
   EXPECT_EQ(client.get(job).place(), "");
   ASSERT_TRUE(client.resume(job).ok());
   ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
+  wait_for_samples(client, job, client.history(job).size() + 5);
   ASSERT_TRUE(client.cancel(job).ok());
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED));
+  EXPECT_TRUE(watch_soundly(client, job).ok()) << "No sample comes twice.";
+  EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLED);
+  EXPECT_EQ(client.get(job).begun_again_sequence(), 0) << "It continued.";
   EXPECT_TRUE(client.get(job).has_summary());
 }
 
@@ -118,8 +124,7 @@ TEST_F(SlurmDaemonTest, ADaemonThatEndsLeavesItsJobsToTheNextOne) {
   ASSERT_TRUE(client.watch(here).status.ok());
   const auto expected = client.history(here);
   for (const auto& each : {job, waiting}) {
-    EXPECT_TRUE(client.watch(each).status.ok());
-    EXPECT_EQ(client.get(each).state(), v1::Job::SUCCEEDED) << client.get(each).cause_message();
+    expect_success(client, each);
     EXPECT_EQ(client.get(each).attempt(), 1);
     expect_equal(client.history(each), expected);
   }
@@ -145,8 +150,7 @@ TEST_F(SlurmDaemonTest, AClusterThatTakesNothingHoldsItsOwnQueueOnly) {
   Client client = this->client();
   ASSERT_EQ(cluster_->run({"scontrol", "update", "PartitionName=main", "State=DRAIN"}).exit_code, 0);
   const std::string there = create_there(client, tiny_case());
-  const std::string here = client.create(tiny_case());
-  EXPECT_TRUE(client.wait_for_state(here, v1::Job::SUCCEEDED));
+  const std::string here = client.create(tiny_case(), v1::Job::SUCCEEDED);
   ASSERT_TRUE(wait_until([&] { return client.queue().holds_size() == 1; }));
   const auto queue = client.queue();
   EXPECT_EQ(queue.holds(0).executor(), "slurm/test");

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <thread>
 
+#include "http/browser_rules.h"
 #include "server/http/http_fixture.h"
 #include "server/small_case.h"
 
@@ -27,8 +28,7 @@ TEST_F(HttpGatewayTest, AUnaryCallIsAnsweredInJsonAndInBinary) {
   const std::string json = call("GetJob", "application/json", R"({"name":")" + job + "\"}");
   EXPECT_THAT(json, StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(json, HasSubstr("\"name\":\"" + job + "\""));
-  v1::GetJobRequest wanted;
-  wanted.set_name(job);
+  auto wanted = named<v1::GetJobRequest>(job);
   const std::string binary = call("GetJob", "application/proto", wanted.SerializeAsString());
   v1::Job got;
   ASSERT_TRUE(got.ParseFromString(binary.substr(binary.find("\r\n\r\n") + 4)));
@@ -153,6 +153,19 @@ TEST_F(HttpGatewayTest, ACallEndsAtItsTimeLimit) {
   EXPECT_THAT(call("WatchJob", "application/connect+json", body, "Connect-Timeout-Ms: 300\r\n"),
               HasSubstr("\"code\":\"deadline_exceeded\""));
   EXPECT_THAT(call("ListJobs", "application/json", "{}", "Connect-Timeout-Ms: soon\r\n"), StartsWith("HTTP/1.1 400"));
+}
+
+TEST(HttpBrowser, PagesOfOtherSitesAreRefused) {
+  EXPECT_FALSE(http::check_browser({"localhost:80", "http://localhost:80", "same-origin"}, {80}));
+  EXPECT_FALSE(http::check_browser({"[::1]:81", "", ""}, {81}));
+  EXPECT_EQ(http::check_browser({"evil.example:81", "", ""}, {81})->status, 421U);
+  EXPECT_EQ(http::check_browser({"localhost:82", "", ""}, {81})->status, 421U);
+  EXPECT_EQ(http::check_browser({"localhost:81", "http://evil.example", ""}, {81})->status, 403U);
+  EXPECT_EQ(http::check_browser({"localhost:81", "null", ""}, {81})->status, 403U);
+  EXPECT_EQ(http::check_browser({"localhost:81", "", "cross-site"}, {81})->status, 403U);
+  EXPECT_FALSE(http::check_browser({"crush.example:81", "https://crush.example:81", ""}, {81, true}));
+  EXPECT_EQ(http::check_browser({"crush.example:81", "http://crush.example:81", ""}, {81, true})->status, 403U);
+  EXPECT_EQ(http::check_browser({"crush.example:81", "https://evil.example", ""}, {81, true})->status, 403U);
 }
 
 }  // namespace

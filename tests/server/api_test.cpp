@@ -1,18 +1,26 @@
-// The API against that of earlier versions: data/api-VERSION.binpb, the descriptor set of each.
+// The API: what no version may lose (data/api-VERSION.binpb, the descriptor set of each), and what strings clients send,
+// so that no one of them comes to be used as a path in the daemon's files unnoticed.
 #include <gmock/gmock.h>
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor.pb.h>
+#include <google/protobuf/descriptor_database.h>
 
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <set>
+#include <string>
 
 #include "cellcrush/v1/admin_service.pb.h"
 #include "cellcrush/v1/cases_service.pb.h"
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::testing {
 namespace {
+
+using google::protobuf::Descriptor;
 
 namespace pb = google::protobuf;
 using ::testing::ElementsAre;
@@ -193,42 +201,99 @@ pb::FieldDescriptorProto& field_in(pb::DescriptorProto& message, const std::stri
 }
 
 TEST(ApiCompatibility, EveryKindOfBreakIsSeen) {
-  EXPECT_THAT(breaks_after([](auto& set) {
-                auto& field = *message_in(set, "Progress").add_field();
-                field.set_name("gone");
-                field.set_number(99);
-                field.set_label(pb::FieldDescriptorProto::LABEL_OPTIONAL);
-                field.set_type(pb::FieldDescriptorProto::TYPE_DOUBLE);
-              }),
-              ElementsAre("cellcrush.v1.Progress.gone is gone, and its number not reserved."));
-  EXPECT_THAT(breaks_after([](auto& set) { field_in(message_in(set, "Progress"), "step").set_name("steps"); }),
+  using Set = pb::FileDescriptorSet;
+  using Field = pb::FieldDescriptorProto;
+  const auto add_field = [](Set& set) {
+    auto& field = *message_in(set, "Progress").add_field();
+    field.set_name("gone");
+    field.set_number(99);
+    field.set_label(Field::LABEL_OPTIONAL);
+    field.set_type(Field::TYPE_DOUBLE);
+  };
+  const auto add_value = [](Set& set) {
+    auto& value = *message_in(set, "Job").mutable_enum_type(0)->add_value();
+    value.set_name("PAUSED");
+    value.set_number(77);
+  };
+  const auto make_stream = [](Set& set) {
+    for (auto& file : *set.mutable_file()) {
+      if (file.service_size() > 0 && file.service(0).name() == "Jobs")
+        file.mutable_service(0)->mutable_method(0)->set_server_streaming(true);
+    }
+  };
+  const auto step = [](Set& set) -> Field& { return field_in(message_in(set, "Progress"), "step"); };
+  EXPECT_THAT(breaks_after(add_field), ElementsAre("cellcrush.v1.Progress.gone is gone, and its number not reserved."));
+  EXPECT_THAT(breaks_after([&](Set& set) { step(set).set_name("steps"); }),
               ElementsAre("cellcrush.v1.Progress.steps is called step."));
-  EXPECT_THAT(breaks_after([](auto& set) {
-                field_in(message_in(set, "Progress"), "step").set_type(pb::FieldDescriptorProto::TYPE_INT32);
-              }),
+  EXPECT_THAT(breaks_after([&](Set& set) { step(set).set_type(Field::TYPE_INT32); }),
               ElementsAre("cellcrush.v1.Progress.step has type int64."));
-  EXPECT_THAT(breaks_after([](auto& set) {
-                field_in(message_in(set, "Progress"), "step").set_label(pb::FieldDescriptorProto::LABEL_REPEATED);
-              }),
+  EXPECT_THAT(breaks_after([&](Set& set) { step(set).set_label(Field::LABEL_REPEATED); }),
               ElementsAre("cellcrush.v1.Progress.step has type int64."));
-  EXPECT_THAT(breaks_after([](auto& set) { field_in(message_in(set, "JobEvent"), "sequence").set_oneof_index(0); }),
+  EXPECT_THAT(breaks_after([](Set& set) { field_in(message_in(set, "JobEvent"), "sequence").set_oneof_index(0); }),
               ElementsAre("cellcrush.v1.JobEvent.sequence is in another oneof."));
-  EXPECT_THAT(breaks_after([](auto& set) {
-                auto& value = *message_in(set, "Job").mutable_enum_type(0)->add_value();
-                value.set_name("PAUSED");
-                value.set_number(77);
-              }),
-              ElementsAre("cellcrush.v1.Job.PAUSED is gone, and its number not reserved."));
-  EXPECT_THAT(breaks_after([](auto& set) {
-                for (auto& file : *set.mutable_file()) {
-                  for (auto& service : *file.mutable_service()) {
-                    for (auto& method : *service.mutable_method()) {
-                      if (method.name() == "GetJob") method.set_server_streaming(true);
-                    }
-                  }
-                }
-              }),
-              ElementsAre(HasSubstr("cellcrush.v1.Jobs.GetJob is now cellcrush.v1.GetJobRequest ->")));
+  EXPECT_THAT(breaks_after(add_value), ElementsAre("cellcrush.v1.Job.PAUSED is gone, and its number not reserved."));
+  EXPECT_THAT(breaks_after(make_stream), ElementsAre(HasSubstr("cellcrush.v1.Jobs.CreateJob is now cellcrush.v1.")));
+}
+
+void collect_texts(const Descriptor& message, std::set<std::string>& seen, std::set<std::string>& texts) {
+  if (!seen.insert(message.full_name()).second) return;
+  for (int i = 0; i < message.field_count(); ++i) {
+    const auto& field = *message.field(i);
+    if (field.message_type() != nullptr) collect_texts(*field.message_type(), seen, texts);
+    if (field.cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_STRING)
+      texts.insert(field.full_name().substr(std::string("cellcrush.v1.").size()));
+  }
+}
+
+std::set<std::string> texts_of_requests() {
+  std::set<std::string> seen;
+  std::set<std::string> texts;
+  for (const auto* file : {v1::GetCapabilitiesRequest::descriptor()->file(), v1::CheckCaseRequest::descriptor()->file(),
+                           v1::CreateJobRequest::descriptor()->file(), v1::CreateSweepRequest::descriptor()->file()}) {
+    for (int i = 0; i < file->service_count(); ++i) {
+      for (int k = 0; k < file->service(i)->method_count(); ++k)
+        collect_texts(*file->service(i)->method(k)->input_type(), seen, texts);
+    }
+  }
+  return texts;
+}
+
+// A field that comes to a request must be added here, by one who has looked at what the daemon does with it. None of
+// these is a path: names become numbers (store/resource_name.h) before a folder is named after one, the others are kept
+// or compared as they are.
+TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
+  const std::set<std::string> known = {
+      // Names of resources and presets.
+      "GetJobRequest.name", "CancelJobRequest.name", "SuspendJobRequest.name", "ResumeJobRequest.name",
+      "DeleteJobRequest.name", "DeleteSweepRequest.name", "WatchJobRequest.name", "GetHistoryRequest.name",
+      "GetFrameRequest.name", "DownloadResultRequest.name", "GetSweepRequest.name", "CancelSweepRequest.name",
+      "RetryFailedJobsRequest.name", "WatchSweepRequest.name", "GetSweepTableRequest.name", "GetPresetRequest.name",
+      "GetConvergenceRequest.name", "StreamFramesRequest.name", "ExportJobRequest.name",
+      // Of lists, of repeated calls and of resumed watches.
+      "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by", "WatchJobsRequest.filter",
+      "WatchJobsRequest.resume_token", "ListSweepsRequest.page_token", "GetHistoryRequest.page_token",
+      "GetSweepTableRequest.page_token", "CreateJobRequest.request_id", "CreateSweepRequest.request_id",
+      "WatchSweepRequest.resume_token", "WatchJobRequest.epoch",
+      // Of executors: compared with those that the daemon has.
+      "CreateJobRequest.executor", "Sweep.executor",
+      // Labels: key and value.
+      "CreateJobRequest.LabelsEntry.key", "CreateJobRequest.LabelsEntry.value", "Sweep.LabelsEntry.key",
+      "Sweep.LabelsEntry.value",
+      // Of a sweep: paths of fields in a case, and what the daemon writes itself and takes from nobody.
+      "SweepAxis.field", "SweepPoint.FieldsEntry.key", "Sweep.name", "Sweep.jobs", "Sweep.owner",
+      "Sweep.StateCountsEntry.key", "Problem.field", "Problem.value", "Problem.message", "Problem.remedy",
+      // Of a case: its title and the ids of a frame.
+      "Case.title", "Frame.Node.id", "Frame.Beam.start", "Frame.Beam.end", "Frame.Support.node", "Frame.NodalLoad.node",
+      "Frame.NodalMotion.node", "Frame.InitialVelocity.node", "Frame.RigidWall.id", "Frame.watched_nodes"};
+  EXPECT_THAT(texts_of_requests(), ::testing::ContainerEq(known));
+}
+
+TEST(RequestFields, NoNameWithAWayThroughFoldersIsANumber) {
+  for (const char* name : {"jobs/../1", "jobs/1/..", "jobs/1/../2", "../jobs/1", "/jobs/1", "jobs//1", "jobs/./1",
+                           "jobs/01", "jobs/+1", "jobs/-1", "jobs/1 ", "jobs/", "jobs/18446744073709551617", ""})
+    EXPECT_FALSE(store::number_of(name)) << name;
+  EXPECT_FALSE(store::number_of(std::string("jobs/1\0", 7)));
+  EXPECT_EQ(store::number_of("jobs/1"), 1);
 }
 
 }  // namespace
