@@ -1,5 +1,5 @@
-// The API: what no version may lose (data/api-VERSION.binpb, the descriptor set of each), and what strings clients send,
-// so that no one of them comes to be used as a path in the daemon's files unnoticed.
+// The API: what no version may lose (data/api-VERSION.binpb, the descriptor set of each), and what strings clients
+// send, so that no one of them comes to be used as a path in the daemon's files unnoticed.
 #include <gmock/gmock.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor.pb.h>

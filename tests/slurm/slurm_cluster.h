@@ -58,8 +58,8 @@ class SlurmCluster {
   [[nodiscard]] e2e::Outcome run(const std::vector<std::string>& command,
                                  std::chrono::milliseconds limit = std::chrono::seconds(10)) const;
 
-  /// Runs the command again and again until it succeeds with this output, but for blanks at its end. False when the time
-  /// was up before.
+  /// Runs the command again and again until it succeeds with this output, but for blanks at its end. False when the
+  /// time was up before.
   [[nodiscard]] bool wait_for(const std::vector<std::string>& command, const std::string& output,
                               std::chrono::milliseconds limit) const;
 
