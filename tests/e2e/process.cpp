@@ -68,6 +68,8 @@ Process::Process(const std::vector<std::string>& command, const std::string& inp
   const auto [input_read, input_write] = make_pipe();
   const auto [output_read, output_write] = make_pipe();
   const auto [error_read, error_write] = make_pipe();
+  // A daemon whose log nobody reads yet must not stand still.
+  fcntl(error_write, F_SETPIPE_SZ, 1 << 20);
   id_ = fork();
   if (id_ == 0) become(arguments.data(), parent, input_read, output_write, error_write);
   if (id_ > 0) setpgid(id_, id_);
@@ -109,8 +111,12 @@ bool Process::read_some(Clock::time_point deadline) {
 }
 
 bool Process::wait_for_output(const std::string& text, std::chrono::milliseconds limit) {
+  return read_until([&] { return output_.find(text) != std::string::npos; }, limit);
+}
+
+bool Process::read_until(const std::function<bool()>& condition, std::chrono::milliseconds limit) {
   const auto deadline = Clock::now() + limit;
-  while (output_.find(text) == std::string::npos) {
+  while (!condition()) {
     if (!read_some(deadline)) return false;
   }
   return true;

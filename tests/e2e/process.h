@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ class Process {
 
   /// Reads until `text` stands in the output. False when the program ended or the time was up before.
   bool wait_for_output(const std::string& text, std::chrono::milliseconds limit);
+  /// The same for a condition on what was read.
+  bool read_until(const std::function<bool()>& condition, std::chrono::milliseconds limit);
 
   /// Reads until the program has ended; kills it when the time is up. REQUIRES: not called before.
   Outcome wait(std::chrono::milliseconds limit);

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "store/backup.h"

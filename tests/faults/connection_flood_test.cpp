@@ -15,7 +15,6 @@
 
 #include "access/token_file.h"
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "server/certificates.h"
 #include "server/small_case.h"
@@ -193,8 +192,7 @@ TEST_P(ConnectionFloodTest, StrangersUnderAHardLimitOf1024DescriptorsShutNobodyO
 
 TEST_P(ConnectionFloodTest, FloodsLeaveEveryPortThreadsAndMemoryAsTheyWere) {
   auto local = this->client();
-  const std::string job = local.create(small_case());
-  ASSERT_TRUE(local.wait_for_state(job, v1::Job::SUCCEEDED));
+  const std::string job = local.create(small_case(), v1::Job::SUCCEEDED);
   expect_all_ports_answer();
   const std::size_t before = daemon_->resident_bytes();
   int most_threads = threads();
@@ -228,14 +226,14 @@ TEST_P(ConnectionFloodTest, FloodsLeaveEveryPortThreadsAndMemoryAsTheyWere) {
     watches.reserve(5000);
     for (int i = 0; i < 5000; ++i)
       watches.push_back(std::make_unique<Watch>(*stubs[static_cast<std::size_t>(i) % stubs.size()], answered, open));
-    for (int i = 0; i < 600 && answered < 5000; ++i) {
-      std::this_thread::sleep_for(milliseconds(50));
-      look();
-    }
-    EXPECT_EQ(answered, 5000);
+    EXPECT_TRUE(wait_until(
+        [&] {
+          look();
+          return answered == 5000;
+        },
+        seconds(30)));
     for (const auto& watch : watches) watch->cancel();
-    for (int i = 0; i < 600 && open > 0; ++i) std::this_thread::sleep_for(milliseconds(50));
-    ASSERT_EQ(open, 0);
+    ASSERT_TRUE(wait_until([&open] { return open == 0; }, seconds(30)));
     for (const auto& watch : watches) refused_watches += watch->refused() ? 1 : 0;
     stubs.clear();
     expect_all_ports_answer();
@@ -248,8 +246,7 @@ TEST_P(ConnectionFloodTest, FloodsLeaveEveryPortThreadsAndMemoryAsTheyWere) {
     for (int i = 0; i < 4; ++i) stubs.push_back(v1::Jobs::NewStub(channel()));
     std::deque<grpc::ClientContext> contexts;
     std::vector<std::unique_ptr<grpc::ClientReader<v1::DownloadResultResponse>>> readers;
-    v1::DownloadResultRequest request;
-    request.set_name(job);
+    auto request = named<v1::DownloadResultRequest>(job);
     for (std::size_t i = 0; i < 1100; ++i)
       readers.push_back(stubs[i % stubs.size()]->DownloadResult(&contexts.emplace_back(), request));
     std::this_thread::sleep_for(seconds(2));

@@ -6,7 +6,6 @@
 
 #include "faults/fault_fixture.h"
 #include "faults/filled_journal.h"
-#include "faults/rounds.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/watch_contract.h"

@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/small_case.h"
 #include "store/job_state.h"
 #include "store/journal_reader.h"

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 
@@ -63,8 +62,7 @@ class DamagedCheckpointTest : public FaultFixture {
   std::string end_job(const std::string& job) {
     start_daemon(arguments_);
     auto client = this->client();
-    EXPECT_TRUE(client.watch(job).status.ok());
-    EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
+    expect_success(client, job);
     EXPECT_TRUE(numbers_of(client, data_folder(), job) == expected_);
     return stop_daemon();
   }

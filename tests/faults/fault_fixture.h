@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/daemon_fixture.h"
@@ -13,6 +15,16 @@
 #include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
+
+/// Whether faults are made as often as a claim asks for: when CELLCRUSH_FAULT_ROUNDS is "full", as under the label
+/// `long`.
+inline bool is_full_round() {
+  const char* value = std::getenv("CELLCRUSH_FAULT_ROUNDS");
+  return value != nullptr && std::string_view(value) == "full";
+}
+
+/// How often a fault is made.
+inline int rounds(int few, int full) { return is_full_round() ? full : few; }
 
 /// A client that tries to connect again within a tenth of a second, and shares its connection with nobody. Its calls
 /// are to wait for the connection (wait_for_ready): between calls gRPC looks after it only every five seconds.

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 
@@ -29,8 +28,7 @@ class FullDiskTest : public FaultFixture {
     FaultFixture::TearDown();
     if (!mounted_) return;
     // Workers that were killed may hold it for an instant.
-    for (int i = 0; i < 100 && umount2(data_folder().c_str(), 0) != 0; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    wait_until([this] { return umount2(data_folder().c_str(), 0) == 0; }, std::chrono::seconds(5));
   }
 
   // Disks of 64, 128 and 256 MiB take turns. REQUIRES: the disk is not filled.
@@ -74,8 +72,7 @@ class FullDiskTest : public FaultFixture {
   // Of a run that nothing disturbs.
   JobNumbers undisturbed(Client& client) {
     const std::string job = client.create(submitted());
-    EXPECT_TRUE(client.watch(job).status.ok());
-    EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
+    expect_success(client, job);
     return numbers_of(client, data_folder(), job);
   }
 
@@ -125,13 +122,10 @@ TEST_F(FullDiskTest, WhileItIsFullNothingIsTakenAndWhatWaitsRunsAfterwards) {
   const std::string waiting = client.create(submitted());
   wait_for_samples(client, running, 20);
   keep_the_disk_full(std::chrono::milliseconds(1000));
-  v1::CreateJobRequest request;
-  *request.mutable_case_() = small_case();
-  v1::Job refused;
   grpc::Status status;
   for (int i = 0; i < 200 && status.ok(); ++i) {
     fill_the_disk();
-    status = client.jobs->CreateJob(bounded_context().get(), request, &refused);
+    status = client.try_to(job_of(small_case()));
   }
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
   expect_service(client);
@@ -148,8 +142,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
   const auto whole = undisturbed(client);
   for (int i = 0; i < rounds(1, 10); ++i) {
     resize_the_disk(i);
-    const std::string cancelled = client.create(endless_case());
-    wait_for_samples(client, cancelled, 10);
+    const std::string cancelled = create_with_samples(client, endless_case(), 10);
     {
       const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(1500)); });
       std::this_thread::sleep_for(std::chrono::milliseconds(37 * i));
@@ -157,13 +150,11 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
     }
     make_room();
     // A cancel that could not be noted is made again.
-    for (int look = 0; look < 100 && !client.cancel(cancelled).ok(); ++look)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    wait_until([&] { return client.cancel(cancelled).ok(); });
     EXPECT_TRUE(client.wait_for_state(cancelled, v1::Job::CANCELLED))
         << v1::Job::State_Name(client.get(cancelled).state());
 
-    const std::string suspended = client.create(submitted());
-    wait_for_samples(client, suspended, 10);
+    const std::string suspended = create_with_samples(client, submitted(), 10);
     {
       const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(1500)); });
       std::this_thread::sleep_for(std::chrono::milliseconds(37 * i));
@@ -172,10 +163,10 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
     make_room();
     expect_service(client);
     // A suspend that could not be noted may be noted only now.
-    for (int look = 0; look < 200 && client.get(suspended).state() != v1::Job::SUCCEEDED; ++look) {
+    wait_until([&] {
       (void)client.resume(suspended);
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+      return client.get(suspended).state() == v1::Job::SUCCEEDED;
+    });
     expect_the_same_end(client, suspended, whole);
   }
 }
@@ -193,8 +184,7 @@ TEST_F(FullDiskTest, ADaemonStartsWithNextToNoRoomServesReadingAndRunsNothingUnt
     std::string job;
     {
       auto client = this->client();
-      job = client.create(submitted());
-      wait_for_samples(client, job, 20);
+      job = create_with_samples(client, submitted(), 20);
     }
     const bool killed = kibibytes / step % 2 == 1;
     if (killed) {

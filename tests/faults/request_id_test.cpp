@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
@@ -21,13 +20,9 @@ class RequestIdTest : public FaultFixture {
     std::vector<std::string> out;
     auto client = impatient_client(address);
     for (int i = 0; i < ids; ++i) {
-      v1::CreateJobRequest request;
-      *request.mutable_case_() = tiny_case();
+      auto request = job_of(tiny_case());
       request.set_request_id("request-" + std::to_string(i));
-      v1::Job job;
-      const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
-      EXPECT_TRUE(status.ok()) << status.error_message();
-      out.push_back(job.name());
+      out.push_back(client.create(request).name());
     }
     return out;
   }

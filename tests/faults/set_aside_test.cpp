@@ -25,10 +25,7 @@ class SetAsideTest : public FaultFixture {
   [[nodiscard]] std::filesystem::path jobs() const { return data_folder() / "jobs"; }
   [[nodiscard]] std::filesystem::path set_aside() const { return data_folder() / "set-aside"; }
 
-  void expect_that_it_serves(Client& client) {
-    const std::string job = client.create(tiny_case());
-    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << v1::Job::State_Name(client.get(job).state());
-  }
+  void expect_that_it_serves(Client& client) { const std::string job = client.create(tiny_case(), v1::Job::SUCCEEDED); }
 };
 
 TEST_F(SetAsideTest, WhatBelongsToNoJobIsSetAsideAndNeverAdopted) {
@@ -98,8 +95,7 @@ TEST_F(SetAsideTest, AFolderThatCannotBeUsedCostsOnlyItsJob) {
   grpc::Status status;
   EXPECT_THAT(client.download("jobs/1", 0, status), IsEmpty());
   EXPECT_THAT(status.error_message(), HasSubstr("it is not a regular file"));
-  v1::GetFrameRequest request;
-  request.set_name("jobs/1");
+  auto request = named<v1::GetFrameRequest>("jobs/1");
   const auto context = bounded_context();
   const auto reader = client.jobs->GetFrame(context.get(), request);
   v1::GetFrameResponse response;
@@ -117,17 +113,14 @@ TEST_F(SetAsideTest, AFolderOfNobodysRightsCostsOnlyItsJob) {
   std::string waiting;
   {
     auto client = this->client();
-    ended = client.create(tiny_case());
-    ASSERT_TRUE(client.wait_for_state(ended, v1::Job::SUCCEEDED));
-    waiting = client.create(case_of_seconds());
-    wait_for_samples(client, waiting, 5);
+    ended = client.create(tiny_case(), v1::Job::SUCCEEDED);
+    waiting = create_with_samples(client, case_of_seconds(), 5);
   }
   stop_daemon();
   for (const auto& name : {ended, waiting}) chmod((data_folder() / name).c_str(), 0);
   start_daemon({"--workers", "1"});
   auto client = this->client();
-  ASSERT_TRUE(client.watch(waiting).status.ok());
-  EXPECT_EQ(client.get(waiting).state(), v1::Job::SUCCEEDED) << client.get(waiting).cause_message();
+  expect_success(client, waiting);
   EXPECT_EQ(client.history(waiting).size(), 201U);
   EXPECT_EQ(client.get(ended).state(), v1::Job::SUCCEEDED);
   if (geteuid() != 0) {

@@ -8,11 +8,8 @@
 #include <fstream>
 #include <thread>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "faults/fault_fixture.h"
 #include "faults/filled_journal.h"
-#include "faults/rounds.h"
-#include "server/raw_call.h"
 #include "server/small_case.h"
 #include "store/sqlite.h"
 
@@ -32,20 +29,14 @@ class ShortageTest : public FaultFixture {
 
   // The causes for which the queue is held.
   static std::string held_for(const Client& client) {
-    v1::Queue queue;
-    const auto status = v1::Admin::NewStub(client.channel)->GetQueue(bounded_context().get(), {}, &queue);
-    EXPECT_TRUE(status.ok()) << status.error_message();
     std::string out;
+    const auto queue = client.queue();
     for (const auto& hold : queue.holds()) out += hold.cause() + " ";
     return out;
   }
 
   static bool wait_until_held_for(const Client& client, const std::string& cause) {
-    for (int i = 0; i < 600; ++i) {
-      if (held_for(client).find(cause) != std::string::npos) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return false;
+    return wait_until([&] { return held_for(client).find(cause) != std::string::npos; }, std::chrono::seconds(30));
   }
 
   static std::map<v1::Job::State, int> count_states(Client& client) {
@@ -55,9 +46,7 @@ class ShortageTest : public FaultFixture {
   }
 
   static void expect_all_to_succeed(Client& client, int count) {
-    for (int i = 0; i < 1200 && count_states(client)[v1::Job::SUCCEEDED] < count; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    EXPECT_EQ(count_states(client)[v1::Job::SUCCEEDED], count);
+    EXPECT_TRUE(wait_until([&] { return count_states(client)[v1::Job::SUCCEEDED] == count; }, std::chrono::minutes(2)));
   }
 
   void limit_descriptors(rlim_t limit) const {
@@ -95,11 +84,11 @@ TEST_F(ShortageTest, WithoutDescriptorsTheQueueIsHeldAndNoJobFails) {
   std::this_thread::sleep_for(std::chrono::seconds(2));
   EXPECT_EQ(count_states(client)[v1::Job::FAILED], 0);
   EXPECT_GT(count_states(client)[v1::Job::PENDING], 0);
-  EXPECT_FALSE(is_serving(client.channel, "cellcrush.queue"));
+  EXPECT_FALSE(is_serving(client, "cellcrush.queue"));
   limit_descriptors(1024);
   expect_all_to_succeed(client, count);
   EXPECT_EQ(held_for(client), "");
-  EXPECT_TRUE(is_serving(client.channel, "cellcrush.queue"));
+  EXPECT_TRUE(is_serving(client, "cellcrush.queue"));
   const std::string log = stop_daemon();
   EXPECT_THAT(log, HasSubstr("The queue is held"));
   EXPECT_THAT(log, HasSubstr("LimitNOFILE"));

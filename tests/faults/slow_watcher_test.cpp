@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/watch_contract.h"

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 
@@ -22,21 +21,15 @@ class SweepDeletionTest : public FaultFixture {
     auto& values = *request.mutable_sweep()->mutable_axes(0)->mutable_list()->mutable_values();
     for (int i = 0; i < points; ++i) values.Add(0.0001 * i);
     std::string name = create(client, request).name();
-    v1::CancelSweepRequest cancel;
-    cancel.set_name(name);
-    v1::Sweep cancelled;
-    EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
-    EXPECT_EQ(count_in(cancelled, v1::Job::CANCELLED), points);
+    EXPECT_EQ(count_in(cancel_sweep(client, name), v1::Job::CANCELLED), points);
     return name;
   }
 
   static grpc::StatusCode delete_sweep(Client& client, const std::string& name) {
-    v1::DeleteSweepRequest request;
-    request.set_name(name);
     v1::DeleteSweepResponse response;
     const auto context = bounded_context();
     context->set_wait_for_ready(true);
-    return client.sweeps->DeleteSweep(context.get(), request, &response).error_code();
+    return client.sweeps->DeleteSweep(context.get(), named<v1::DeleteSweepRequest>(name), &response).error_code();
   }
 };
 
@@ -47,8 +40,7 @@ TEST_F(SweepDeletionTest, ADaemonThatIsKilledMeanwhileIsContinuedByTheNext) {
   for (int i = 0; i < count; ++i) {
     start_daemon({"--workers", "1"});
     auto client = this->client();
-    const std::string running = client.create(endless_case());
-    ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
+    const std::string running = client.create(endless_case(), v1::Job::RUNNING);
     const std::string kept = client.create(tiny_case());
     const std::string name = make_ended_sweep(client, points);
     auto code = grpc::StatusCode::OK;
@@ -67,8 +59,7 @@ TEST_F(SweepDeletionTest, ADaemonThatIsKilledMeanwhileIsContinuedByTheNext) {
     }
     torn += code != grpc::StatusCode::OK;
     auto next = this->client();
-    for (int step = 0; step < 600 && all_jobs(next).size() > 2; ++step)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    wait_until([&next] { return all_jobs(next).size() <= 2; }, std::chrono::seconds(30));
     const auto left = all_jobs(next);
     EXPECT_EQ(left.size(), 2U);
     EXPECT_TRUE(left.contains(running) && left.contains(kept));

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/small_case.h"
 #include "server/watch_contract.h"
 #include "store/journal_reader.h"

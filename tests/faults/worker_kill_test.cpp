@@ -10,10 +10,8 @@
 #include <utility>
 
 #include "faults/fault_fixture.h"
-#include "faults/rounds.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
-#include "server/watch_contract.h"
 #include "store/job_state.h"
 
 namespace cellcrush::testing {
@@ -39,9 +37,7 @@ class WorkerKillTest : public FaultFixture {
   // What the workers left goes soon after the job's end.
   void expect_nothing_left(const std::string& job) const {
     const auto reports = data_folder() / job / "reports";
-    for (int i = 0; i < 100 && std::filesystem::exists(reports); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    EXPECT_FALSE(std::filesystem::exists(reports));
+    EXPECT_TRUE(wait_until([&reports] { return !std::filesystem::exists(reports); }));
     EXPECT_FALSE(std::filesystem::exists(data_folder() / job / "checkpoint"));
   }
 };
@@ -62,11 +58,7 @@ TEST_F(WorkerKillTest, AJobWhoseWorkersAreKilledAtRandomMomentsHasTheSameBits) {
   for (; kills < wanted && jobs < 2 * wanted; ++jobs) {
     const std::string job = client.create(case_of_seconds());
     kills += run_and_kill(client, job, random, wanted - kills);
-    WatchContract contract;
-    const auto watched = client.watch(job, 0, false, [&](const v1::JobEvent& event) { contract.see(event); });
-    contract.end(watched.status);
-    EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
-    EXPECT_THAT(contract.broken(), ::testing::IsEmpty());
+    EXPECT_TRUE(watch_soundly(client, job).ok());
     const auto ended = client.get(job);
     workers += ended.attempt();
     ASSERT_EQ(ended.state(), v1::Job::SUCCEEDED) << ended.cause_message();

@@ -24,11 +24,6 @@
 namespace cellcrush::fuzz {
 namespace {
 
-void write(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary | std::ios::trunc)
-      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
 std::uint32_t checksum_of(const std::string& bytes) {
   return static_cast<std::uint32_t>(
       crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<z_size_t>(bytes.size())));
@@ -74,11 +69,6 @@ void read_checkpoint(const store::JobFolder& folder) {
 }  // namespace
 }  // namespace cellcrush::fuzz
 
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  cellcrush::fuzz::use_memory_folder();
-  return 0;
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace cellcrush;
   static const testing::TemporaryFolder place;
@@ -88,14 +78,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_sound = data[0] >= 128;
   switch (data[0] % 3U) {
     case 0:
-      fuzz::write(folder.reports(), is_sound ? fuzz::as_record(bytes) + bytes : bytes);
+      fuzz::write_file(folder.reports(), is_sound ? fuzz::as_record(bytes) + bytes : bytes);
       fuzz::read_reports(folder);
       break;
     case 1:
-      fuzz::write(folder.checkpoint(), is_sound ? fuzz::as_checkpoint(bytes) : bytes);
+      fuzz::write_file(folder.checkpoint(), is_sound ? fuzz::as_checkpoint(bytes) : bytes);
       fuzz::read_checkpoint(folder);
       break;
-    default: fuzz::write(folder.claim(), bytes); static_cast<void>(worker::find_claim(folder));
+    default: fuzz::write_file(folder.claim(), bytes); static_cast<void>(worker::find_claim(folder));
   }
   return 0;
 }

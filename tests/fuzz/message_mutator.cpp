@@ -1,12 +1,12 @@
-#include "fuzz/message_mutator.h"
-
 #include <google/protobuf/descriptor.h>
 
-#include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include "fuzz/wire_input.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
@@ -16,43 +16,13 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-// What the daemon understands, of every kind of text that it reads.
-const std::vector<std::string> kTexts = {"",
-                                         "jobs/1",
-                                         "jobs/2",
-                                         "jobs/3",
-                                         "jobs/4",
-                                         "jobs/7",
-                                         "sweeps/1",
-                                         "sweeps/2",
-                                         "../jobs/1",
-                                         "jobs/9223372036854775807",
-                                         "a",
-                                         "b",
-                                         "key",
-                                         "local",
-                                         "name desc",
-                                         "create_time",
-                                         "state = SUCCEEDED",
-                                         "owner = local AND label.key = \"value\"",
-                                         "title : \"cells\"",
-                                         "1:4+3=e;",
-                                         "1:4+1=1;5+2=e;",
-                                         "1:4+100000=0;",
-                                         "loading.speed_m_per_s",
-                                         "lattice.hexagon.rows",
-                                         "lattice.hexagon.wall_thickness_mm",
-                                         "lattice.frame.nodes[0].x_mm",
-                                         "lattice.imperfection.seed",
-                                         "numerics.threads"};
-
 std::size_t below(std::size_t end, std::mt19937& random) {
   return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
 }
 
 std::string mutated_text(std::string text, std::mt19937& random) {
   constexpr std::size_t kLongest = 300;
-  if (below(3, random) == 0) return kTexts[below(kTexts.size(), random)];
+  if (below(3, random) == 0) text.clear();  // most often replaced by a word of the dictionary
   const std::size_t size = std::min(text.size(), kLongest);
   text.resize(kLongest);
   text.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(text.data()), size, kLongest));
@@ -62,42 +32,31 @@ std::string mutated_text(std::string text, std::mt19937& random) {
 
 double mutated_number(double value, std::mt19937& random) {
   using Limits = std::numeric_limits<double>;
-  const std::array<double, 16> numbers = {0.0,
-                                          -0.0,
-                                          1.0,
-                                          -1.0,
-                                          0.5,
-                                          1e-3,
-                                          20.0,
-                                          1e3,
-                                          1e9,
-                                          1e-300,
-                                          1e300,
-                                          Limits::max(),
-                                          Limits::denorm_min(),
-                                          Limits::infinity(),
-                                          -Limits::infinity(),
-                                          Limits::quiet_NaN()};
-  if (below(2, random) == 0) return numbers[below(numbers.size(), random)];
+  const double numbers[] = {0.0,
+                            -0.0,
+                            1.0,
+                            -1.0,
+                            0.5,
+                            1e-3,
+                            20.0,
+                            1e3,
+                            1e9,
+                            1e-300,
+                            1e300,
+                            Limits::max(),
+                            Limits::denorm_min(),
+                            Limits::infinity(),
+                            -Limits::infinity(),
+                            Limits::quiet_NaN()};
+  if (below(2, random) == 0) return numbers[below(std::size(numbers), random)];
   return value * std::uniform_real_distribution<double>(-0.5, 3.0)(random);
 }
 
 std::int64_t mutated_whole(std::int64_t value, std::mt19937& random) {
-  const std::array<std::int64_t, 14> numbers = {0,
-                                                1,
-                                                2,
-                                                3,
-                                                4,
-                                                7,
-                                                -1,
-                                                100,
-                                                101,
-                                                10000,
-                                                2147483647,
-                                                -2147483648LL,
-                                                std::numeric_limits<std::int64_t>::max(),
-                                                std::numeric_limits<std::int64_t>::min()};
-  if (below(2, random) == 0) return numbers[below(numbers.size(), random)];
+  using Limits = std::numeric_limits<std::int64_t>;
+  const std::int64_t numbers[] = {
+      0, 1, 2, 3, 4, 7, -1, 100, 101, 10000, 2147483647, -2147483648LL, Limits::max(), Limits::min()};
+  if (below(2, random) == 0) return numbers[below(std::size(numbers), random)];
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(value) + below(7, random) - 3);
 }
 

@@ -1,7 +1,6 @@
 #include "fuzz/prepared_folder.h"
 
-#include <cstdlib>
-#include <string>
+#include <fstream>
 
 #include "cellcrush/v1/sample.pb.h"
 #include "server/small_case.h"
@@ -100,8 +99,9 @@ void write_result(const std::filesystem::path& path) {
   writer.finish({testing::small_case(), "1.0", "scalar", 1, 1e-6, {"Walls are beams."}}, v1::Summary());
 }
 
-void use_memory_folder() {
-  if (std::filesystem::exists("/dev/shm")) setenv("TMPDIR", "/dev/shm", 0);
+void write_file(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc)
+      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 }  // namespace cellcrush::fuzz

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace cellcrush::fuzz {
 
@@ -15,8 +16,7 @@ void prepare_folder(const std::filesystem::path& folder);
 /// A small but whole result: 3 particles, 2 elements, 5 samples and 3 frames.
 void write_result(const std::filesystem::path& path);
 
-/// Has temporary folders made where writes are not waited for, if there is such a place: what a run makes durable is of
-/// no worth.
-void use_memory_folder();
+/// Replaces a file by these bytes.
+void write_file(const std::filesystem::path& path, const std::string& bytes);
 
 }  // namespace cellcrush::fuzz

@@ -51,11 +51,6 @@ struct Bench {
   std::filesystem::path result = folder.path() / "result.h5";
 };
 
-void write(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary | std::ios::trunc)
-      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
 // The first byte counts the parts to replace. Returns what is left of the input.
 Bytes replace_some(const std::filesystem::path& path, Bytes input) {
   if (input.empty()) return input;
@@ -83,7 +78,7 @@ void overwrite(const std::filesystem::path& path, Bytes input) {
     std::copy_n(input.begin() + kHead, length, bytes.begin() + static_cast<std::ptrdiff_t>(offset));
     input = input.subspan(kHead + length);
   }
-  write(path, bytes);
+  write_file(path, bytes);
 }
 
 void expect_own(double value) {
@@ -135,15 +130,10 @@ void read_all(const std::filesystem::path& path, std::uint8_t choice) {
 }  // namespace
 }  // namespace cellcrush::fuzz
 
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  cellcrush::fuzz::use_memory_folder();
-  return 0;
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace cellcrush::fuzz;
   static const Bench bench;
-  write(bench.result, bench.whole);
+  write_file(bench.result, bench.whole);
   const std::uint8_t choice = size > 0 ? data[size - 1] : 0;
   const auto damage = replace_some(bench.result, {data, size});
   cellcrush::store::seal_result(bench.result);

@@ -1,5 +1,8 @@
 #include "fuzz/size_bound.h"
 
+#include <cstdio>
+#include <cstdlib>
+
 #include "error.h"
 #include "jobs/case_field.h"
 #include "jobs/sweep_points.h"
@@ -43,6 +46,14 @@ bool is_large(const v1::Sweep& given, double most_elements) {
     // What is refused costs nothing.
   }
   return false;
+}
+
+void require_complete(const google::protobuf::RepeatedPtrField<v1::Problem>& problems) {
+  for (const v1::Problem& problem : problems) {
+    if (!problem.field().empty() && !problem.message().empty() && !problem.remedy().empty()) continue;
+    std::fprintf(stderr, "a refusal without field, message or remedy: %s\n", problem.ShortDebugString().c_str());
+    std::abort();
+  }
 }
 
 }  // namespace cellcrush::fuzz

@@ -20,7 +20,6 @@
 #include "cellcrush/v1/cases_service.pb.h"
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
-#include "fuzz/message_mutator.h"
 #include "fuzz/prepared_folder.h"
 #include "fuzz/size_bound.h"
 #include "fuzz/wire_daemon.h"
@@ -78,13 +77,6 @@ bool takes_long(const google::protobuf::Message& request) {
   return false;
 }
 
-void check_problems(const Method& method, const v1::CheckCaseResponse& response) {
-  for (const v1::Problem& problem : response.problems()) {
-    if (problem.field().empty() || problem.message().empty() || problem.remedy().empty())
-      give_up(method, grpc::Status::OK, "a problem without field, message or remedy");
-  }
-}
-
 void check_answer(const Method& method, const WireDaemon::Answer& answer) {
   constexpr std::size_t kMostTrailer = 8192;
   const auto& status = answer.status;
@@ -108,7 +100,7 @@ void check_answer(const Method& method, const WireDaemon::Answer& answer) {
   }
   const auto response = method.new_response();
   if (!response->ParseFromString(answer.message)) give_up(method, status, "an answer cannot be read");
-  if (const auto* check = dynamic_cast<v1::CheckCaseResponse*>(response.get())) check_problems(method, *check);
+  if (const auto* check = dynamic_cast<v1::CheckCaseResponse*>(response.get())) require_complete(check->problems());
 }
 
 bool leaves_all(const Method& method, const grpc::Status& status) {
@@ -135,7 +127,6 @@ bool run(Bench& bench, const WireCall& call) {
 }  // namespace cellcrush::fuzz
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  cellcrush::fuzz::use_memory_folder();
   spdlog::set_level(spdlog::level::off);
   google::protobuf::SetLogHandler(nullptr);
   return 0;

@@ -39,4 +39,8 @@ std::string bytes_of(const std::vector<WireCall>& calls);
 /// A sound call of a method drawn by chance, of what prepare_folder has left.
 WireCall draw_call(std::mt19937& random);
 
+/// Changes one field somewhere in the message: sets, clears, adds, removes or repeats it. Strings stay ASCII, since
+/// what is no UTF-8 is refused before the daemon sees it. What bytes alone may do to a message is left to libFuzzer.
+void mutate(google::protobuf::Message& message, std::mt19937& random);
+
 }  // namespace cellcrush::fuzz

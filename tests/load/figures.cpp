@@ -33,25 +33,4 @@ double memory_of(int process) {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
-namespace {
-
-// The value behind a word such as "Pss:" in a file of /proc, kB there, MiB here; 0 without one.
-double mebibytes_in(const std::string& path, const std::string& wanted) {
-  std::ifstream file(path);
-  std::string word;
-  double kibibytes = 0.0;
-  while (file >> word) {
-    if (word == wanted && file >> kibibytes) break;
-  }
-  return kibibytes / 1024.0;
-}
-
-}  // namespace
-
-double shared_memory_of(int process) {
-  return mebibytes_in("/proc/" + std::to_string(process) + "/smaps_rollup", "Pss:");
-}
-
-double peak_memory_of(int process) { return mebibytes_in("/proc/" + std::to_string(process) + "/status", "VmHWM:"); }
-
 }  // namespace cellcrush::load

@@ -15,10 +15,4 @@ double processor_time_of(int process);
 /// Resident memory of a process, MiB.
 double memory_of(int process);
 
-/// Its share of the resident memory, with shared pages divided among their users (PSS), MiB.
-double shared_memory_of(int process);
-
-/// The most that was resident at once (VmHWM), MiB.
-double peak_memory_of(int process);
-
 }  // namespace cellcrush::load

@@ -3,12 +3,13 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "http/connect_protocol.h"
-#include "load/stream_parser.h"
 #include "server/http/http_socket.h"
 
 namespace cellcrush::load {
@@ -27,6 +28,61 @@ std::string request_text(const HttpWatch& watch) {
          "\r\nContent-Type: application/connect+" + (json ? "json" : "proto") +
          "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
+
+// Reads the answer to one streaming call of the Connect protocol over HTTP/1.1, piece by piece as it comes.
+class StreamParser {
+ public:
+  // `on_message` gets each message in order, without its prefix, but not the last envelope.
+  explicit StreamParser(std::function<void(std::string_view message)> on_message)
+      : on_message_(std::move(on_message)) {}
+
+  void add(std::string_view bytes) {
+    while (!bytes.empty()) {
+      if (chunk_left_ > 0) {
+        const auto piece = bytes.substr(0, chunk_left_);
+        chunk_left_ -= piece.size();
+        bytes.remove_prefix(piece.size());
+        add_body(piece);
+        continue;
+      }
+      line_ += bytes.front();
+      bytes.remove_prefix(1);
+      if (!line_.ends_with(in_body_ ? "\r\n" : "\r\n\r\n")) continue;
+      if (in_body_ && line_.size() > 2) chunk_left_ = std::stoul(line_, nullptr, 16);
+      in_body_ = true;
+      line_.clear();
+    }
+  }
+
+  // Whether the last envelope came.
+  [[nodiscard]] bool ended() const { return ended_; }
+
+ private:
+  void add_body(std::string_view bytes) {
+    constexpr std::size_t kPrefix = 5;
+    body_ += bytes;
+    std::size_t at = 0;
+    while (body_.size() - at >= kPrefix) {
+      std::size_t size = 0;
+      for (std::size_t i = 1; i < kPrefix; ++i) size = size << 8U | static_cast<unsigned char>(body_[at + i]);
+      if (body_.size() - at < kPrefix + size) break;
+      if (body_[at] == static_cast<char>(http::kEndOfStream)) {
+        ended_ = true;
+      } else {
+        on_message_(std::string_view(body_).substr(at + kPrefix, size));
+      }
+      at += kPrefix + size;
+    }
+    body_.erase(0, at);
+  }
+
+  std::function<void(std::string_view)> on_message_;
+  std::string line_;            // headers, or the size of a chunk, so far
+  bool in_body_ = false;        // the headers are complete
+  std::size_t chunk_left_ = 0;  // bytes of the chunk that follow
+  std::string body_;            // without a complete envelope
+  bool ended_ = false;
+};
 
 class Watcher {
  public:
@@ -47,7 +103,7 @@ class Watcher {
     if (count <= 0) return end(false);
     received_.bytes += count;
     parser_.add({room.data(), static_cast<std::size_t>(count)});
-    if (!parser_.end().empty()) end(false);
+    if (parser_.ended()) end(false);
   }
 
  private:

@@ -27,8 +27,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 // Submits jobs one after the other that wait behind all others; the times that the calls took.
 std::vector<double> submit(const std::string& address, int count, std::vector<std::string>* names = nullptr) {
   Client client(address);
-  v1::CreateJobRequest request;
-  *request.mutable_case_() = testing::small_case();
+  auto request = testing::job_of(testing::small_case());
   request.set_priority(-100);
   std::vector<double> out;
   for (int i = 0; i < count; ++i) {
@@ -90,11 +89,7 @@ void measure_events(const std::string& address) {
 
 // Type I for some ten thousand steps, with about ten frames a second of some 120 kB.
 v1::Case framed_case(Client& client) {
-  v1::GetPresetRequest request;
-  request.set_name("type-i");
-  v1::Preset preset;
-  if (!client.cases->GetPreset(testing::bounded_context().get(), request, &preset).ok()) fmt::print("no type-i\n");
-  v1::Case out = preset.case_();
+  v1::Case out = client.preset("type-i");
   out.mutable_loading()->set_end_strain(0.3);
   out.mutable_output()->set_frame_count(60);
   return out;
@@ -118,9 +113,8 @@ void measure_lists(const std::filesystem::path& folder) {
     for (int i = 0; i < 20; ++i) {
       v1::ListJobsRequest request;
       request.set_filter(filter);
-      v1::ListJobsResponse response;
       const auto start = Clock::now();
-      const auto status = client.jobs->ListJobs(testing::bounded_context().get(), request, &response);
+      const auto status = client.try_to(request);
       taken.push_back(seconds_since(start));
       if (!status.ok()) fmt::print("a list failed: {}\n", status.error_message());
     }
@@ -144,8 +138,7 @@ void wait_for_end(Client& client, const std::string& job) {
 class SlowWatcher {
  public:
   SlowWatcher(const std::string& address, const std::string& job) : client_(address) {
-    v1::WatchJobRequest request;
-    request.set_name(job);
+    auto request = testing::named<v1::WatchJobRequest>(job);
     request.set_frames(true);
     reader_ = client_.jobs->WatchJob(context_.get(), request);
     thread_ = std::jthread([this](const std::stop_token& stop) {
@@ -178,11 +171,9 @@ Run run(const std::string& address, int daemon, const Watchers& watchers) {
   Run out;
   const auto start = Clock::now();
   const double before = processor_time_of(daemon);
-  v1::CreateJobRequest request;
-  *request.mutable_case_() = framed_case(client);
+  auto request = testing::job_of(framed_case(client));
   request.set_priority(100);
-  v1::Job job;
-  client.jobs->CreateJob(testing::bounded_context().get(), request, &job);
+  const v1::Job job = client.create(request);
   std::atomic<std::size_t> seen = 0;
   {
     std::vector<std::jthread> threads;

@@ -23,11 +23,7 @@ using testing::Client;
 
 // A crush of Type I by default, at a speed that takes seconds.
 v1::Case crush(Client& client) {
-  v1::GetPresetRequest request;
-  request.set_name("type-i");
-  v1::Preset preset;
-  if (!client.cases->GetPreset(testing::bounded_context().get(), request, &preset).ok()) fmt::print("no type-i\n");
-  v1::Case out = preset.case_();
+  v1::Case out = client.preset("type-i");
   out.mutable_loading()->set_speed_m_per_s(100.0);
   return out;
 }

@@ -7,7 +7,6 @@
 #include "log_format.h"
 #include "server/executors_fixture.h"
 #include "server/log_capture.h"
-#include "server/raw_call.h"
 #include "store/journal.h"
 
 namespace cellcrush::testing {
@@ -32,14 +31,14 @@ TEST_F(AbsentExecutorTest, JobsOfAnExecutorThatIsGoneWaitAndCanBeCancelled) {
   EXPECT_EQ(log.count_lines("2 unfinished jobs are for slurm/test, an executor that this daemon does not have"), 1);
   auto client = this->client();
   EXPECT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::Job::SUCCEEDED)) << "Others run.";
-  const auto queue = queue_of(client);
+  const auto queue = client.queue();
   ASSERT_EQ(queue.entries_size(), 2);
   for (const auto& entry : queue.entries()) {
     EXPECT_EQ(entry.executor(), kCluster);
     EXPECT_THAT(entry.reason(), HasSubstr("This daemon does not have slurm/test"));
   }
   EXPECT_TRUE(queue.holds().empty());
-  EXPECT_TRUE(is_serving(client.channel, "cellcrush.queue"));
+  EXPECT_TRUE(is_serving(client, "cellcrush.queue"));
   EXPECT_EQ(client.suspend(placed).error_code(), grpc::StatusCode::FAILED_PRECONDITION) << "Its cluster may start it.";
   EXPECT_EQ(client.get(placed).state(), v1::Job::PENDING);
   EXPECT_TRUE(client.cancel(waiting).ok());
@@ -73,8 +72,7 @@ TEST_F(AbsentExecutorTest, AJobThatRunsOnAnExecutorThatIsGoneEndsOnceItIsCancell
   auto client = this->client();
   EXPECT_EQ(client.get(job).state(), v1::Job::RUNNING);
   const auto refused = client.suspend(job);
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_THAT(refused.error_message(), HasSubstr("jobs/1 is for slurm/test"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::FAILED_PRECONDITION, "jobs/1 is for slurm/test"));
   EXPECT_TRUE(client.cancel(job).ok());
   EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLED);
   EXPECT_THAT(client.get(job).cause_message(), HasSubstr("slurm/test"));
@@ -85,27 +83,25 @@ TEST_F(AbsentExecutorTest, AJobThatRunsOnAnExecutorThatIsGoneEndsOnceItIsCancell
 TEST_F(AbsentExecutorTest, ARetryStaysOnTheExecutorOfItsSweep) {
   start(with_program("/bin/false"));
   std::string name;
-  v1::RetryFailedJobsRequest request;
-  v1::Sweep sweep;
   {
     auto client = this->client();
     name = create_sweep_on(client, kCluster, tiny_case()).name();
     ASSERT_TRUE(wait_for_count(client, name, v1::Job::FAILED, 3));
     EXPECT_EQ(get_sweep(client, name).executor(), kCluster);
-    request.set_name(name);
   }
   restart(default_options());
   {
     auto client = this->client();
-    const auto refused = client.sweeps->RetryFailedJobs(bounded_context().get(), request, &sweep);
-    EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-    EXPECT_THAT(refused.error_message(), HasSubstr("slurm/test, an executor that this daemon does not have"));
+    const auto refused =
+        try_call(*client.sweeps, &v1::Sweeps::Stub::RetryFailedJobs, named<v1::RetryFailedJobsRequest>(name));
+    EXPECT_THAT(refused,
+                Fails(grpc::StatusCode::FAILED_PRECONDITION, "slurm/test, an executor that this daemon does not have"));
   }
   restart(with_program(CELLCRUSHD_PROGRAM));
   auto client = this->client();
-  ASSERT_TRUE(client.sweeps->RetryFailedJobs(bounded_context().get(), request, &sweep).ok());
+  retry(client, name);
   EXPECT_TRUE(wait_for_count(client, name, v1::Job::SUCCEEDED, 3));
-  sweep = get_sweep(client, name);
+  const auto sweep = get_sweep(client, name);
   for (const auto& job : sweep.jobs()) EXPECT_EQ(client.get(job).executor(), kCluster);
 }
 
@@ -121,11 +117,7 @@ TEST_F(AbsentExecutorTest, ACancelledSweepDoesNotRunWhenItsClusterComesToIt) {
   {
     auto client = this->client();
     for (int i = 1; i <= 3; ++i) std::ofstream(data_folder() / "jobs" / std::to_string(i) / "order") << "an order";
-    v1::CancelSweepRequest request;
-    request.set_name(sweep);
-    v1::Sweep cancelled;
-    EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), request, &cancelled).ok());
-    EXPECT_EQ(count_in(cancelled, v1::Job::CANCELLED), 3);
+    EXPECT_EQ(count_in(cancel_sweep(client, sweep), v1::Job::CANCELLED), 3);
   }
   for (int i = 1; i <= 3; ++i)
     EXPECT_FALSE(std::filesystem::exists(data_folder() / "jobs" / std::to_string(i) / "order"))

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
-#include <google/protobuf/descriptor.h>
 #include <sys/stat.h>
 
-#include "access/gate.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
 #include "error.h"
@@ -37,47 +35,6 @@ class TokenFileTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
 };
-
-TEST_F(TokenFileTest, ATokenThatWasMadeIsFoundWithItsNameAndScope) {
-  const NewToken anna = make_token("anna", Scope::submit);
-  const NewToken second = make_token("anna", Scope::submit);
-  const NewToken robot = make_token("robot@host", Scope::read);
-  EXPECT_EQ(anna.token.size(), 64U);
-  EXPECT_NE(anna.token, second.token);
-  EXPECT_THAT(anna.line, AllOf(StartsWith("anna submit "), ::testing::Not(HasSubstr(anna.token))));
-  write_secret(path(), "# who may call\n\n" + anna.line + " # until spring\r\n  " + robot.line + "\n" + second.line);
-  const TokenFile tokens(path());
-  for (const auto& token : {anna.token, second.token}) {
-    ASSERT_TRUE(tokens.find(token));
-    EXPECT_EQ(tokens.find(token)->name, "anna");
-    EXPECT_EQ(tokens.find(token)->scope, Scope::submit);
-  }
-  ASSERT_TRUE(tokens.find(robot.token));
-  EXPECT_EQ(tokens.find(robot.token)->scope, Scope::read);
-  const std::string hash = anna.line.substr(anna.line.rfind(' ') + 1);
-  for (const auto& wrong : {std::string(), hash, anna.token + "0", anna.token.substr(1), std::string(100'000, 'a')})
-    EXPECT_FALSE(tokens.find(wrong)) << wrong.substr(0, 80);
-}
-
-TEST_F(TokenFileTest, AMethodThatIsNotGuardedNeedsAdminAndAnOpenOneNothing) {
-  const auto anna = make_token("anna", Scope::submit);
-  write_secret(path(), anna.line);
-  Options options;
-  options.tokens = path();
-  Gate gate(options);
-  gate.guard("/s.S/Read", Scope::submit);
-  gate.guard("/s.S/Open", std::nullopt);
-  Caller caller;
-  const auto call = [&](const char* method) {
-    return gate.check_http_call(method, {"Bearer " + anna.token}, nullptr, caller).error_code();
-  };
-  EXPECT_EQ(call("/s.S/Read"), grpc::StatusCode::OK);
-  EXPECT_EQ(caller.name, "anna");
-  for (const char* unknown : {"", "/", "/s.S/", "/s.S/Unknown", "/s.s/Read", "s.S/Read"})
-    EXPECT_EQ(call(unknown), grpc::StatusCode::PERMISSION_DENIED) << unknown;
-  EXPECT_EQ(gate.check_http_call("/s.S/Read", {}, nullptr, caller).error_code(), grpc::StatusCode::UNAUTHENTICATED);
-  EXPECT_TRUE(gate.check_http_call("/s.S/Open", {}, nullptr, caller).ok());
-}
 
 TEST_F(TokenFileTest, AWrongLineIsNamedByItsNumberAndNotRepeated) {
   const std::string line = make_token("anna", Scope::submit).line;

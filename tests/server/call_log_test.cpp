@@ -1,7 +1,6 @@
 // What the log tells of calls: those that changed something, and those that were refused.
 #include <gmock/gmock.h>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "log_format.h"
 #include "server/gate_fixture.h"
 #include "server/log_capture.h"
@@ -16,10 +15,6 @@ using ::testing::Not;
 
 class CallLogTest : public GateFixture {
  protected:
-  [[nodiscard]] std::unique_ptr<grpc::ClientContext> as(const std::string& name) const {
-    return context_of({{}, {}, tokens_.at(name)});
-  }
-
   [[nodiscard]] int told(const std::string& words) const { return log_.count_lines(words); }
 
   LogCapture log_{make_text_formatter()};
@@ -29,50 +24,35 @@ TEST_F(CallLogTest, EachCallThatChangesSomethingIsOneLine) {
   DaemonOptions options = with_tokens(tcp_options());
   options.workers = 1;
   start(options);
-  const auto jobs = v1::Jobs::NewStub(channel({}));
-  v1::CreateJobRequest create;
-  *create.mutable_case_() = endless_case();
-  create.set_validate_only(true);
-  v1::Job job;
-  ASSERT_TRUE(jobs->CreateJob(as("anna").get(), create, &job).ok());
+  auto anna = client_of("anna");
+  auto bob = client_of("bob");
+  auto chief = client_of("chief");
+  auto request = job_of(endless_case());
+  request.set_validate_only(true);
+  anna.create(request);
   EXPECT_EQ(told("created"), 0) << "Nothing was.";
-  create.set_validate_only(false);
-  create.set_request_id("night\n3");
-  for (int i = 0; i < 2; ++i) ASSERT_TRUE(jobs->CreateJob(as("anna").get(), create, &job).ok());
+  request.set_validate_only(false);
+  request.set_request_id("night\n3");
+  for (int i = 0; i < 2; ++i) anna.create(request);
   EXPECT_EQ(told("[info] jobs/1 created by anna, request \"night\\x0a3\""), 1) << log_.text();
   EXPECT_EQ(told("created by"), 1) << "The second call made nothing.";
 
-  const auto sweeps = v1::Sweeps::NewStub(channel({}));
   auto many = sweep_of(small_case(), kSpeed, {});
   for (int i = 0; i < 1000; ++i) many.mutable_sweep()->mutable_axes(0)->mutable_list()->add_values(50.0 + 0.1 * i);
   many.set_request_id("all");
-  v1::Sweep sweep;
-  ASSERT_TRUE(sweeps->CreateSweep(as("bob").get(), many, &sweep).ok());
+  create(bob, many);
   EXPECT_EQ(told("[info] sweeps/1 created with 1000 jobs by bob, request \"all\""), 1) << log_.text();
   EXPECT_EQ(told("created"), 2);
 
-  const auto change = [&](auto method, auto request, auto response) {
-    request.set_name("jobs/1");
-    const auto status = ((*jobs).*method)(as("anna").get(), request, &response);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-  };
-  change(&v1::Jobs::Stub::SuspendJob, v1::SuspendJobRequest(), v1::Job());
-  change(&v1::Jobs::Stub::ResumeJob, v1::ResumeJobRequest(), v1::Job());
-  change(&v1::Jobs::Stub::SuspendJob, v1::SuspendJobRequest(), v1::Job());
-  change(&v1::Jobs::Stub::CancelJob, v1::CancelJobRequest(), v1::Job());
-  change(&v1::Jobs::Stub::DeleteJob, v1::DeleteJobRequest(), v1::DeleteJobResponse());
+  for (const auto& change : {&Client::suspend, &Client::resume, &Client::suspend, &Client::cancel, &Client::remove})
+    EXPECT_TRUE((anna.*change)("jobs/1").ok());
   EXPECT_EQ(told("jobs/1 suspended by anna"), 2);
   for (const char* words : {"jobs/1 resumed by anna", "jobs/1 cancelled by anna", "jobs/1 deleted by anna"})
     EXPECT_EQ(told(words), 1) << words;
 
-  v1::CancelSweepRequest cancel;
-  cancel.set_name("sweeps/1");
-  ASSERT_TRUE(sweeps->CancelSweep(as("chief").get(), cancel, &sweep).ok());
-  v1::RetryFailedJobsRequest retry;
-  retry.set_name("sweeps/1");
-  ASSERT_TRUE(sweeps->RetryFailedJobs(as("bob").get(), retry, &sweep).ok());
-  v1::DrainResponse drained;
-  ASSERT_TRUE(v1::Admin::NewStub(channel({}))->Drain(as("chief").get(), {}, &drained).ok());
+  cancel_sweep(chief, "sweeps/1");
+  retry(bob, "sweeps/1");
+  answer_of(*v1::Admin::NewStub(chief.channel), &v1::Admin::Stub::Drain, {});
   for (const char* words :
        {"sweeps/1 cancelled by chief", "sweeps/1 retried with 0 jobs by bob", "the daemon drained by chief"})
     EXPECT_EQ(told(words), 1) << words;
@@ -94,8 +74,8 @@ TEST_F(CallLogTest, RefusedCallsAreWarnedOfWithoutTheirTokens) {
 
 TEST_F(CallLogTest, WhoMayNotIsNamed) {
   start(with_tokens(tcp_options()));
-  v1::DrainResponse drained;
-  EXPECT_FALSE(v1::Admin::NewStub(channel({}))->Drain(as("bob").get(), {}, &drained).ok());
+  auto bob = client_of("bob");
+  EXPECT_FALSE(try_call(*v1::Admin::NewStub(bob.channel), &v1::Admin::Stub::Drain, {}).ok());
   EXPECT_EQ(
       told("refused a call with PERMISSION_DENIED: /cellcrush.v1.Admin/Drain: Drain requires scope admin; bob has"), 1)
       << log_.text();
@@ -103,10 +83,7 @@ TEST_F(CallLogTest, WhoMayNotIsNamed) {
   daemon_.reset();
   start(with_tokens(tcp_options()));
   const std::string job = client().create(small_case());
-  v1::CancelJobRequest cancel;
-  cancel.set_name(job);
-  v1::Job found;
-  EXPECT_FALSE(v1::Jobs::NewStub(channel({}))->CancelJob(as("bob").get(), cancel, &found).ok());
+  EXPECT_FALSE(client_of("bob").cancel(job).ok());
   EXPECT_EQ(told("refused a call with PERMISSION_DENIED: " + job + " belongs to local; bob has scope submit"), 1)
       << log_.text();
   EXPECT_EQ(told("cancelled by"), 0);

@@ -11,15 +11,14 @@
 #include "jobs/scheduler.h"
 #include "jobs/worker_process.h"
 #include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
 #include "server/held_worker.h"
+#include "server/job_numbers.h"
 #include "server/small_case.h"
-#include "server/watch_contract.h"
 #include "worker/worker_main.h"
 
 namespace cellcrush::testing {
 namespace {
-
-using ::testing::IsEmpty;
 
 // What the service puts together to run jobs, around a HeldWorker.
 struct HeldJobs {
@@ -102,9 +101,7 @@ class CancelRaceTest : public DaemonFixture {
   }
 
   [[nodiscard]] bool wait_until_cancelled(std::int64_t job) {
-    for (int i = 0; i < 3000 && state_of(job) != v1::Job::CANCELLED; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return state_of(job) == v1::Job::CANCELLED;
+    return wait_until([&] { return state_of(job) == v1::Job::CANCELLED; }, std::chrono::seconds(30));
   }
 
   [[nodiscard]] v1::Job::State state_of(std::int64_t job) { return jobs_->reader.find_job(job)->job.state(); }
@@ -122,11 +119,7 @@ class CancelRaceTest : public DaemonFixture {
   static void expect_sound(Client client) {
     const std::string job = "jobs/1";
     ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED)) << v1::Job::State_Name(client.get(job).state());
-    WatchContract contract;
-    const auto watched = client.watch(job, 0, false, [&](const v1::JobEvent& event) { contract.see(event); });
-    EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
-    contract.end(watched.status);
-    EXPECT_THAT(contract.broken(), IsEmpty());
+    EXPECT_TRUE(watch_soundly(client, job).ok());
     const auto samples = client.history(job);
     ASSERT_GT(samples.size(), static_cast<std::size_t>(kBefore));
     for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_GT(samples[i].step(), samples[i - 1].step());

@@ -19,10 +19,7 @@ class CasesServiceTest : public DaemonFixture {
   v1::CheckCaseResponse check(const v1::Case& submitted) {
     v1::CheckCaseRequest request;
     *request.mutable_case_() = submitted;
-    v1::CheckCaseResponse out;
-    const auto status = client().cases->CheckCase(bounded_context().get(), request, &out);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return out;
+    return answer_of(*client().cases, &v1::Cases::Stub::CheckCase, request);
   }
 };
 
@@ -45,8 +42,6 @@ TEST_F(CasesServiceTest, ACheckNamesAllProblemsAtOnce) {
   EXPECT_EQ(response.particle_count(), 0);
 }
 
-TEST_F(CasesServiceTest, AnEmptyCaseIsAnAnswerWithProblems) { EXPECT_GE(check({}).problems_size(), 4); }
-
 TEST_F(CasesServiceTest, WhatIsHardlyMeantIsNotedByACheckAndByTheJob) {
   auto submitted = small_case();
   EXPECT_EQ(check(submitted).notes_size(), 0);
@@ -56,12 +51,7 @@ TEST_F(CasesServiceTest, WhatIsHardlyMeantIsNotedByACheckAndByTheJob) {
   ASSERT_EQ(response.notes_size(), 1);
   EXPECT_EQ(response.notes(0).field(), "material.density_kg_per_m3");
   EXPECT_EQ(response.notes(0).kind(), v1::Problem::IMPLAUSIBLE);
-  v1::CreateJobRequest request;
-  *request.mutable_case_() = submitted;
-  v1::Job job;
-  auto client = this->client();
-  ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), request, &job).ok());
-  EXPECT_EQ(job.notes_size(), 1);
+  EXPECT_EQ(client().create(job_of(submitted)).notes_size(), 1);
 }
 
 TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {
@@ -80,8 +70,7 @@ TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {
 TEST_F(CasesServiceTest, APreviewHasTheMeshThatARunWouldHave) {
   v1::PreviewCaseRequest request;
   *request.mutable_case_() = small_case();
-  v1::PreviewCaseResponse preview;
-  ASSERT_TRUE(client().cases->PreviewCase(bounded_context().get(), request, &preview).ok());
+  const auto preview = answer_of(*client().cases, &v1::Cases::Stub::PreviewCase, request);
   const auto facts = check(small_case());
   EXPECT_EQ(preview.mesh().particle_count(), facts.particle_count());
   EXPECT_EQ(preview.mesh().position_mm_size(), 2 * facts.particle_count());
@@ -105,57 +94,31 @@ TEST_F(CasesServiceTest, APreviewOfABadOrHugeCaseIsRefused) {
   *request.mutable_case_() = small_case();
   request.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_columns(300);
   request.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_rows(300);
-  v1::PreviewCaseResponse preview;
-  const auto huge = client().cases->PreviewCase(bounded_context().get(), request, &preview);
-  EXPECT_EQ(huge.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(huge.error_message(), HasSubstr("elements_per_wall"));
+  const auto huge = try_call(*client().cases, &v1::Cases::Stub::PreviewCase, request);
+  EXPECT_THAT(huge, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "elements_per_wall"));
   request.mutable_case_()->set_depth_mm(-1.0);
-  const auto bad = client().cases->PreviewCase(bounded_context().get(), request, &preview);
-  EXPECT_EQ(bad.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(bad.error_message(), HasSubstr("depth_mm"));
-}
-
-TEST_F(CasesServiceTest, EachFidelityIsToldBeforeAnythingRuns) {
-  const auto plain = check(small_case());
-  ASSERT_EQ(plain.fidelities_size(), 3);
-  EXPECT_LT(plain.fidelities(0).predicted_seconds(), plain.fidelities(1).predicted_seconds());
-  EXPECT_LT(plain.fidelities(1).predicted_seconds(), plain.fidelities(2).predicted_seconds());
-  for (const auto& forecast : plain.fidelities()) {
-    EXPECT_EQ(forecast.errors_size(), 0) << "few cells are not what was measured";
-    v1::Case asked = small_case();
-    asked.mutable_numerics()->set_fidelity(forecast.fidelity());
-    const auto response = check(asked);
-    EXPECT_EQ(response.completed_case().elements_per_wall(), forecast.elements_per_wall());
-    EXPECT_EQ(response.element_count(), forecast.element_count());
-    EXPECT_EQ(response.step_count(), forecast.step_count());
-    EXPECT_EQ(response.predicted_seconds(), forecast.predicted_seconds());
-  }
+  const auto bad = try_call(*client().cases, &v1::Cases::Stub::PreviewCase, request);
+  EXPECT_THAT(bad, Fails(grpc::StatusCode::INVALID_ARGUMENT, "depth_mm"));
 }
 
 // A preset that would give what a fidelity fills in could not be run at one.
 TEST_F(CasesServiceTest, APresetTakesItsFidelitysElements) {
-  v1::GetPresetRequest request;
-  request.set_name("hexagon-small");
-  v1::Preset preset;
-  ASSERT_TRUE(client().cases->GetPreset(bounded_context().get(), request, &preset).ok());
-  preset.mutable_case_()->mutable_numerics()->set_fidelity(v1::Numerics::REFERENCE);
-  const auto response = check(preset.case_());
+  auto preset = client().preset("hexagon-small");
+  preset.mutable_numerics()->set_fidelity(v1::Numerics::REFERENCE);
+  const auto response = check(preset);
   ASSERT_EQ(response.fidelities_size(), 3);
   EXPECT_EQ(response.completed_case().elements_per_wall(), response.fidelities(2).elements_per_wall());
   EXPECT_EQ(response.fidelities(2).elements_per_wall(), 8);
 }
 
 TEST_F(CasesServiceTest, AMeasuredCaseHasItsErrorsAndAnotherTheFieldsThatDiffer) {
-  v1::GetPresetRequest request;
-  request.set_name("type-i");
-  v1::Preset preset;
-  ASSERT_TRUE(client().cases->GetPreset(bounded_context().get(), request, &preset).ok());
-  const auto measured = check(preset.case_()).fidelities(1);
+  auto preset = client().preset("type-i");
+  const auto measured = check(preset).fidelities(1);
   ASSERT_EQ(measured.errors_size(), 2);
   EXPECT_EQ(measured.errors(1).measure(), "support plateau, type-i, 100 m/s");
   EXPECT_GT(measured.errors(1).uncertainty_relative(), 0.0);
-  preset.mutable_case_()->mutable_loading()->set_speed_m_per_s(5.0);
-  const auto unknown = check(preset.case_()).fidelities(1);
+  preset.mutable_loading()->set_speed_m_per_s(5.0);
+  const auto unknown = check(preset).fidelities(1);
   EXPECT_EQ(unknown.errors_size(), 0);
   ASSERT_EQ(unknown.given_fields_size(), 1);
   EXPECT_EQ(unknown.given_fields(0), "loading.speed_m_per_s");
@@ -163,14 +126,10 @@ TEST_F(CasesServiceTest, AMeasuredCaseHasItsErrorsAndAnotherTheFieldsThatDiffer)
 
 TEST_F(CasesServiceTest, PresetsAreListedAndEachIsSound) {
   auto client = this->client();
-  v1::ListPresetsResponse listed;
-  ASSERT_TRUE(client.cases->ListPresets(bounded_context().get(), {}, &listed).ok());
+  const auto listed = answer_of(*client.cases, &v1::Cases::Stub::ListPresets, {});
   ASSERT_GE(listed.presets_size(), 1);
   for (const auto& preset : listed.presets()) {
-    v1::GetPresetRequest request;
-    request.set_name(preset.name());
-    v1::Preset got;
-    ASSERT_TRUE(client.cases->GetPreset(bounded_context().get(), request, &got).ok()) << preset.name();
+    const auto got = answer_of(*client.cases, &v1::Cases::Stub::GetPreset, named<v1::GetPresetRequest>(preset.name()));
     EXPECT_TRUE(got.has_case_()) << preset.name();
     EXPECT_EQ(got.title(), preset.title());
   }
@@ -204,25 +163,11 @@ TEST(CheckCase, IsLeftBetweenStages) {
   }
 }
 
-TEST_F(CasesServiceTest, AnUnknownPresetIsNotFoundAndTheKnownOnesAreNamed) {
-  v1::GetPresetRequest request;
-  request.set_name("type-iv");
-  v1::Preset got;
-  const auto status = client().cases->GetPreset(bounded_context().get(), request, &got);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_THAT(status.error_message(), HasSubstr("type-iv"));
-  EXPECT_THAT(status.error_message(), HasSubstr("hexagon-small"));
-}
-
 TEST_F(CasesServiceTest, AMessageOverFourMebibytesIsRefusedAndTheDaemonGoesOn) {
-  v1::Case huge = small_case();
-  huge.set_title(std::string(5 * 1024 * 1024, 'x'));
   v1::CheckCaseRequest request;
-  *request.mutable_case_() = huge;
-  v1::CheckCaseResponse response;
-  const auto status = client().cases->CheckCase(bounded_context().get(), request, &response);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(status.error_message(), HasSubstr("4194304"));
+  request.mutable_case_()->set_title(std::string(5 * 1024 * 1024, 'x'));
+  const auto status = try_call(*client().cases, &v1::Cases::Stub::CheckCase, request);
+  EXPECT_THAT(status, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "4194304"));
   EXPECT_EQ(check(small_case()).problems_size(), 0);
 }
 

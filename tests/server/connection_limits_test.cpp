@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "grpc/health/v1/health.grpc.pb.h"
+#include "server/daemon_process.h"
 #include "server/gate_fixture.h"
 #include "server/small_case.h"
 
@@ -35,8 +36,7 @@ class ConnectionLimitsTest : public GateFixture {
     const auto first = own_channel(visitor);
     ASSERT_TRUE(check(first).ok());
     const auto refused = check(own_channel(visitor));
-    EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-    EXPECT_THAT(refused.error_message(), HasSubstr("--max-connections"));
+    EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "--max-connections"));
     EXPECT_TRUE(check(first).ok()) << "who is connected already is served";
     EXPECT_TRUE(check(client().channel).ok()) << "the Unix socket has places of its own";
   }
@@ -63,8 +63,7 @@ TEST_F(ConnectionLimitsTest, StreamsBeyondACallersLimitAreRefusedUntilOneEnds) {
   options.connections.streams_per_caller = 2;
   start(options);
   auto client = this->client();
-  v1::WatchJobRequest request;
-  request.set_name(client.create(endless_case()));
+  const auto request = named<v1::WatchJobRequest>(client.create(endless_case()));
   const auto one = bounded_context();
   const auto two = bounded_context();
   const auto first = client.jobs->WatchJob(one.get(), request);
@@ -75,22 +74,19 @@ TEST_F(ConnectionLimitsTest, StreamsBeyondACallersLimitAreRefusedUntilOneEnds) {
   const auto third = client.jobs->WatchJob(three.get(), request);
   EXPECT_FALSE(third->Read(&event));
   const auto refused = third->Finish();
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(refused.error_message(), HasSubstr("local has 2 streams open"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "local has 2 streams open"));
   one->TryCancel();
   while (first->Read(&event)) continue;
   (void)first->Finish();
-  bool admitted = false;
-  for (int i = 0; i < 200 && !admitted; ++i) {
-    std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_TRUE(wait_until([&] {
     const auto again = bounded_context();
     const auto fourth = client.jobs->WatchJob(again.get(), request);
-    admitted = fourth->Read(&event);
+    const bool admitted = fourth->Read(&event);
     again->TryCancel();
     while (fourth->Read(&event)) continue;
     (void)fourth->Finish();
-  }
-  EXPECT_TRUE(admitted);
+    return admitted;
+  }));
   two->TryCancel();
 }
 
@@ -106,26 +102,32 @@ TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
   Client client(daemon_->addresses().front(), small_window);
   auto with_frames = small_case();
   with_frames.mutable_output()->set_frame_count(200);
-  const std::string job = client.create(with_frames);
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
-  v1::DownloadResultRequest request;
-  request.set_name(job);
+  const std::string job = client.create(with_frames, v1::Job::SUCCEEDED);
   const auto context = bounded_context();
-  const auto unread = client.jobs->DownloadResult(context.get(), request);
+  const auto unread = client.jobs->DownloadResult(context.get(), named<v1::DownloadResultRequest>(job));
   unread->WaitForInitialMetadata();
   // Its place is free again though its reader has done nothing.
   grpc::Status status(grpc::StatusCode::UNKNOWN, "");
   std::string result;
-  for (int i = 0; i < 100 && !status.ok(); ++i) {
-    std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_TRUE(wait_until([&] {
     result = Client(daemon_->addresses().front()).download(job, 0, status);
     EXPECT_TRUE(status.ok() || status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
-  }
-  EXPECT_TRUE(status.ok()) << status.error_message();
+    return status.ok();
+  }));
   EXPECT_GT(result.size(), 200'000U) << "or it is read from a buffer at once";
   v1::DownloadResultResponse part;
   while (unread->Read(&part)) continue;
   EXPECT_FALSE(unread->Finish().ok());
+}
+
+TEST_F(ConnectionLimitsTest, ASocketThatWasRemovedIsOpenedAgain) {
+  auto options = default_options();
+  options.connections.probe_interval = milliseconds(20);
+  start(options);
+  const auto path = folder_.path() / "socket";
+  ASSERT_TRUE(std::filesystem::remove(path));
+  EXPECT_TRUE(wait_until([&path] { return std::filesystem::exists(path); }));
+  EXPECT_TRUE(wait_until([this] { return check(own_channel({})).ok(); }));
 }
 
 TEST_F(ConnectionLimitsTest, HealthIsWatchedUntilTheDaemonEnds) {

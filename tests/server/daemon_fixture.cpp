@@ -1,7 +1,9 @@
 #include "server/daemon_fixture.h"
 
 #include <stdexcept>
-#include <thread>
+
+#include "grpc/health/v1/health.grpc.pb.h"
+#include "server/daemon_process.h"
 
 namespace cellcrush::testing {
 
@@ -12,55 +14,82 @@ std::unique_ptr<grpc::ClientContext> bounded_context(std::chrono::seconds bound)
 }
 
 Client::Client(const std::string& address, const grpc::ChannelArguments& arguments)
-    : channel(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments)),
+    : Client(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments)) {}
+
+Client::Client(std::shared_ptr<grpc::Channel> through)
+    : channel(std::move(through)),
       cases(v1::Cases::NewStub(channel)),
       jobs(v1::Jobs::NewStub(channel)),
       sweeps(v1::Sweeps::NewStub(channel)) {}
 
-std::string Client::create(const v1::Case& submitted) {
-  v1::CreateJobRequest request;
-  *request.mutable_case_() = submitted;
-  v1::Job job;
-  const auto status = jobs->CreateJob(bounded_context().get(), request, &job);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return job.name();
-}
-
-v1::Job Client::get(const std::string& job) {
-  v1::GetJobRequest request;
-  request.set_name(job);
-  v1::Job out;
-  const auto status = jobs->GetJob(bounded_context().get(), request, &out);
-  EXPECT_TRUE(status.ok()) << status.error_message();
+v1::CreateJobRequest job_of(const v1::Case& submitted) {
+  v1::CreateJobRequest out;
+  *out.mutable_case_() = submitted;
   return out;
 }
 
+bool is_serving(const Client& client, const std::string& service) {
+  grpc::health::v1::HealthCheckRequest request;
+  request.set_service(service);
+  grpc::health::v1::HealthCheckResponse response;
+  const auto status =
+      grpc::health::v1::Health::NewStub(client.channel)->Check(bounded_context().get(), request, &response);
+  return status.ok() && response.status() == grpc::health::v1::HealthCheckResponse::SERVING;
+}
+
+std::string Client::create(const v1::Case& submitted) { return create(job_of(submitted)).name(); }
+
+std::string Client::create(const v1::Case& submitted, v1::Job::State state) {
+  std::string job = create(submitted);
+  EXPECT_TRUE(wait_for_state(job, state)) << get(job).cause_message();
+  return job;
+}
+
+v1::Job Client::create(const v1::CreateJobRequest& request) {
+  return answer_of(*jobs, &v1::Jobs::Stub::CreateJob, request);
+}
+
+grpc::Status Client::try_to(const v1::CreateJobRequest& request) const {
+  return try_call(*jobs, &v1::Jobs::Stub::CreateJob, request);
+}
+
+grpc::Status Client::try_to(const v1::CreateSweepRequest& request) const {
+  return try_call(*sweeps, &v1::Sweeps::Stub::CreateSweep, request);
+}
+
+grpc::Status Client::try_to(const v1::ListJobsRequest& request) const {
+  return try_call(*jobs, &v1::Jobs::Stub::ListJobs, request);
+}
+
+v1::Case Client::preset(const std::string& name) {
+  return answer_of(*cases, &v1::Cases::Stub::GetPreset, named<v1::GetPresetRequest>(name)).case_();
+}
+
+v1::Job Client::get(const std::string& job) {
+  return answer_of(*jobs, &v1::Jobs::Stub::GetJob, named<v1::GetJobRequest>(job));
+}
+
+v1::Queue Client::queue() const { return answer_of(*v1::Admin::NewStub(channel), &v1::Admin::Stub::GetQueue, {}); }
+
+std::vector<v1::Job> Client::list(const v1::ListJobsRequest& request) const {
+  const auto out = answer_of(*jobs, &v1::Jobs::Stub::ListJobs, request);
+  return {out.jobs().begin(), out.jobs().end()};
+}
+
 grpc::Status Client::cancel(const std::string& job) {
-  v1::CancelJobRequest request;
-  request.set_name(job);
-  v1::Job out;
-  return jobs->CancelJob(bounded_context().get(), request, &out);
+  return try_call(*jobs, &v1::Jobs::Stub::CancelJob, named<v1::CancelJobRequest>(job));
 }
 
 grpc::Status Client::suspend(const std::string& job) {
-  v1::SuspendJobRequest request;
-  request.set_name(job);
-  v1::Job out;
-  return jobs->SuspendJob(bounded_context().get(), request, &out);
+  return try_call(*jobs, &v1::Jobs::Stub::SuspendJob, named<v1::SuspendJobRequest>(job));
 }
 
 grpc::Status Client::resume(const std::string& job) {
-  v1::ResumeJobRequest request;
-  request.set_name(job);
-  v1::Job out;
-  return jobs->ResumeJob(bounded_context().get(), request, &out);
+  return try_call(*jobs, &v1::Jobs::Stub::ResumeJob, named<v1::ResumeJobRequest>(job));
 }
 
 grpc::Status Client::remove(const std::string& job) {
-  v1::DeleteJobRequest request;
-  request.set_name(job);
-  v1::DeleteJobResponse out;
-  return jobs->DeleteJob(bounded_context().get(), request, &out);
+  return try_call(*jobs, &v1::Jobs::Stub::DeleteJob, named<v1::DeleteJobRequest>(job));
 }
 
 std::vector<v1::Sample> Client::history(const std::string& job) {
@@ -71,8 +100,7 @@ std::vector<v1::Sample> Client::history(const std::string& job) {
 }
 
 std::vector<v1::Sample> Client::history(const std::string& job, grpc::Status& status) {
-  v1::GetHistoryRequest request;
-  request.set_name(job);
+  auto request = named<v1::GetHistoryRequest>(job);
   std::vector<v1::Sample> out;
   do {
     v1::GetHistoryResponse page;
@@ -85,8 +113,7 @@ std::vector<v1::Sample> Client::history(const std::string& job, grpc::Status& st
 
 Client::Watched Client::watch(const std::string& job, std::int64_t after_sequence, bool frames,
                               const OnEvent& on_event) {
-  v1::WatchJobRequest request;
-  request.set_name(job);
+  auto request = named<v1::WatchJobRequest>(job);
   request.set_after_sequence(after_sequence);
   request.set_frames(frames);
   const auto context = bounded_context(std::chrono::minutes(4));
@@ -102,11 +129,7 @@ Client::Watched Client::watch(const std::string& job, std::int64_t after_sequenc
 }
 
 bool Client::wait_for_state(const std::string& job, v1::Job::State state) {
-  for (int i = 0; i < 600; ++i) {
-    if (get(job).state() == state) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  return false;
+  return wait_until([&] { return get(job).state() == state; }, std::chrono::seconds(30));
 }
 
 pid_t Client::worker_of(const std::string& job) {
@@ -117,8 +140,7 @@ pid_t Client::worker_of(const std::string& job) {
 }
 
 std::string Client::download(const std::string& job, std::int64_t offset, grpc::Status& status) {
-  v1::DownloadResultRequest request;
-  request.set_name(job);
+  auto request = named<v1::DownloadResultRequest>(job);
   request.set_offset(offset);
   const auto context = bounded_context();
   const auto reader = jobs->DownloadResult(context.get(), request);
@@ -144,6 +166,16 @@ DaemonOptions DaemonFixture::default_options() const {
   options.http = "none";
   options.workers = 2;
   options.worker_program = CELLCRUSHD_PROGRAM;
+  return options;
+}
+
+std::string DaemonFixture::finished_job(const v1::Case& submitted) {
+  return client().create(submitted, v1::Job::SUCCEEDED);
+}
+
+DaemonOptions DaemonFixture::with_workers(int workers) const {
+  auto options = default_options();
+  options.workers = workers;
   return options;
 }
 

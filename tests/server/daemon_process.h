@@ -4,8 +4,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
+
+#include "e2e/process.h"
 
 namespace cellcrush::testing {
 
@@ -15,15 +19,12 @@ class DaemonProcess {
  public:
   /// Without HTTP, unless the arguments name its port. Under a hard limit on file descriptors; 0: that of this process.
   explicit DaemonProcess(const std::vector<std::string>& arguments, int most_descriptors = 0);
-  ~DaemonProcess();
-  DaemonProcess(const DaemonProcess&) = delete;
-  DaemonProcess& operator=(const DaemonProcess&) = delete;
 
   /// Reads until that many addresses were printed or the process ended, at most 30 s. Returns the addresses.
   std::vector<std::string> wait_for_addresses(std::size_t count);
 
-  [[nodiscard]] pid_t number() const { return pid_; }
-  void send_signal(int number) const;
+  [[nodiscard]] pid_t number() const { return process_->id(); }
+  void send_signal(int number) const { process_->send(number); }
   /// Waits for the end, at most 20 s, then kills. Returns the exit code, or -1 - signal when a signal ended it.
   int wait();
   /// Memory that is resident; 0 when it has ended.
@@ -31,15 +32,21 @@ class DaemonProcess {
   /// Reads stderr until the words have come, at most 20 s; whether they have.
   [[nodiscard]] bool wait_for_error(const std::string& words);
   /// What it has written to stderr; REQUIRES: wait was called.
-  [[nodiscard]] const std::string& errors() const { return errors_; }
+  [[nodiscard]] const std::string& errors() const { return process_->errors(); }
 
  private:
-  pid_t pid_ = -1;
-  int output_ = -1;
-  int error_output_ = -1;
-  std::string text_;
-  std::string errors_;
+  std::unique_ptr<e2e::Process> process_;
 };
+
+/// Looks every 20 ms; false when the condition does not hold within this time.
+template <class Condition>
+bool wait_until(const Condition& condition, std::chrono::milliseconds limit = std::chrono::seconds(20)) {
+  for (const auto end = std::chrono::steady_clock::now() + limit; !condition();) {
+    if (std::chrono::steady_clock::now() >= end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
 
 /// Whether the process is there and not a zombie.
 bool is_alive(pid_t process);

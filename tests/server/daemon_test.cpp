@@ -1,13 +1,18 @@
+// cellcrushd as a process: its addresses, its options, its signals and its log.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
 #include <csignal>
-#include <filesystem>
+#include <sstream>
+#include <string>
 
+#include "access/token_file.h"
+#include "server/certificates.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
-#include "server/raw_call.h"
+#include "server/http/http_socket.h"
 #include "server/small_case.h"
+#include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -45,13 +50,10 @@ TEST_F(DaemonTest, EndsInOrderWhileAJobIsWatched) {
   DaemonProcess daemon({"--data", data(), "--listen", socket(), "--workers", "1"});
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
   Client client(socket());
-  const std::string job = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
+  const std::string job = client.create(endless_case(), v1::Job::RUNNING);
   const std::string waiting = client.create(small_case());
-  v1::WatchJobRequest request;
-  request.set_name(waiting);
   const auto context = bounded_context();
-  const auto reader = client.jobs->WatchJob(context.get(), request);
+  const auto reader = client.jobs->WatchJob(context.get(), named<v1::WatchJobRequest>(waiting));
   v1::JobEvent event;
   ASSERT_TRUE(reader->Read(&event));
   daemon.send_signal(SIGINT);
@@ -59,35 +61,6 @@ TEST_F(DaemonTest, EndsInOrderWhileAJobIsWatched) {
   while (reader->Read(&event)) {
   }
   EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
-}
-
-TEST_F(DaemonTest, KilledItLosesNothingAndTheNextOneGoesOn) {
-  std::string running;
-  std::string waiting;
-  std::string done;
-  {
-    DaemonProcess daemon({"--data", data(), "--listen", socket(), "--workers", "1"});
-    ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
-    Client client(socket());
-    done = client.create(small_case());
-    ASSERT_TRUE(client.wait_for_state(done, v1::Job::SUCCEEDED));
-    running = client.create(endless_case());
-    ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
-    waiting = client.create(small_case());
-    daemon.send_signal(SIGKILL);
-    EXPECT_EQ(daemon.wait(), -1 - SIGKILL);
-  }
-  DaemonProcess daemon({"--data", data(), "--listen", socket(), "--workers", "1"});
-  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U) << "The stale socket is replaced.";
-  Client client(socket());
-  EXPECT_EQ(client.get(running).state(), v1::Job::RUNNING);
-  EXPECT_EQ(client.get(waiting).state(), v1::Job::PENDING);
-  ASSERT_TRUE(client.cancel(running).ok());
-  EXPECT_TRUE(client.watch(waiting).status.ok());
-  EXPECT_EQ(client.get(waiting).state(), v1::Job::SUCCEEDED);
-  EXPECT_EQ(client.get(done).state(), v1::Job::SUCCEEDED);
-  grpc::Status status;
-  EXPECT_GT(client.download(done, 0, status).size(), 10'000U);
 }
 
 TEST_F(DaemonTest, ASecondDaemonOnTheSameFolderIsRefused) {
@@ -112,31 +85,102 @@ TEST_F(DaemonTest, APortOrASocketInUseIsRefused) {
   EXPECT_FALSE(Client(addresses[0]).create(small_case()).empty()) << "The first one goes on.";
 }
 
-TEST_F(DaemonTest, AHostThatOthersCanReachAndWrongFlagsAreRefused) {
-  DaemonProcess open({"--data", data(), "--listen", "0.0.0.0:0"});
-  EXPECT_EQ(open.wait(), 1);
-  EXPECT_THAT(open.errors(), HasSubstr("--tls-cert FILE --tls-key FILE"));
-  DaemonProcess misspelt({"--lisen", "127.0.0.1:0"});
-  EXPECT_EQ(misspelt.wait(), 2);
-  DaemonProcess none({"--workers", "0"});
-  EXPECT_EQ(none.wait(), 2);
+TEST_F(DaemonTest, AHangupReadsTheTokensAgainAndNeverEndsTheDaemon) {
+  const auto made = access::make_token("anna", access::Scope::read);
+  write_secret(folder_.path() / "tokens", made.line + "\n");
+  for (const bool has_tokens : {true, false}) {
+    std::vector<std::string> arguments = {"--data", data(), "--listen", socket()};
+    if (has_tokens) arguments.insert(arguments.end(), {"--tokens", (folder_.path() / "tokens").string()});
+    DaemonProcess daemon(arguments);
+    ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
+    daemon.send_signal(SIGHUP);
+    EXPECT_TRUE(daemon.wait_for_error(has_tokens ? "tokens reloaded: 1 of --tokens" : "nothing to reload"));
+    daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait(), 0) << daemon.errors();
+  }
 }
 
-TEST_F(DaemonTest, HealthAndReflectionAnswer) {
-  DaemonProcess daemon({"--data", data(), "--listen", socket()});
-  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
-  const auto channel = grpc::CreateChannel(socket(), grpc::InsecureChannelCredentials());
-  // HealthCheckResponse{status: SERVING} is field 1 with value 1.
-  EXPECT_EQ(call_raw(channel, "/grpc.health.v1.Health/Check", "", false), std::string("\x08\x01"));
-  // HealthCheckRequest{service: "cellcrush.v1.Jobs"} is field 1 with that text.
-  EXPECT_EQ(call_raw(channel, "/grpc.health.v1.Health/Check",
-                     "\x0a\x11"
-                     "cellcrush.v1.Jobs",
-                     false),
-            std::string("\x08\x01"));
-  // ServerReflectionRequest{list_services: "*"} is field 7 with that text.
-  EXPECT_THAT(call_raw(channel, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", "\x3a\x01*", true),
-              HasSubstr("cellcrush.v1.Jobs"));
+TEST_F(DaemonTest, AKeyOfTheConfigFileThatIsNoOptionIsRefusedWithTheNearest) {
+  const auto start_with = [&](const std::string& text) {
+    write_secret(folder_.path() / "config.toml", text);
+    DaemonProcess daemon(
+        {"--data", data(), "--listen", socket(), "--config", (folder_.path() / "config.toml").string()});
+    const bool serves = daemon.wait_for_addresses(1).size() == 1;
+    if (serves) daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait(), serves ? 0 : 2);
+    return serves ? "" : daemon.errors();
+  };
+  EXPECT_EQ(start_with("workers = 1\nmin-free-disk = 0\n"), "");
+  EXPECT_THAT(start_with("min-fre-disk = 0\n"), HasSubstr("Did you mean \"min-free-disk\"?"));
+  EXPECT_THAT(start_with("colour = \"red\"\n"), HasSubstr("\"colour\", which is not an option"));
+}
+
+TEST_F(DaemonTest, AnUnknownOptionIsRefusedWithTheNearest) {
+  const auto errors_of = [](const std::vector<std::string>& arguments) {
+    DaemonProcess daemon(arguments);
+    EXPECT_EQ(daemon.wait(), 2);
+    return daemon.errors();
+  };
+  EXPECT_THAT(errors_of({"--wokers", "3"}),
+              HasSubstr("cellcrushd: --wokers is not an option. Did you mean \"--workers\"?"));
+  EXPECT_THAT(errors_of({"token", "anna", "--scope", "read", "--scopes=admin"}),
+              HasSubstr("Did you mean \"--scope\"?"));
+  EXPECT_THAT(errors_of({"--colour=red"}), HasSubstr("--colour is not an option.\n`cellcrushd --help`"));
+}
+
+constexpr const char* kForgery = "x\n[2030-01-01 00:00:00.000] [cellcrushd] [info] jobs/9 deleted by root";
+
+// A frame of HTTP/2 (RFC 9113, 4.1).
+std::string http2_frame(char type, char flags, char stream, const std::string& payload) {
+  const auto size = static_cast<unsigned>(payload.size());
+  std::string out{static_cast<char>(size >> 16U), static_cast<char>(size >> 8U), static_cast<char>(size), type, flags};
+  return out + std::string(3, '\0') + stream + payload;
+}
+
+// A header without compression (RFC 7541, 6.2.2).
+std::string http2_header(const std::string& name, const std::string& value) {
+  return std::string(1, '\0') + static_cast<char>(name.size()) + name + static_cast<char>(value.size()) + value;
+}
+
+// A call without a message, and one header of it forged.
+std::string forged_call(const std::string& header) {
+  constexpr char kSettings = 4;
+  constexpr char kHeaders = 1;
+  constexpr char kEndOfAll = 5;
+  std::string headers;
+  for (const auto& [name, value] : {std::pair(":method", "POST"), std::pair(":scheme", "http"),
+                                    std::pair(":path", "/cellcrush.v1.Jobs/ListJobs"), std::pair(":authority", "x")})
+    headers += http2_header(name, value);
+  headers += http2_header(header, kForgery);
+  return "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + http2_frame(kSettings, 0, 0, "") +
+         http2_frame(kHeaders, kEndOfAll, 1, headers);
+}
+
+// The daemon's line about it, with the line break of the forgery escaped.
+std::string logged_of(const std::string& header) {
+  return "[error] gRPC: Error parsing metadata: error=invalid value key=" + header + " value=x\\x0a[2030-01-01";
+}
+
+// Sends a call whose header is forged, and keeps the connection until the daemon has logged that.
+void send_forged_call(DaemonProcess& daemon, const std::string& address, const std::string& header) {
+  const HttpSocket connection(std::stoi(address.substr(address.rfind(':') + 1)));
+  connection.send(forged_call(header));
+  EXPECT_TRUE(daemon.wait_for_error(logged_of(header))) << daemon.errors();
+}
+
+TEST(ForgedLog, AHeaderWithALineInItIsPartOfOneLine) {
+  const TemporaryFolder folder;
+  DaemonProcess daemon({"--data", (folder.path() / "data").string(), "--listen", "127.0.0.1:0"});
+  const auto addresses = daemon.wait_for_addresses(1);
+  ASSERT_EQ(addresses.size(), 1U);
+  for (const char* header : {"te", "grpc-timeout"}) send_forged_call(daemon, addresses.front(), header);
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0);
+  std::istringstream lines(daemon.errors());
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_THAT(line, StartsWith("[20"));
+    EXPECT_THAT(line, ::testing::Not(StartsWith("[2030")));
+  }
 }
 
 }  // namespace

@@ -4,10 +4,9 @@
 
 #include <chrono>
 #include <string>
-#include <thread>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
 #include "server/small_case.h"
 #include "server/small_cluster.h"
 #include "server/sweep_requests.h"
@@ -46,42 +45,20 @@ class ExecutorsTest : public DaemonFixture {
     start(options);
   }
 
-  static grpc::Status try_create(Client& client, const std::string& executor, v1::Job& out,
-                                 const v1::Case& submitted = tiny_case()) {
-    v1::CreateJobRequest request;
-    *request.mutable_case_() = submitted;
-    request.set_executor(executor);
-    return client.jobs->CreateJob(bounded_context().get(), request, &out);
+  static v1::CreateJobRequest job_on(const std::string& executor, const v1::Case& submitted = tiny_case()) {
+    auto out = job_of(submitted);
+    out.set_executor(executor);
+    return out;
   }
 
   static std::string create_on(Client& client, const std::string& executor, const v1::Case& submitted = tiny_case()) {
-    v1::Job out;
-    const auto status = try_create(client, executor, out, submitted);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return out.name();
+    return client.create(job_on(executor, submitted)).name();
   }
 
   static v1::Sweep create_sweep_on(Client& client, const std::string& executor, const v1::Case& submitted) {
     auto request = sweep_of(submitted, "plates.friction", {0.0, 0.1, 0.2});
     request.mutable_sweep()->set_executor(executor);
     return create(client, request);
-  }
-
-  static v1::Queue queue_of(const Client& client) {
-    v1::Queue out;
-    const auto status = v1::Admin::NewStub(client.channel)->GetQueue(bounded_context().get(), {}, &out);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return out;
-  }
-
-  // Waits for something at most 20 s.
-  template <class Condition>
-  static bool wait_until(const Condition& condition) {
-    for (int i = 0; i < 2000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
   }
 
   bool wait_for_place(Client& client, const std::string& job) {

@@ -8,7 +8,6 @@
 #include "log_format.h"
 #include "server/executors_fixture.h"
 #include "server/log_capture.h"
-#include "server/raw_call.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -42,8 +41,7 @@ TEST_F(ExecutorsTest, ARequestWithoutOneGetsTheDefault) {
   auto client = this->client();
   EXPECT_EQ(client.get(client.create(tiny_case())).executor(), kCluster);
   EXPECT_EQ(client.get(create_on(client, "local")).executor(), "local");
-  v1::Capabilities capabilities;
-  EXPECT_TRUE(v1::Admin::NewStub(client.channel)->GetCapabilities(bounded_context().get(), {}, &capabilities).ok());
+  const auto capabilities = answer_of(*v1::Admin::NewStub(client.channel), &v1::Admin::Stub::GetCapabilities, {});
   EXPECT_EQ(capabilities.default_executor(), kCluster);
   ASSERT_EQ(capabilities.executors_size(), 2);
   EXPECT_EQ(capabilities.executors(0).name(), "local");
@@ -68,18 +66,15 @@ TEST_F(ExecutorsTest, ADefaultThatTheDaemonLacksIsRefused) {
 TEST_F(ExecutorsTest, AnUnknownOneIsRefusedWithThoseThereAre) {
   start(with_cluster());
   auto client = this->client();
-  v1::Job job;
-  const auto refused = try_create(client, "slurm/other", job);
+  const auto refused = client.try_to(job_on("slurm/other"));
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_THAT(refused.error_message(),
               AllOf(HasSubstr("executor is \"slurm/other\""), HasSubstr("local, slurm/test"), HasSubstr("leave it")));
-  EXPECT_EQ(try_create(client, std::string(200, 'x'), job).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(client.try_to(job_on(std::string(200, 'x'))).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   auto request = sweep_of(tiny_case(), "plates.friction", {0.0, 0.1});
   request.mutable_sweep()->set_executor("slurm/other");
-  v1::Sweep sweep;
-  const auto refused_sweep = client.sweeps->CreateSweep(bounded_context().get(), request, &sweep);
-  EXPECT_EQ(refused_sweep.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(refused_sweep.error_message(), HasSubstr("sweep.executor is \"slurm/other\""));
+  const auto refused_sweep = client.try_to(request);
+  EXPECT_THAT(refused_sweep, Fails(grpc::StatusCode::INVALID_ARGUMENT, "sweep.executor is \"slurm/other\""));
 }
 
 TEST_F(ExecutorsTest, TroubleOfOneHoldsItsOwnQueueOnly) {
@@ -88,20 +83,20 @@ TEST_F(ExecutorsTest, TroubleOfOneHoldsItsOwnQueueOnly) {
   start(with_program(program));
   auto client = this->client();
   const std::string there = create_on(client, kCluster);
-  ASSERT_TRUE(wait_until([&] { return queue_of(client).holds_size() == 1; }));
-  const auto queue = queue_of(client);
+  ASSERT_TRUE(wait_until([&] { return client.queue().holds_size() == 1; }));
+  const auto queue = client.queue();
   EXPECT_EQ(queue.holds(0).executor(), kCluster);
   EXPECT_EQ(queue.holds(0).cause(), "worker");
   ASSERT_EQ(queue.entries_size(), 1);
   EXPECT_EQ(queue.entries(0).executor(), kCluster);
-  EXPECT_FALSE(is_serving(client.channel, "cellcrush.queue"));
+  EXPECT_FALSE(is_serving(client, "cellcrush.queue"));
   EXPECT_EQ(log.count_lines("The queue of slurm/test is held"), 1);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::Job::SUCCEEDED));
-  EXPECT_FALSE(is_serving(client.channel, "cellcrush.queue")) << "One queue is still held.";
+  EXPECT_FALSE(is_serving(client, "cellcrush.queue")) << "One queue is still held.";
 
   std::filesystem::create_symlink(CELLCRUSHD_PROGRAM, program);
   EXPECT_TRUE(client.wait_for_state(there, v1::Job::SUCCEEDED));
-  EXPECT_TRUE(is_serving(client.channel, "cellcrush.queue"));
+  EXPECT_TRUE(is_serving(client, "cellcrush.queue"));
 }
 
 TEST_F(ExecutorsTest, AnOwnersLimitCountsOnEach) {
@@ -137,11 +132,8 @@ TEST_F(ExecutorsTest, WhereAClusterHasAJobIsShownUntilItEnds) {
   EXPECT_EQ(client.get(job).state(), v1::Job::PENDING);
   const std::string waits = "Cluster job 7, PENDING (Resources)";
   EXPECT_EQ(client.get(job).place(), waits);
-  v1::ListJobsResponse listed;
-  EXPECT_TRUE(client.jobs->ListJobs(bounded_context().get(), {}, &listed).ok());
-  ASSERT_EQ(listed.jobs_size(), 1);
-  EXPECT_EQ(listed.jobs(0).place(), waits);
-  const auto queue = queue_of(client);
+  EXPECT_EQ(client.list().at(0).place(), waits);
+  const auto queue = client.queue();
   ASSERT_EQ(queue.entries_size(), 1);
   EXPECT_EQ(queue.entries(0).reason(), "slurm/test has it: " + waits + ".");
   EXPECT_EQ(queue.entries(0).seconds_until_start(), 0.0);
@@ -150,9 +142,7 @@ TEST_F(ExecutorsTest, WhereAClusterHasAJobIsShownUntilItEnds) {
   ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
   EXPECT_EQ(client.get(job).place(), "Cluster job 7, RUNNING on node1");
   auto context = bounded_context();
-  v1::WatchJobRequest request;
-  request.set_name(job);
-  auto watch = client.jobs->WatchJob(context.get(), request);
+  auto watch = client.jobs->WatchJob(context.get(), named<v1::WatchJobRequest>(job));
   v1::JobEvent first;
   ASSERT_TRUE(watch->Read(&first));
   EXPECT_EQ(first.snapshot().job().place(), "Cluster job 7, RUNNING on node1");
@@ -171,11 +161,7 @@ TEST_F(ExecutorsTest, ACancelReachesAJobThatItsClusterHasNotStarted) {
   EXPECT_TRUE(client.cancel(alone).ok());
   EXPECT_EQ(client.get(alone).state(), v1::Job::CANCELLED);
   EXPECT_TRUE(wait_until([&] { return cluster_.queued() == 3; }));
-  v1::CancelSweepRequest request;
-  request.set_name(sweep.name());
-  v1::Sweep cancelled;
-  EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), request, &cancelled).ok());
-  EXPECT_EQ(count_in(cancelled, v1::Job::CANCELLED), 3);
+  EXPECT_EQ(count_in(cancel_sweep(client, sweep.name()), v1::Job::CANCELLED), 3);
   EXPECT_TRUE(wait_until([&] { return cluster_.queued() == 0; }));
   // Its slots are free again.
   cluster_.open();
@@ -209,13 +195,9 @@ TEST_F(ExecutorsTest, TheNextDaemonAdoptsWhatTheClusterHasBeforeItHandsOverMore)
   // One that is more urgent than those which the cluster has must not take a place from them.
   {
     auto client = this->client();
-    v1::CreateJobRequest request;
-    *request.mutable_case_() = tiny_case();
-    request.set_executor(kCluster);
-    request.set_priority(50);
-    v1::Job urgent;
-    ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), request, &urgent).ok());
-    jobs.push_back(urgent.name());
+    auto urgent = job_on(kCluster);
+    urgent.set_priority(50);
+    jobs.push_back(client.create(urgent).name());
   }
   restart(with_cluster(2));
   auto client = this->client();
@@ -278,10 +260,7 @@ TEST_F(ExecutorsTest, JobsOfAClusterThatAreCancelledDuringAShortageAreEndedThere
     return calls.begun > 0;
   }));
   EXPECT_TRUE(client.cancel(single).ok());
-  v1::CancelSweepRequest request;
-  request.set_name(sweep.name());
-  v1::Sweep unused;
-  EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), request, &unused).ok());
+  cancel_sweep(client, sweep.name());
   for (const auto& job : jobs) EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLED);
   EXPECT_TRUE(wait_until([&] {
     const std::lock_guard lock(calls.mutex);

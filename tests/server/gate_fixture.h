@@ -33,6 +33,9 @@ class GateFixture : public DaemonFixture {
   [[nodiscard]] std::shared_ptr<grpc::Channel> channel(const Visitor& visitor,
                                                        const std::string& host = "127.0.0.1") const;
 
+  /// A client without TLS that has one of the tokens.
+  [[nodiscard]] Client client_of(const std::string& name) const;
+
   /// A context that carries the token where the channel does not.
   [[nodiscard]] static std::unique_ptr<grpc::ClientContext> context_of(const Visitor& visitor);
 

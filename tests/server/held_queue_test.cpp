@@ -1,19 +1,15 @@
 // What the daemon lacks for a while holds the queue and ends no job.
 #include <gmock/gmock.h>
-#include <sys/stat.h>
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "log_format.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
 #include "server/job_numbers.h"
 #include "server/log_capture.h"
-#include "server/raw_call.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
@@ -35,19 +31,8 @@ class HeldQueueTest : public DaemonFixture {
 
   void install_program() const { std::filesystem::create_symlink(CELLCRUSHD_PROGRAM, program()); }
 
-  static v1::Queue queue_of(const Client& client) {
-    v1::Queue out;
-    const auto status = v1::Admin::NewStub(client.channel)->GetQueue(bounded_context().get(), {}, &out);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return out;
-  }
-
-  static bool wait_until_held(const Client& client, bool held) {
-    for (int i = 0; i < 400; ++i) {
-      if (queue_of(client).holds().empty() != held) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return false;
+  static bool wait_until_held(const Client& client) {
+    return wait_until([&] { return !client.queue().holds().empty(); });
   }
 };
 
@@ -57,13 +42,13 @@ TEST_F(HeldQueueTest, AWorkerProgramThatIsMissingHoldsItUntilItIsThere) {
   options.worker_program = program();
   start(options);
   auto client = this->client();
-  EXPECT_TRUE(is_serving(client.channel, "cellcrush.queue"));
+  EXPECT_TRUE(is_serving(client, "cellcrush.queue"));
   std::vector<std::string> jobs;
   for (int i = 0; i < 20; ++i) jobs.push_back(client.create(tiny_case()));
-  ASSERT_TRUE(wait_until_held(client, true));
+  ASSERT_TRUE(wait_until_held(client));
   std::this_thread::sleep_for(std::chrono::seconds(1));
 
-  const auto queue = queue_of(client);
+  const auto queue = client.queue();
   ASSERT_EQ(queue.holds_size(), 1);
   EXPECT_EQ(queue.holds(0).cause(), "worker");
   EXPECT_THAT(queue.holds(0).reason(), HasSubstr("No such file"));
@@ -71,8 +56,8 @@ TEST_F(HeldQueueTest, AWorkerProgramThatIsMissingHoldsItUntilItIsThere) {
   EXPECT_TRUE(queue.holds(0).has_next_try_time());
   EXPECT_GT(queue.holds(0).since().seconds(), 1'600'000'000);
   EXPECT_THAT(queue.entries(0).reason(), HasSubstr("The queue is held: No worker process could be started"));
-  EXPECT_FALSE(is_serving(client.channel, "cellcrush.queue"));
-  EXPECT_TRUE(is_serving(client.channel, "cellcrush.v1.Jobs"));
+  EXPECT_FALSE(is_serving(client, "cellcrush.queue"));
+  EXPECT_TRUE(is_serving(client, "cellcrush.v1.Jobs"));
   for (const auto& job : jobs) {
     EXPECT_EQ(client.get(job).state(), v1::Job::PENDING);
     EXPECT_EQ(client.get(job).attempt(), 0) << "It waits as it was.";
@@ -81,8 +66,8 @@ TEST_F(HeldQueueTest, AWorkerProgramThatIsMissingHoldsItUntilItIsThere) {
   install_program();
   for (const auto& job : jobs)
     EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << client.get(job).cause_message();
-  EXPECT_TRUE(queue_of(client).holds().empty());
-  EXPECT_TRUE(is_serving(client.channel, "cellcrush.queue"));
+  EXPECT_TRUE(client.queue().holds().empty());
+  EXPECT_TRUE(is_serving(client, "cellcrush.queue"));
   EXPECT_EQ(log.count_lines("The queue is held"), 1);
   EXPECT_EQ(log.count_lines("The queue is released"), 1);
 }
@@ -94,7 +79,7 @@ TEST_F(HeldQueueTest, AJobThatIsCancelledOrSuspendedWhileItIsHeldIs) {
   auto client = this->client();
   const std::string cancelled = client.create(tiny_case());
   const std::string suspended = client.create(tiny_case());
-  ASSERT_TRUE(wait_until_held(client, true));
+  ASSERT_TRUE(wait_until_held(client));
   EXPECT_TRUE(client.cancel(cancelled).ok());
   EXPECT_TRUE(client.suspend(suspended).ok());
   EXPECT_EQ(client.get(cancelled).state(), v1::Job::CANCELLED);
@@ -104,31 +89,13 @@ TEST_F(HeldQueueTest, AJobThatIsCancelledOrSuspendedWhileItIsHeldIs) {
   EXPECT_TRUE(client.wait_for_state(suspended, v1::Job::SUCCEEDED));
 }
 
-TEST_F(HeldQueueTest, AJobFolderThatCannotBeUsedIsSetAsideAndHoldsNobody) {
-  std::filesystem::create_directories(data_folder() / "jobs");
-  // In place of a folder a file, and in place of a file a pipe that nobody writes.
-  std::ofstream(data_folder() / "jobs" / "2") << "no folder";
-  std::filesystem::create_directory(data_folder() / "jobs" / "3");
-  ASSERT_EQ(mkfifo((data_folder() / "jobs" / "3" / "reports").c_str(), 0600), 0);
-  start(impatient());
-  auto client = this->client();
-  for (int i = 1; i <= 4; ++i) {
-    const std::string job = client.create(tiny_case());
-    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << client.get(job).cause_message();
-  }
-  EXPECT_TRUE(std::filesystem::is_regular_file(data_folder() / "set-aside" / "2"));
-  EXPECT_TRUE(std::filesystem::is_directory(data_folder() / "set-aside" / "3"));
-  EXPECT_TRUE(queue_of(client).holds().empty());
-}
-
 TEST_F(HeldQueueTest, AWorkerThatIsStoppedIsSuspendedAtItsLastCheckpointInBoundedTime) {
   auto options = impatient();
   options.checkpoint_interval = std::chrono::milliseconds(50);
   options.stall_limit = std::chrono::milliseconds(2000);
   start(options);
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  wait_for_samples(client, job, 20);
+  const std::string job = create_with_samples(client, endless_case(), 20);
   const pid_t worker = client.worker_of(job);
   ASSERT_EQ(kill(worker, SIGSTOP), 0);
   EXPECT_TRUE(client.suspend(job).ok());

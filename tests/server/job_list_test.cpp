@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <utility>
+
 #include "server/daemon_fixture.h"
 #include "server/small_case.h"
 
@@ -9,31 +11,22 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 class JobListTest : public DaemonFixture {
  protected:
-  void SetUp() override {
-    auto options = default_options();
-    options.workers = 1;
-    start(options);
-  }
+  void SetUp() override { start(with_workers(1)); }
 
-  std::string create(const std::string& title, const std::string& batch) {
-    v1::CreateJobRequest request;
-    *request.mutable_case_() = endless_case();
+  void create(const std::string& title, const std::string& batch) {
+    auto request = job_of(endless_case());
     request.mutable_case_()->set_title(title);
     (*request.mutable_labels())["batch"] = batch;
-    v1::Job job;
-    const auto status = client().jobs->CreateJob(bounded_context().get(), request, &job);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return job.name();
+    client().create(request);
   }
 
   // The names of a page, and in `request` the token of the next one.
   std::vector<std::string> page(v1::ListJobsRequest& request) {
-    v1::ListJobsResponse response;
-    const auto status = client().jobs->ListJobs(bounded_context().get(), request, &response);
-    EXPECT_TRUE(status.ok()) << status.error_message();
+    const auto response = answer_of(*client().jobs, &v1::Jobs::Stub::ListJobs, request);
     std::vector<std::string> out;
     for (const auto& job : response.jobs()) out.push_back(job.name());
     request.set_page_token(response.next_page_token());
@@ -46,9 +39,13 @@ class JobListTest : public DaemonFixture {
     return page(request);
   }
 
-  grpc::Status refusal(const v1::ListJobsRequest& request) {
-    v1::ListJobsResponse response;
-    return client().jobs->ListJobs(bounded_context().get(), request, &response);
+  // What is said of a request in which one field is wrong.
+  std::string refusal(const char* field, const std::string& text) {
+    v1::ListJobsRequest request;
+    request.GetReflection()->SetString(&request, request.GetDescriptor()->FindFieldByName(field), text);
+    const auto status = client().try_to(request);
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << field << " " << text;
+    return status.error_message();
   }
 };
 
@@ -66,6 +63,9 @@ TEST_F(JobListTest, AFilterFindsStatesLabelsAndTitles) {
   EXPECT_THAT(found("title : \"HEXAGONS\""), ElementsAre("jobs/2", "jobs/1"));
   EXPECT_THAT(found("title : aluminium AND title : squares"), ElementsAre("jobs/3"));
   EXPECT_THAT(found("label.other = two"), IsEmpty());
+  EXPECT_THAT(found("   "), SizeIs(3));
+  create("Of \"two\" words", "a \"b\"");
+  EXPECT_THAT(found(R"(label."batch"="a \"b\""  AND title:"of \"TWO\"" AND title : words)"), ElementsAre("jobs/4"));
 }
 
 TEST_F(JobListTest, PagesStayInPlaceWhenJobsAreMadeAndDeleted) {
@@ -87,26 +87,37 @@ TEST_F(JobListTest, PagesStayInPlaceWhenJobsAreMadeAndDeleted) {
   EXPECT_TRUE(oldest.page_token().empty());
 }
 
-TEST_F(JobListTest, WhatIsNotUnderstoodIsNamed) {
+TEST_F(JobListTest, AFaultOfAFilterIsNamedWithItsPlaceAndWhatIsUnderstood) {
+  for (const auto& [filter, words] :
+       {std::pair{"speed = 3", "position 1: expected state, owner, label.KEY or title"},
+        std::pair{"state = DONE", "position 9: expected one of PENDING, RUNNING"},
+        std::pair{"state = JOB_STATE_UNSPECIFIED", "position 9"},
+        std::pair{"state : RUNNING", "position 7: expected ="},
+        std::pair{"state = RUNNING OR title : a", "position 17: expected AND or the end"},
+        std::pair{"state = RUNNING AND", "position 20"},
+        std::pair{"title : \"open", "position 9: the quoted text that starts here has no closing quote"},
+        std::pair{"label.a =", "position 10: expected a value"}, std::pair{"title = a", "joined by AND"}})
+    EXPECT_THAT(refusal("filter", filter), HasSubstr(words)) << filter;
+}
+
+TEST_F(JobListTest, AnOrderATokenOrASizeThatIsNoneIsRefused) {
   for (int i = 0; i < 3; ++i) create("case", "one");
   v1::ListJobsRequest request;
-  request.set_filter("state = DONE");
-  const auto filter = refusal(request);
-  EXPECT_EQ(filter.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(filter.error_message(), HasSubstr("filter cannot be read at position 9"));
-  request.clear_filter();
-  request.set_order_by("speed");
-  EXPECT_THAT(refusal(request).error_message(), HasSubstr("order_by"));
+  for (const char* order : {"create_time desc", " name  desc ", "name asc"}) {
+    request.set_order_by(order);
+    EXPECT_TRUE(client().try_to(request).ok()) << order;
+  }
+  for (const char* order : {"state", "name down", "name desc create_time", "desc"})
+    EXPECT_THAT(refusal("order_by", order), HasSubstr("order_by")) << order;
+  for (const char* token : {"17", "x", "-1-", "99999999999999999999-0", "nonsense"})
+    EXPECT_THAT(refusal("page_token", token), HasSubstr("page_token")) << token;
   request.clear_order_by();
-  request.set_page_token("nonsense");
-  EXPECT_EQ(refusal(request).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  request.clear_page_token();
   request.set_page_size(2);
   page(request);
   request.set_filter("state = PENDING");
-  EXPECT_THAT(refusal(request).error_message(), HasSubstr("with the same filter"));
+  EXPECT_THAT(client().try_to(request).error_message(), HasSubstr("with the same filter"));
   request.set_page_size(-1);
-  EXPECT_THAT(refusal(request).error_message(), HasSubstr("page_size"));
+  EXPECT_THAT(client().try_to(request).error_message(), HasSubstr("page_size"));
 }
 
 }  // namespace

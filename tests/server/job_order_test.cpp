@@ -5,7 +5,6 @@
 #include <iostream>
 #include <thread>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
@@ -20,30 +19,14 @@ using ::testing::HasSubstr;
 class JobOrderTest : public DaemonFixture {
  protected:
   // One worker, so that jobs start one after another.
-  void SetUp() override { start_one_worker(); }
+  void SetUp() override { start(with_workers(1)); }
 
-  void start_one_worker() {
-    auto options = default_options();
-    options.workers = 1;
-    start(options);
-  }
-
-  static std::string create_with_priority(Client& client, const v1::Case& submitted, int priority) {
-    v1::CreateJobRequest request;
-    *request.mutable_case_() = submitted;
+  static std::string create_with_priority(Client& client, int priority) {
+    auto request = job_of(endless_case());
     request.set_priority(priority);
-    v1::Job job;
-    const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
-    EXPECT_TRUE(status.ok()) << status.error_message();
+    const auto job = client.create(request);
     EXPECT_EQ(job.priority(), priority);
     return job.name();
-  }
-
-  static v1::Queue queue_of(Client& client) {
-    v1::Queue out;
-    const auto status = v1::Admin::NewStub(client.channel)->GetQueue(bounded_context().get(), {}, &out);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return out;
   }
 
   // The jobs, all endless, in the order in which they start. Each is cancelled once it runs.
@@ -81,7 +64,7 @@ TEST_F(JobOrderTest, TheNextDaemonStartsTheRestOfASweepLongestFirstToo) {
     ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   }
   daemon_->stop();
-  start_one_worker();
+  start(with_workers(1));
   auto client = this->client();
   client.cancel("jobs/1");
   EXPECT_THAT(by_start(client, {"jobs/2", "jobs/3", "jobs/4"}), ElementsAre("jobs/3", "jobs/4", "jobs/2"));
@@ -89,15 +72,14 @@ TEST_F(JobOrderTest, TheNextDaemonStartsTheRestOfASweepLongestFirstToo) {
 
 TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
   auto client = this->client();
-  const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
+  const std::string running = client.create(endless_case(), v1::Job::RUNNING);
   auto request = sweep_of(endless_case(), kSpeed, {1.0, 2.0});
   request.mutable_sweep()->set_priority(-1);
   const auto sweep = create(client, request);
   EXPECT_EQ(sweep.priority(), -1);
   EXPECT_EQ(client.get(sweep.jobs(0)).priority(), -1);
   const std::string plain = client.create(endless_case());
-  const std::string urgent = create_with_priority(client, endless_case(), 100);
+  const std::string urgent = create_with_priority(client, 100);
   EXPECT_EQ(client.get(running).state(), v1::Job::RUNNING);
   ASSERT_TRUE(client.cancel(running).ok());
   EXPECT_THAT(by_start(client, {sweep.jobs(0), sweep.jobs(1), plain, urgent}),
@@ -106,15 +88,14 @@ TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
 
 TEST_F(JobOrderTest, TheQueueTellsTheOrderInWhichJobsStartAndWhyTheyWait) {
   auto client = this->client();
-  EXPECT_EQ(queue_of(client).entries_size(), 0);
-  const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
+  EXPECT_EQ(client.queue().entries_size(), 0);
+  const std::string running = client.create(endless_case(), v1::Job::RUNNING);
   auto request = sweep_of(endless_case(), kSpeed, {4.0, 1.0, 2.0});
   request.mutable_sweep()->set_max_parallel(1);
   create(client, request);
   const std::string plain = client.create(endless_case());
-  const std::string urgent = create_with_priority(client, endless_case(), 7);
-  const auto queue = queue_of(client);
+  const std::string urgent = create_with_priority(client, 7);
+  const auto queue = client.queue();
   std::vector<std::string> told;
   double before = 0.0;
   for (const auto& entry : queue.entries()) {
@@ -129,34 +110,26 @@ TEST_F(JobOrderTest, TheQueueTellsTheOrderInWhichJobsStartAndWhyTheyWait) {
   EXPECT_EQ(queue.entries(3).reason(), "The only worker is busy, and 3 jobs start before it.");
   ASSERT_TRUE(client.cancel(running).ok());
   EXPECT_EQ(by_start(client, told), told);
-  EXPECT_EQ(queue_of(client).entries_size(), 0);
+  EXPECT_EQ(client.queue().entries_size(), 0);
 }
 
 TEST_F(JobOrderTest, APriorityOutOfRangeIsRefused) {
   auto client = this->client();
-  v1::CreateJobRequest request;
-  *request.mutable_case_() = small_case();
+  auto request = job_of(small_case());
   request.set_priority(101);
-  v1::Job job;
-  const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("priority is 101. Use -100 to 100"));
+  const auto status = client.try_to(request);
+  EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, "priority is 101. Use -100 to 100"));
   auto sweep = sweep_of(small_case(), kSpeed, {100.0});
   sweep.mutable_sweep()->set_priority(-101);
-  v1::Sweep made;
-  EXPECT_THAT(client.sweeps->CreateSweep(bounded_context().get(), sweep, &made).error_message(),
-              HasSubstr("sweep.priority is -101"));
+  EXPECT_THAT(client.try_to(sweep).error_message(), HasSubstr("sweep.priority is -101"));
 }
 
 TEST_F(JobOrderTest, AThousandSpeedsSeedsOrSizesOfTypeIAreQueuedTogether) {
   auto client = this->client();
-  v1::GetPresetRequest wanted;
-  wanted.set_name("type-i");
-  v1::Preset preset;
-  ASSERT_TRUE(client.cases->GetPreset(bounded_context().get(), wanted, &preset).ok());
-  preset.mutable_case_()->mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.01);
+  auto of_type_i = client.preset("type-i");
+  of_type_i.mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.01);
   const auto seconds_for = [&](const std::string& field, double first, double last) {
-    auto request = sweep_of(preset.case_(), field, {});
+    auto request = sweep_of(of_type_i, field, {});
     auto& values = *request.mutable_sweep()->mutable_axes(0)->mutable_linear();
     values.set_first(first);
     values.set_last(last);
@@ -166,10 +139,7 @@ TEST_F(JobOrderTest, AThousandSpeedsSeedsOrSizesOfTypeIAreQueuedTogether) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::cout << "type-i at 1000 of " << field << ": queued in " << seconds << " s\n";
     EXPECT_EQ(sweep.jobs_size(), 1000);
-    v1::CancelSweepRequest cancel;
-    cancel.set_name(sweep.name());
-    v1::Sweep cancelled;
-    EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
+    cancel_sweep(client, sweep.name());
     return seconds;
   };
   EXPECT_LT(seconds_for(kSpeed, 20.0, 220.0), 2.0) << "It takes about 0.1 s on one mesh.";
@@ -181,14 +151,12 @@ TEST_F(JobOrderTest, AThousandSpeedsSeedsOrSizesOfTypeIAreQueuedTogether) {
 
 TEST_F(JobOrderTest, AQueueIsToldOfAlsoWhenASampleOfAJobInItCannotBeRead) {
   auto client = this->client();
-  const std::string damaged = client.create(endless_case());
-  wait_for_samples(client, damaged, 5);
+  const std::string damaged = create_with_samples(client, endless_case(), 5);
   ASSERT_TRUE(client.suspend(damaged).ok());
-  const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
+  const std::string running = client.create(endless_case(), v1::Job::RUNNING);
   store::Database(data_folder() / "journal.sqlite").execute("UPDATE events SET payload = x'ff' WHERE kind = 2");
   ASSERT_TRUE(client.resume(damaged).ok());
-  const auto queue = queue_of(client);
+  const auto queue = client.queue();
   ASSERT_EQ(queue.entries_size(), 1);
   EXPECT_EQ(queue.entries(0).job(), damaged);
 }

@@ -1,16 +1,16 @@
-// What the daemon does not take, what it does when the disk is nearly full, and how it ends on request.
+// What the daemon does not take, when a job takes too long, and what it does when the disk is nearly full.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <optional>
-#include <thread>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
 #include "server/job_numbers.h"
@@ -21,6 +21,7 @@ namespace cellcrush::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
 
 // Tests that fill the disk do so one after another, whatever runs them.
 class DiskTurn {
@@ -41,11 +42,18 @@ class DiskTurn {
 class LimitsTest : public DaemonFixture {
  protected:
   static grpc::Status try_to_create(Client& client, const v1::Case& submitted, const std::string& request_id = "") {
-    v1::CreateJobRequest request;
-    *request.mutable_case_() = submitted;
+    auto request = job_of(submitted);
     request.set_request_id(request_id);
-    v1::Job job;
-    return client.jobs->CreateJob(bounded_context().get(), request, &job);
+    return client.try_to(request);
+  }
+
+  // A daemon with one worker, which is busy, and room for so many other jobs.
+  void start_busy(int queued_jobs) {
+    auto options = with_workers(1);
+    options.limits.queued_jobs = queued_jobs;
+    start(options);
+    auto client = this->client();
+    ASSERT_TRUE(client.wait_for_state(client.create(endless_case()), v1::Job::RUNNING));
   }
 
   [[nodiscard]] std::int64_t free_bytes() const {
@@ -54,47 +62,29 @@ class LimitsTest : public DaemonFixture {
 };
 
 TEST_F(LimitsTest, BeyondTheQueuesDepthNothingIsTakenAndTheRemedyIsNamed) {
-  auto options = default_options();
-  options.workers = 1;
-  options.limits.queued_jobs = 2;
-  start(options);
+  start_busy(2);
   auto client = this->client();
-  const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   client.create(small_case());
   ASSERT_TRUE(try_to_create(client, small_case(), "second").ok());
   const auto refused = try_to_create(client, small_case());
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(refused.error_message(), HasSubstr("--max-queued-jobs"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "--max-queued-jobs"));
   EXPECT_TRUE(try_to_create(client, small_case(), "second").ok()) << "What was taken before is told again.";
-  v1::Sweep sweep;
-  const auto points = sweep_of(small_case(), kSpeed, {50.0, 100.0});
-  EXPECT_EQ(client.sweeps->CreateSweep(bounded_context().get(), points, &sweep).error_code(),
+  EXPECT_EQ(client.try_to(sweep_of(small_case(), kSpeed, {50.0, 100.0})).error_code(),
             grpc::StatusCode::RESOURCE_EXHAUSTED);
 }
 
 TEST_F(LimitsTest, ACancelledSweepFreesItsPlacesInTheQueueAtOnce) {
-  auto options = default_options();
-  options.workers = 1;
-  options.limits.queued_jobs = 3;
-  start(options);
+  start_busy(3);
   auto client = this->client();
-  const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   for (int i = 0; i < 3; ++i) {
     const auto sweep = create(client, sweep_of(small_case(), kSpeed, {50.0, 100.0, 150.0}));
-    v1::CancelSweepRequest cancel;
-    cancel.set_name(sweep.name());
-    v1::Sweep cancelled;
-    ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
-    EXPECT_EQ(count_in(cancelled, v1::Job::CANCELLED), 3);
+    EXPECT_EQ(count_in(cancel_sweep(client, sweep.name()), v1::Job::CANCELLED), 3);
   }
   EXPECT_TRUE(try_to_create(client, small_case()).ok());
 }
 
 TEST_F(LimitsTest, ASweepThatMaxFailuresStopsFreesItsPlacesAtOnce) {
-  auto options = default_options();
-  options.workers = 1;
+  auto options = with_workers(1);
   options.limits.queued_jobs = 3;
   start(options);
   auto client = this->client();
@@ -104,13 +94,11 @@ TEST_F(LimitsTest, ASweepThatMaxFailuresStopsFreesItsPlacesAtOnce) {
   const auto sweep = create(client, request);
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::RUNNING, 1));
   // Takes the worker before the others of the sweep could leave the queue through it.
-  v1::CreateJobRequest urgent;
-  *urgent.mutable_case_() = endless_case();
+  auto urgent = job_of(endless_case());
   urgent.set_priority(100);
-  v1::Job next;
-  ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), urgent, &next).ok());
+  const std::string next = client.create(urgent).name();
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::FAILED, 1));
-  ASSERT_TRUE(client.wait_for_state(next.name(), v1::Job::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(next, v1::Job::RUNNING));
   EXPECT_EQ(count_in(get_sweep(client, sweep.name()), v1::Job::CANCELLED), 2);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(try_to_create(client, small_case()).ok()) << i;
 }
@@ -121,10 +109,8 @@ TEST_F(LimitsTest, ASweepWhoseLabelsWouldFillTheJournalIsRefused) {
   for (int i = 0; i < 64; ++i)
     (*request.mutable_sweep()->mutable_labels())["key-" + std::to_string(i)] = std::string(255, 'x');
   request.set_validate_only(true);
-  v1::Sweep sweep;
-  const auto refused = client.sweeps->CreateSweep(bounded_context().get(), request, &sweep);
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(refused.error_message(), HasSubstr("sweep.labels"));
+  const auto refused = client.try_to(request);
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::INVALID_ARGUMENT, "sweep.labels"));
   EXPECT_THAT(refused.error_message(), HasSubstr("at most 16 MiB"));
 }
 
@@ -134,12 +120,9 @@ TEST_F(LimitsTest, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
   start(options);
   auto client = this->client();
   const auto refused = try_to_create(client, endless_case());
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(refused.error_message(), HasSubstr("elements_per_wall"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "elements_per_wall"));
   EXPECT_TRUE(try_to_create(client, small_case()).ok());
-  v1::Sweep sweep;
-  const auto points = sweep_of(endless_case(), kSpeed, {50.0, 100.0});
-  EXPECT_EQ(client.sweeps->CreateSweep(bounded_context().get(), points, &sweep).error_code(),
+  EXPECT_EQ(client.try_to(sweep_of(endless_case(), kSpeed, {50.0, 100.0})).error_code(),
             grpc::StatusCode::RESOURCE_EXHAUSTED);
 }
 
@@ -150,10 +133,8 @@ TEST_F(LimitsTest, WithTooLittleRoomOnTheDiskNothingIsTaken) {
   start(options);
   auto client = this->client();
   const auto refused = try_to_create(client, small_case());
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(refused.error_message(), HasSubstr("Free disk space"));
-  v1::ListJobsResponse listed;
-  EXPECT_TRUE(client.jobs->ListJobs(bounded_context().get(), {}, &listed).ok()) << "It can still be read.";
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "Free disk space"));
+  EXPECT_TRUE(client.list().empty()) << "It can still be read.";
 }
 
 // The disk is that of the temporary folder; a large file takes its room and gives it back.
@@ -180,14 +161,7 @@ class FullDiskTest : public LimitsTest {
 
   // Until the daemon has seen that there is too little room, at most 10 s.
   static bool wait_until_held(const Client& client) {
-    const auto admin = v1::Admin::NewStub(client.channel);
-    for (int i = 0; i < 500; ++i) {
-      v1::Queue queue;
-      EXPECT_TRUE(admin->GetQueue(bounded_context().get(), {}, &queue).ok());
-      if (!queue.holds().empty()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return false;
+    return wait_until([&] { return !client.queue().holds().empty(); }, std::chrono::seconds(10));
   }
 
  private:
@@ -196,13 +170,10 @@ class FullDiskTest : public LimitsTest {
 
 TEST_F(FullDiskTest, RunningJobsAreLeftUntilThereIsRoom) {
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
+  const std::string job = client.create(endless_case(), v1::Job::RUNNING);
   ASSERT_NO_FATAL_FAILURE(take_room());
   EXPECT_TRUE(client.wait_for_state(job, v1::Job::PENDING));
-  v1::Queue queue;
-  const auto admin = v1::Admin::NewStub(client.channel);
-  ASSERT_TRUE(admin->GetQueue(bounded_context().get(), {}, &queue).ok());
+  const auto queue = client.queue();
   ASSERT_EQ(queue.entries_size(), 1);
   EXPECT_THAT(queue.entries(0).reason(), HasSubstr("nearly full"));
   EXPECT_EQ(try_to_create(client, small_case()).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
@@ -214,8 +185,7 @@ TEST_F(FullDiskTest, RunningJobsAreLeftUntilThereIsRoom) {
 
 TEST_F(FullDiskTest, AJobThatIsCancelledEndsBeforeThereIsRoom) {
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  wait_for_samples(client, job, 5);
+  const std::string job = create_with_samples(client, endless_case(), 5);
   const pid_t worker = client.worker_of(job);
   ASSERT_EQ(kill(worker, SIGSTOP), 0) << "It heeds no wish.";
   ASSERT_NO_FATAL_FAILURE(take_room());
@@ -225,59 +195,96 @@ TEST_F(FullDiskTest, AJobThatIsCancelledEndsBeforeThereIsRoom) {
   EXPECT_TRUE(client.get(job).has_summary()) << client.get(job).cause_message();
 }
 
-TEST_F(LimitsTest, AJobThatEndedLongAgoIsDeletedAndOthersAreNot) {
-  auto options = default_options();
-  options.keep.age = std::chrono::seconds(2);
-  options.housekeeping_interval = std::chrono::milliseconds(50);
-  start(options);
-  auto client = this->client();
-  const std::string waits = client.create(endless_case());
-  const std::string job = client.create(small_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
-  v1::GetJobRequest request;
-  request.set_name(job);
-  v1::Job found;
-  auto status = client.jobs->GetJob(bounded_context().get(), request, &found);
-  EXPECT_TRUE(status.ok()) << "Not before its time.";
-  for (int i = 0; i < 200 && status.ok(); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    status = client.jobs->GetJob(bounded_context().get(), request, &found);
-  }
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_EQ(client.get(waits).state(), v1::Job::RUNNING);
-  ASSERT_TRUE(client.cancel(waits).ok());
-}
-
-TEST_F(LimitsTest, DrainedItTakesNoJobEndsAndLeavesWhatRuns) {
-  const std::string socket = "unix:" + (folder_.path() / "other").string();
-  const std::vector<std::string> arguments = {"--data", (folder_.path() / "drained").string(), "--listen", socket};
-  DaemonProcess daemon(arguments);
-  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
-  Client client(socket);
-  const std::string job = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
-  const pid_t worker = client.worker_of(job);
-  v1::DrainResponse response;
-  ASSERT_TRUE(v1::Admin::NewStub(client.channel)->Drain(bounded_context().get(), {}, &response).ok());
-  EXPECT_EQ(daemon.wait(), 0);
-  EXPECT_FALSE(is_alive(worker));
-  DaemonProcess next(arguments);
-  ASSERT_EQ(next.wait_for_addresses(1).size(), 1U);
-  Client again(socket);
-  EXPECT_TRUE(again.wait_for_state(job, v1::Job::RUNNING));
-  ASSERT_TRUE(again.cancel(job).ok());
-  EXPECT_TRUE(again.wait_for_state(job, v1::Job::CANCELLED));
-}
-
 TEST_F(LimitsTest, WhileItDrainsNewJobsAreRefusedAndOldOnesServed) {
   auto client = this->client();
   const std::string job = client.create(small_case());
-  v1::DrainResponse response;
-  ASSERT_TRUE(v1::Admin::NewStub(client.channel)->Drain(bounded_context().get(), {}, &response).ok());
+  answer_of(*v1::Admin::NewStub(client.channel), &v1::Admin::Stub::Drain, {});
   const auto refused = try_to_create(client, small_case());
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_THAT(refused.error_message(), HasSubstr("shutting down"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::UNAVAILABLE, "shutting down"));
   EXPECT_TRUE(client.watch(job).status.ok());
+}
+
+class TimeLimitTest : public DaemonFixture {
+ protected:
+  static v1::CreateJobRequest limited(double seconds) {
+    auto request = job_of(endless_case());
+    request.set_time_limit_s(seconds);
+    return request;
+  }
+
+  static std::string create_limited(Client& client, double seconds) {
+    const auto job = client.create(limited(seconds));
+    EXPECT_EQ(job.time_limit_s(), seconds);
+    return job.name();
+  }
+
+  // That the job ended at its limit, with a result up to there.
+  void expect_out_of_time(Client& client, const std::string& name) {
+    ASSERT_TRUE(client.wait_for_state(name, v1::Job::FAILED));
+    const auto job = client.get(name);
+    EXPECT_EQ(job.cause(), v1::Job::TIME_LIMIT);
+    EXPECT_THAT(job.cause_message(), HasSubstr("its time limit of"));
+    EXPECT_THAT(job.remedy(), HasSubstr("time_limit_s"));
+    ASSERT_TRUE(job.has_summary());
+    const auto numbers = numbers_of(client, data_folder(), name);
+    EXPECT_EQ(numbers.history.size(), client.history(name).size());
+    EXPECT_EQ(client.history(name).back().step(), job.summary().step_count());
+  }
+};
+
+TEST_F(TimeLimitTest, AtItsLimitAJobEndsWithWhatThereIs) {
+  auto client = this->client();
+  const auto start = Clock::now();
+  expect_out_of_time(client, create_limited(client, 1.0));
+  EXPECT_GE(Clock::now() - start, std::chrono::seconds(1));
+}
+
+TEST_F(TimeLimitTest, APauseDoesNotCountAndWhatWasRunBeforeDoes) {
+  auto client = this->client();
+  const std::string job = create_limited(client, 2.0);
+  wait_for_samples(client, job, 200);
+  ASSERT_TRUE(client.suspend(job).ok());
+  const auto left_at = client.history(job).size();
+  start();
+  auto next = this->client();
+  ASSERT_TRUE(next.resume(job).ok());
+  expect_out_of_time(next, job);
+  EXPECT_GT(next.history(job).size(), left_at);
+  const auto ended = next.get(job);
+  EXPECT_LT(ended.summary().solver_seconds(), 2.3) << "The time before the pause counts.";
+}
+
+TEST_F(TimeLimitTest, TheDaemonsLimitHoldsForThoseWithoutOneAndMoreIsRefused) {
+  auto options = default_options();
+  options.limits.job_time = std::chrono::duration<double>(1.0);
+  start(options);
+  auto client = this->client();
+  const std::string limited_by_daemon = create_limited(client, 0.0);
+  ASSERT_TRUE(client.wait_for_state(limited_by_daemon, v1::Job::FAILED));
+  EXPECT_THAT(client.get(limited_by_daemon).cause_message(), HasSubstr("the daemon's time limit of"));
+  EXPECT_THAT(client.get(limited_by_daemon).remedy(), HasSubstr("--max-job-time"));
+  const auto refused = client.try_to(limited(2.0));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::INVALID_ARGUMENT, "time_limit_s"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("--max-job-time"));
+}
+
+TEST_F(TimeLimitTest, WhatIsNoTimeIsRefused) {
+  auto client = this->client();
+  for (const double seconds : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(client.try_to(limited(seconds)).error_code(), grpc::StatusCode::INVALID_ARGUMENT) << seconds;
+}
+
+TEST_F(TimeLimitTest, ASweepsJobsAndThoseTriedAgainHaveItsLimit) {
+  auto client = this->client();
+  auto request = sweep_of(endless_case(), kSpeed, {50.0});
+  request.mutable_sweep()->set_time_limit_s(0.5);
+  const auto sweep = create(client, request);
+  ASSERT_EQ(sweep.jobs_size(), 1);
+  expect_out_of_time(client, sweep.jobs(0));
+  const auto again = retry(client, sweep.name());
+  ASSERT_EQ(again.jobs_size(), 1);
+  EXPECT_NE(again.jobs(0), sweep.jobs(0));
+  expect_out_of_time(client, again.jobs(0));
 }
 
 }  // namespace

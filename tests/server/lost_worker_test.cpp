@@ -11,13 +11,11 @@
 #include "server/daemon_process.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
-#include "server/watch_contract.h"
 
 namespace cellcrush::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using Clock = std::chrono::steady_clock;
 
 class LostWorkerTest : public DaemonFixture {
@@ -36,8 +34,7 @@ class LostWorkerTest : public DaemonFixture {
     pid_t worker;
   };
   static Unheeded cancel_in_vain(Client& client) {
-    const std::string job = client.create(endless_case());
-    wait_for_samples(client, job, 5);
+    const std::string job = create_with_samples(client, endless_case(), 5);
     const pid_t worker = client.worker_of(job);
     EXPECT_EQ(kill(worker, SIGSTOP), 0);
     EXPECT_TRUE(client.cancel(job).ok());
@@ -47,16 +44,17 @@ class LostWorkerTest : public DaemonFixture {
   // Sends the signal to each worker that the job gets, until it is given up.
   static v1::Job kill_until_it_fails(Client& client, const std::string& job, int signal) {
     pid_t last = 0;
-    v1::Job now = client.get(job);
-    for (int i = 0; i < 3000 && now.state() != v1::Job::FAILED; ++i) {
-      if (now.state() == v1::Job::RUNNING && now.worker_pid() > 0 && now.worker_pid() != last) {
-        last = static_cast<pid_t>(now.worker_pid());
-        kill(last, signal);
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      now = client.get(job);
-    }
-    EXPECT_EQ(now.state(), v1::Job::FAILED);
+    v1::Job now;
+    EXPECT_TRUE(wait_until(
+        [&] {
+          now = client.get(job);
+          if (now.state() == v1::Job::RUNNING && now.worker_pid() > 0 && now.worker_pid() != last) {
+            last = static_cast<pid_t>(now.worker_pid());
+            kill(last, signal);
+          }
+          return now.state() == v1::Job::FAILED;
+        },
+        std::chrono::seconds(30)));
     EXPECT_EQ(now.cause(), v1::Job::WORKER_CRASHED);
     return now;
   }
@@ -69,23 +67,18 @@ class LostWorkerTest : public DaemonFixture {
     return testing::numbers_of(client, data_folder(), job);
   }
 
-  // That a watch from the beginning has every event once and in order.
-  static void expect_sound_events(Client& client, const std::string& job) {
-    WatchContract contract;
-    const auto watched = client.watch(job, 0, false, [&](const v1::JobEvent& event) { contract.see(event); });
-    EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
-    contract.end(watched.status);
-    EXPECT_THAT(contract.broken(), IsEmpty());
+  // A run that nothing disturbs; its numbers.
+  JobNumbers undisturbed(Client& client) {
+    const std::string whole = client.create(case_of_seconds());
+    EXPECT_TRUE(client.watch(whole).status.ok());
+    return numbers_of(client, whole);
   }
 };
 
 TEST_F(LostWorkerTest, ASuspendedJobHoldsStillOverARestartAndHasTheSameBitsWhenItIsResumed) {
   auto client = this->client();
-  const std::string whole = client.create(case_of_seconds());
-  ASSERT_TRUE(client.watch(whole).status.ok());
-
-  const std::string job = client.create(case_of_seconds());
-  wait_for_samples(client, job, 20);
+  const auto whole = undisturbed(client);
+  const std::string job = create_with_samples(client, case_of_seconds(), 20);
   const pid_t worker = client.worker_of(job);
   ASSERT_TRUE(client.suspend(job).ok());
   EXPECT_EQ(client.get(job).state(), v1::Job::SUSPENDED);
@@ -98,19 +91,16 @@ TEST_F(LostWorkerTest, ASuspendedJobHoldsStillOverARestartAndHasTheSameBitsWhenI
   EXPECT_EQ(next.get(job).state(), v1::Job::SUSPENDED);
   EXPECT_EQ(next.history(job).size(), samples);
   ASSERT_TRUE(next.resume(job).ok());
-  ASSERT_TRUE(next.watch(job).status.ok());
-  EXPECT_EQ(next.get(job).state(), v1::Job::SUCCEEDED) << next.get(job).cause_message();
+  expect_success(next, job);
   EXPECT_EQ(next.get(job).attempt(), 2);
-  EXPECT_TRUE(numbers_of(next, job) == numbers_of(next, whole));
-  expect_sound_events(next, job);
+  EXPECT_TRUE(numbers_of(next, job) == whole);
+  EXPECT_TRUE(watch_soundly(next, job).ok());
   EXPECT_EQ(next.suspend(job).error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_EQ(next.resume(job).error_code(), grpc::StatusCode::FAILED_PRECONDITION);
 }
 
 TEST_F(LostWorkerTest, AWaitingJobIsSuspendedAtOnceAndCanBeResumedOrCancelled) {
-  auto options = often_checkpointed();
-  options.workers = 1;
-  start(options);
+  start(with_workers(1));
   auto client = this->client();
   const std::string first = client.create(endless_case());
   const std::string second = client.create(small_case());
@@ -126,8 +116,7 @@ TEST_F(LostWorkerTest, AWaitingJobIsSuspendedAtOnceAndCanBeResumedOrCancelled) {
   EXPECT_EQ(client.get(second).state(), v1::Job::SUSPENDED);
   ASSERT_TRUE(client.resume(second).ok());
   ASSERT_TRUE(client.resume(second).ok()) << "Twice is once.";
-  ASSERT_TRUE(client.watch(second).status.ok());
-  EXPECT_EQ(client.get(second).state(), v1::Job::SUCCEEDED);
+  expect_success(client, second);
 }
 
 TEST_F(LostWorkerTest, ACancelThatItsWorkerNeverHeedsKeepsWhatWasComputed) {
@@ -142,7 +131,7 @@ TEST_F(LostWorkerTest, ACancelThatItsWorkerNeverHeedsKeepsWhatWasComputed) {
   ASSERT_GE(samples.size(), 5U);
   EXPECT_EQ(client.get(job).summary().step_count(), samples.back().step());
   EXPECT_EQ(numbers_of(client, job).history.size(), samples.size());
-  expect_sound_events(client, job);
+  EXPECT_TRUE(watch_soundly(client, job).ok());
 }
 
 TEST_F(LostWorkerTest, ACancelThatTheDaemonsEndCutsOffIsEndedByTheNextOneWithItsResult) {
@@ -154,25 +143,22 @@ TEST_F(LostWorkerTest, ACancelThatTheDaemonsEndCutsOffIsEndedByTheNextOneWithIts
   auto next = this->client();
   ASSERT_TRUE(next.wait_for_state(job, v1::Job::CANCELLED)) << v1::Job::State_Name(next.get(job).state());
   EXPECT_TRUE(next.get(job).has_summary()) << next.get(job).cause_message();
-  expect_sound_events(next, job);
+  EXPECT_TRUE(watch_soundly(next, job).ok());
 }
 
 TEST_F(LostWorkerTest, ADaemonsEndLeavesRunningJobsAtACheckpointAndTheNextOneGoesOn) {
   auto client = this->client();
-  const std::string whole = client.create(case_of_seconds());
-  ASSERT_TRUE(client.watch(whole).status.ok());
-  const std::string job = client.create(case_of_seconds());
-  wait_for_samples(client, job, 20);
+  const auto whole = undisturbed(client);
+  const std::string job = create_with_samples(client, case_of_seconds(), 20);
   const pid_t worker = client.worker_of(job);
   daemon_->stop();
   EXPECT_FALSE(is_alive(worker));
   EXPECT_TRUE(std::filesystem::exists(file_of(job, "checkpoint")));
   start(often_checkpointed());
   auto next = this->client();
-  ASSERT_TRUE(next.watch(job).status.ok());
-  EXPECT_EQ(next.get(job).state(), v1::Job::SUCCEEDED) << next.get(job).cause_message();
-  EXPECT_TRUE(numbers_of(next, job) == numbers_of(next, whole));
-  expect_sound_events(next, job);
+  expect_success(next, job);
+  EXPECT_TRUE(numbers_of(next, job) == whole);
+  EXPECT_TRUE(watch_soundly(next, job).ok());
 }
 
 TEST_F(LostWorkerTest, AWorkerThatStandsStillIsShownAndReplaced) {
@@ -180,8 +166,7 @@ TEST_F(LostWorkerTest, AWorkerThatStandsStillIsShownAndReplaced) {
   options.stall_limit = std::chrono::milliseconds(1500);
   start(options);
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  wait_for_samples(client, job, 5);
+  const std::string job = create_with_samples(client, endless_case(), 5);
   const pid_t worker = client.worker_of(job);
   const auto start = Clock::now();
   ASSERT_EQ(kill(worker, SIGSTOP), 0);
@@ -216,8 +201,7 @@ TEST_F(LostWorkerTest, AJobWhoseWorkersAreKilledAgainAndAgainAtTheSamePlaceFails
     EXPECT_EQ(failed.worker_pid(), 0);
   }
   const std::string next = client.create(small_case());
-  ASSERT_TRUE(client.watch(next).status.ok());
-  EXPECT_EQ(client.get(next).state(), v1::Job::SUCCEEDED) << "The daemon goes on.";
+  expect_success(client, next);
 }
 
 TEST_F(LostWorkerTest, WhatKilledWorkersReportedIsKeptAsAResultUpToTheLastSample) {
@@ -225,16 +209,12 @@ TEST_F(LostWorkerTest, WhatKilledWorkersReportedIsKeptAsAResultUpToTheLastSample
   options.checkpoint_interval = std::chrono::minutes(1);
   start(options);
   auto client = this->client();
-  const std::string whole = client.create(case_of_seconds());
-  ASSERT_TRUE(client.watch(whole).status.ok());
-
+  const auto full = undisturbed(client);
   // Each worker is killed as soon as it gets to where the first one was: none gets further.
-  const std::string job = client.create(case_of_seconds());
-  wait_for_samples(client, job, 60);
+  const std::string job = create_with_samples(client, case_of_seconds(), 60);
   const auto failed = kill_until_it_fails(client, job, SIGKILL);
   ASSERT_TRUE(failed.has_summary());
   const auto kept = numbers_of(client, job);
-  const auto full = numbers_of(client, whole);
   ASSERT_GE(kept.history.size(), 60U);
   ASSERT_LT(kept.history.size(), full.history.size());
   EXPECT_EQ(kept.history.size(), client.history(job).size());

@@ -96,8 +96,7 @@ TEST_F(PagesTest, AHistoryOfSeventyThousandSamplesComesInPages) {
   write_history(kCount);
   start();
   auto client = this->client();
-  v1::GetHistoryRequest request;
-  request.set_name("jobs/1");
+  auto request = named<v1::GetHistoryRequest>("jobs/1");
   v1::GetHistoryResponse page;
   std::size_t bytes = 0;
   int pages = 0;
@@ -122,8 +121,7 @@ TEST_F(PagesTest, AHistorysPageIsAsLongAsAskedForAndItsTokenIsOfOneJob) {
   write_history(5);
   start();
   auto client = this->client();
-  v1::GetHistoryRequest request;
-  request.set_name("jobs/1");
+  auto request = named<v1::GetHistoryRequest>("jobs/1");
   request.set_page_size(2);
   v1::GetHistoryResponse page;
   const auto steps = [&] {
@@ -141,8 +139,7 @@ TEST_F(PagesTest, AHistorysPageIsAsLongAsAskedForAndItsTokenIsOfOneJob) {
   EXPECT_THAT(page.next_page_token(), IsEmpty());
   const auto refused = [&](const std::string& words) {
     const auto status = client.jobs->GetHistory(bounded_context().get(), request, &page);
-    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-    EXPECT_THAT(status.error_message(), HasSubstr(words));
+    EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, words));
   };
   request.set_page_size(-1);
   refused("page_size is negative.");
@@ -157,15 +154,13 @@ TEST_F(PagesTest, TheTableOfTheLargestSweepComesInPagesThatMergeIntoOne) {
   write_sweep(kCount);
   start();
   auto client = this->client();
-  v1::GetSweepTableRequest request;
-  request.set_name("sweeps/1");
+  auto request = named<v1::GetSweepTableRequest>("sweeps/1");
   v1::SweepTable all;
   int pages = 0;
   do {
     request.set_page_token(all.next_page_token());
-    v1::SweepTable page;
-    const auto status = client.sweeps->GetSweepTable(bounded_context().get(), request, &page);
-    ASSERT_TRUE(status.ok()) << status.error_message();
+    const auto page = answer_of(*client.sweeps, &v1::Sweeps::Stub::GetSweepTable, request);
+    ASSERT_GT(page.rows_size(), 0);
     EXPECT_LT(page.ByteSizeLong(), kClientsLimit);
     ++pages;
     all.clear_next_page_token();
@@ -185,21 +180,16 @@ TEST_F(PagesTest, TheTableOfTheLargestSweepComesInPagesThatMergeIntoOne) {
 TEST_F(PagesTest, ACaseOrASweepThatCouldNotBeToldOfIsRefused) {
   start();
   auto client = this->client();
-  v1::CreateJobRequest create;
-  *create.mutable_case_() = small_case();
+  auto create = job_of(small_case());
   create.mutable_case_()->set_title(std::string(4'000'001, 'x'));
-  v1::Job job;
-  auto status = client.jobs->CreateJob(bounded_context().get(), create, &job);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("bytes. Use at most 4000000."));
+  auto status = client.try_to(create);
+  EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, "bytes. Use at most 4000000."));
   v1::CreateSweepRequest request;
   *request.mutable_sweep()->mutable_case_() = small_case();
   (*request.mutable_sweep()->add_points()->mutable_fields())[kSpeed] = 50.0;
   (*request.mutable_sweep()->mutable_labels())["a"] = std::string(4'000'000, 'x');
-  v1::Sweep sweep;
-  status = client.sweeps->CreateSweep(bounded_context().get(), request, &sweep);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("sweep has 4000"));
+  status = client.try_to(request);
+  EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, "sweep has 4000"));
 }
 
 }  // namespace

@@ -148,8 +148,7 @@ TYPED_TEST(ReflectionTest, StreamsBeyondTheCallersLimitAreRefusedByName) {
   ASSERT_TRUE(first->Write(request) && first->Read(&response));
   ASSERT_TRUE(second->Write(request) && second->Read(&response));
   const auto third = open(*contexts[2])->Finish();
-  EXPECT_EQ(third.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(third.error_message(), HasSubstr("--max-streams-per-caller"));
+  EXPECT_THAT(third, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "--max-streams-per-caller"));
   first->WritesDone();
   ASSERT_TRUE(first->Finish().ok());
   // Its place is free once the server has let it go, a moment after the client has its status.

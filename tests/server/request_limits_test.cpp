@@ -1,7 +1,13 @@
+// Requests that are too large, or no messages.
 #include <gmock/gmock.h>
+#include <google/protobuf/descriptor.h>
+#include <grpcpp/generic/generic_stub.h>
 
+#include "cellcrush/v1/admin_service.pb.h"
+#include "google/rpc/status.pb.h"
 #include "server/daemon_fixture.h"
 #include "server/small_case.h"
+#include "server/sweep_requests.h"
 #include "translate/check_case.h"
 
 namespace cellcrush::testing {
@@ -21,33 +27,24 @@ class RequestLimitsTest : public DaemonFixture {
 TEST_F(RequestLimitsTest, TooLongTextsAreRefusedByTheirField) {
   const Client daemon = client();
   const std::string long_text(1'000'000, 'a');
-  v1::GetJobRequest get;
-  get.set_name("jobs/" + long_text);
-  v1::Job job;
-  expect_refusal(daemon.jobs->GetJob(bounded_context().get(), get, &job), "name has 1000005 bytes. Use at most 128.");
-  v1::GetSweepRequest get_sweep;
-  get_sweep.set_name(long_text);
-  v1::Sweep sweep;
-  expect_refusal(daemon.sweeps->GetSweep(bounded_context().get(), get_sweep, &sweep), "name has 1000000 bytes");
-  v1::GetPresetRequest get_preset;
-  get_preset.set_name(long_text);
-  v1::Preset preset;
-  expect_refusal(daemon.cases->GetPreset(bounded_context().get(), get_preset, &preset), "name has 1000000 bytes");
+  expect_refusal(try_call(*daemon.jobs, &v1::Jobs::Stub::GetJob, named<v1::GetJobRequest>("jobs/" + long_text)),
+                 "name has 1000005 bytes. Use at most 128.");
+  expect_refusal(try_call(*daemon.sweeps, &v1::Sweeps::Stub::GetSweep, named<v1::GetSweepRequest>(long_text)),
+                 "name has 1000000 bytes");
+  expect_refusal(try_call(*daemon.cases, &v1::Cases::Stub::GetPreset, named<v1::GetPresetRequest>(long_text)),
+                 "name has 1000000 bytes");
   for (const char* field : {"filter", "order_by", "page_token"}) {
     v1::ListJobsRequest list;
     list.GetReflection()->SetString(&list, list.GetDescriptor()->FindFieldByName(field), long_text);
-    v1::ListJobsResponse listed;
-    expect_refusal(daemon.jobs->ListJobs(bounded_context().get(), list, &listed), field + std::string(" has 1000000"));
+    expect_refusal(daemon.try_to(list), field + std::string(" has 1000000"));
   }
-  v1::CreateJobRequest create;
-  *create.mutable_case_() = small_case();
+  auto create = job_of(small_case());
   create.set_request_id(long_text);
-  expect_refusal(daemon.jobs->CreateJob(bounded_context().get(), create, &job), "request_id");
+  expect_refusal(daemon.try_to(create), "request_id");
   create.clear_request_id();
   (*create.mutable_labels())[long_text] = "value";
-  expect_refusal(daemon.jobs->CreateJob(bounded_context().get(), create, &job), "labels");
-  v1::WatchSweepRequest watch;
-  watch.set_name("sweeps/1");
+  expect_refusal(daemon.try_to(create), "labels");
+  auto watch = named<v1::WatchSweepRequest>("sweeps/1");
   watch.set_resume_token(long_text + long_text + long_text + long_text);
   const auto context = bounded_context();
   const auto stream = daemon.sweeps->WatchSweep(context.get(), watch);
@@ -65,13 +62,8 @@ TEST_F(RequestLimitsTest, ASweepOverManyFieldsIsRefused) {
     axis.set_field("field" + std::to_string(i));
     axis.mutable_list()->add_values(1.0);
   }
-  v1::Sweep sweep;
-  expect_refusal(daemon.sweeps->CreateSweep(bounded_context().get(), request, &sweep), "vary 33 fields");
-  request.mutable_sweep()->clear_axes();
-  auto& axis = *request.mutable_sweep()->add_axes();
-  axis.set_field(std::string(100'000, 'a'));
-  axis.mutable_list()->add_values(1.0);
-  expect_refusal(daemon.sweeps->CreateSweep(bounded_context().get(), request, &sweep), "field of 100000 bytes");
+  expect_refusal(daemon.try_to(request), "vary 33 fields");
+  expect_refusal(daemon.try_to(sweep_of(small_case(), std::string(100'000, 'a'), {1.0})), "field of 100000 bytes");
 }
 
 // Two bytes of a message make an entry with several problems: nothing may grow with them.
@@ -98,6 +90,67 @@ TEST(CaseLimits, OfVeryManyProblemsTheRestIsCounted) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
   ASSERT_EQ(response.problems_size(), 1001);
   EXPECT_THAT(response.problems(1000).message(), HasSubstr("more problems."));
+}
+
+class ParseErrorTest : public DaemonFixture {
+ protected:
+  /// How a unary or server-streaming call ends whose message is these bytes.
+  [[nodiscard]] grpc::Status send(const std::string& path, const std::string& bytes) const {
+    grpc::GenericStub stub(client().channel);
+    grpc::CompletionQueue queue;
+    const auto context = bounded_context(std::chrono::seconds(20));
+    const auto call = stub.PrepareCall(context.get(), path, &queue);
+    const auto wait = [&queue] {
+      void* tag = nullptr;
+      bool ok = false;
+      return queue.Next(&tag, &ok) && ok;
+    };
+    call->StartCall(nullptr);
+    wait();
+    const grpc::Slice slice(bytes);
+    call->WriteLast(grpc::ByteBuffer(&slice, 1), grpc::WriteOptions(), nullptr);
+    wait();
+    grpc::ByteBuffer answer;
+    do call->Read(&answer, nullptr);
+    while (wait());
+    grpc::Status status;
+    call->Finish(&status, nullptr);
+    wait();
+    return status;
+  }
+};
+
+TEST_F(ParseErrorTest, EveryMethodNamesItsMessageWhenTheBytesAreNone) {
+  int methods = 0;
+  for (const auto* file : {v1::CheckCaseRequest::descriptor()->file(), v1::GetJobRequest::descriptor()->file(),
+                           v1::GetSweepRequest::descriptor()->file(), v1::DrainRequest::descriptor()->file()}) {
+    const auto& service = *file->service(0);
+    for (int i = 0; i < service.method_count(); ++i, ++methods) {
+      const auto& method = *service.method(i);
+      const auto status = send("/" + service.full_name() + "/" + method.name(), "\xff");
+      EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << method.full_name();
+      EXPECT_THAT(status.error_message(),
+                  HasSubstr(method.full_name() + " is not a " + method.input_type()->full_name()));
+      google::rpc::Status details;
+      EXPECT_TRUE(details.ParseFromString(status.error_details()));
+      EXPECT_EQ(details.code(), grpc::StatusCode::INVALID_ARGUMENT) << method.full_name();
+    }
+  }
+  EXPECT_GT(methods, 20);
+}
+
+TEST_F(ParseErrorTest, ATextThatIsNotUtf8IsRefusedInUnaryStreamingAndWatchCalls) {
+  for (const char* method : {"GetJob", "DownloadResult", "WatchJob"}) {
+    const auto status = send(std::string("/cellcrush.v1.Jobs/") + method, "\x0a\x01\xff");
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << method;
+    EXPECT_THAT(status.error_message(), HasSubstr("every string as UTF-8"));
+  }
+}
+
+TEST_F(ParseErrorTest, OtherErrorsStayAsTheyAre) {
+  EXPECT_EQ(send("/cellcrush.v1.Jobs/GetJob", "\x0a\x06jobs/9").error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(send("/cellcrush.v1.Jobs/WatchJob", "\x0a\x06jobs/9").error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(send("/cellcrush.v1.Jobs/Unknown", "\xff").error_code(), grpc::StatusCode::UNIMPLEMENTED);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "log_format.h"
 #include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
 #include "server/log_capture.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
@@ -32,43 +33,28 @@ class RetentionTest : public DaemonFixture {
     return options;
   }
 
-  std::string run(Client& client) {
-    const std::string job = client.create(tiny_case());
-    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
-    return job;
-  }
-
   std::vector<std::string> names() {
     v1::ListJobsRequest request;
     request.set_order_by("name");
-    v1::ListJobsResponse response;
-    const auto client = this->client();
-    EXPECT_TRUE(client.jobs->ListJobs(bounded_context().get(), request, &response).ok());
     std::vector<std::string> out;
-    for (const auto& job : response.jobs()) out.push_back(job.name());
+    for (const auto& job : client().list(request)) out.push_back(job.name());
     return out;
   }
 
-  // Waits until so many jobs are left, at most 10 s.
+  // Waits until so many jobs are left.
   std::vector<std::string> names_once(std::size_t count) {
-    for (int i = 0; i < 200 && names().size() != count; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    wait_until([&] { return names().size() == count; });
     return names();
   }
 
   v1::Sweep make_sweep(Client& client) { return create(client, sweep_of(tiny_case(), kSpeed, {50.0, 100.0})); }
 
   static grpc::Status delete_sweep(Client& client, const std::string& name) {
-    v1::DeleteSweepRequest request;
-    request.set_name(name);
-    v1::DeleteSweepResponse response;
-    return client.sweeps->DeleteSweep(bounded_context().get(), request, &response);
+    return try_call(*client.sweeps, &v1::Sweeps::Stub::DeleteSweep, named<v1::DeleteSweepRequest>(name));
   }
 
   static grpc::StatusCode look_up(Client& client, const std::string& sweep) {
-    v1::GetSweepRequest request;
-    request.set_name(sweep);
-    v1::Sweep out;
-    return client.sweeps->GetSweep(bounded_context().get(), request, &out).error_code();
+    return try_call(*client.sweeps, &v1::Sweeps::Stub::GetSweep, named<v1::GetSweepRequest>(sweep)).error_code();
   }
 
   [[nodiscard]] std::size_t folder_count() const {
@@ -89,11 +75,10 @@ TEST_F(RetentionTest, AWallClockThatJumpsDeletesNothingAndTheServiceClockDoes) {
   options.clocks.uptime = [this] { return Clocks::read(CLOCK_BOOTTIME) + uptime_ahead_.load(); };
   start(options);
   auto client = this->client();
-  const std::string job = run(client);
+  const std::string job = finished_job(tiny_case());
   wall_ahead_ = kMonth;
-  for (int i = 0; i < 200 && log.count_lines("The wall clock was set forward by 26784") == 0; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  EXPECT_EQ(log.count_lines("The wall clock was set forward by 26784"), 1) << log.text();
+  EXPECT_TRUE(wait_until([&] { return log.count_lines("The wall clock was set forward by 26784") == 1; }))
+      << log.text();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   EXPECT_THAT(names(), ElementsAre(job));
   uptime_ahead_ = kMonth;
@@ -132,9 +117,7 @@ TEST_F(ManyEndedTest, AllThatExceedsTheCountIsDeletedInOneRoundOfHousekeeping) {
 TEST_F(ManyEndedTest, AllAreMeasuredInOneRoundOfHousekeeping) {
   start(slow_options());
   store::JournalReader reader(data_folder() / "journal.sqlite");
-  for (int i = 0; i < 200 && !reader.jobs_to_measure(1).empty(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_TRUE(reader.jobs_to_measure(1).empty());
+  EXPECT_TRUE(wait_until([&reader] { return reader.jobs_to_measure(1).empty(); }));
 }
 
 TEST_F(RetentionTest, TimeWithoutADaemonMakesNothingOld) {
@@ -145,7 +128,7 @@ TEST_F(RetentionTest, TimeWithoutADaemonMakesNothingOld) {
   std::string job;
   {
     auto client = this->client();
-    job = run(client);
+    job = finished_job(tiny_case());
   }
   daemon_.reset();
   uptime_ahead_ = kMonth;
@@ -163,7 +146,7 @@ TEST_F(RetentionTest, OfTooManyThoseThatEndedFirstGoAndASweepGoesWhole) {
     ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 2));
     // The clock that tells which ended first has seconds.
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-    alone = run(client);
+    alone = finished_job(tiny_case());
   }
   auto options = quick_options();
   options.keep.count = 2;
@@ -208,7 +191,7 @@ TEST_F(RetentionTest, ResultsBeyondTheSizeGo) {
   options.keep.bytes = 1'000'000'000;
   start(options);
   auto next = this->client();
-  const std::string kept = run(next);
+  const std::string kept = finished_job(tiny_case());
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   EXPECT_THAT(names(), ElementsAre(kept));
 }
@@ -221,12 +204,8 @@ TEST_F(RetentionTest, ASweepIsDeletedWithItsJobsOnceTheyHaveEnded) {
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::RUNNING, 2));
   const std::string alone = client.create(tiny_case());
   const auto refused = delete_sweep(client, sweep.name());
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_THAT(refused.error_message(), HasSubstr(sweep.jobs(0) + " is RUNNING"));
-  v1::CancelSweepRequest cancel;
-  cancel.set_name(sweep.name());
-  v1::Sweep cancelled;
-  ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::FAILED_PRECONDITION, sweep.jobs(0) + " is RUNNING"));
+  cancel_sweep(client, sweep.name());
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::CANCELLED, 3));
   ASSERT_TRUE(client.wait_for_state(alone, v1::Job::SUCCEEDED));
   const auto deleted = delete_sweep(client, sweep.name());

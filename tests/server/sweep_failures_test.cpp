@@ -20,8 +20,7 @@ class SweepFailuresTest : public DaemonFixture {
 
   // One worker, run by that program.
   void start_with(const std::filesystem::path& program) {
-    auto options = default_options();
-    options.workers = 1;
+    auto options = with_workers(1);
     options.worker_program = program;
     start(options);
   }
@@ -30,19 +29,6 @@ class SweepFailuresTest : public DaemonFixture {
     // All take equally long, so that they start in their order.
     auto out = sweep_of(small_case(), "plates.friction", {0.0, 0.1, 0.2, 0.3, 0.4, 0.5});
     out.mutable_sweep()->set_max_failures(max_failures);
-    return out;
-  }
-
-  static grpc::Status retry(Client& client, const std::string& sweep, v1::Sweep& out) {
-    v1::RetryFailedJobsRequest request;
-    request.set_name(sweep);
-    return client.sweeps->RetryFailedJobs(bounded_context().get(), request, &out);
-  }
-
-  static v1::Sweep retry(Client& client, const std::string& sweep) {
-    v1::Sweep out;
-    const auto status = retry(client, sweep, out);
-    EXPECT_TRUE(status.ok()) << status.error_message();
     return out;
   }
 
@@ -57,14 +43,6 @@ class SweepFailuresTest : public DaemonFixture {
     }
     FAIL() << job << " is tried again and again.";
   }
-
-  static v1::SweepTable table_of(Client& client, const std::string& sweep) {
-    v1::GetSweepTableRequest request;
-    request.set_name(sweep);
-    v1::SweepTable out;
-    EXPECT_TRUE(client.sweeps->GetSweepTable(bounded_context().get(), request, &out).ok());
-    return out;
-  }
 };
 
 TEST_F(SweepFailuresTest, AfterMaxFailuresTheJobsThatWaitAreCancelledAndSayWhy) {
@@ -75,6 +53,8 @@ TEST_F(SweepFailuresTest, AfterMaxFailuresTheJobsThatWaitAreCancelledAndSayWhy) 
   EXPECT_TRUE(watch_sweep(client, sweep.name()).status.ok()) << "A watch ends with the jobs that were not started.";
   const auto after = get_sweep(client, sweep.name());
   EXPECT_EQ(count_in(after, v1::Job::FAILED), 2);
+  EXPECT_EQ(client.get(sweep.jobs(0)).cause(), v1::Job::WORKER_CRASHED);
+  EXPECT_THAT(client.get(sweep.jobs(0)).cause_message(), HasSubstr("exited with code 1"));
   EXPECT_EQ(count_in(after, v1::Job::CANCELLED), 4);
   const auto stopped = client.get(sweep.jobs(5));
   EXPECT_EQ(stopped.state(), v1::Job::CANCELLED);
@@ -89,8 +69,7 @@ TEST_F(SweepFailuresTest, WithoutMaxFailuresEveryJobIsTriedAndOtherJobsAreNotTou
   const auto unlimited = create(client, six_points(0));
   ASSERT_TRUE(wait_for_count(client, unlimited.name(), v1::Job::FAILED, 6));
   const auto limited = create(client, six_points(1));
-  const std::string other = client.create(small_case());
-  EXPECT_TRUE(client.wait_for_state(other, v1::Job::FAILED)) << "It is no job of the sweep that stopped.";
+  const std::string other = client.create(small_case(), v1::Job::FAILED);
   EXPECT_EQ(count_in(get_sweep(client, limited.name()), v1::Job::CANCELLED), 5);
 }
 
@@ -192,9 +171,10 @@ TEST_F(SweepFailuresTest, AWatchFromBeforeTheRetryEndsWithTheOldJobs) {
 
 TEST_F(SweepFailuresTest, RetryingWhatIsNoSweepIsNotFound) {
   auto client = this->client();
-  v1::Sweep out;
-  EXPECT_EQ(retry(client, "sweeps/9", out).error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_EQ(retry(client, "jobs/1", out).error_code(), grpc::StatusCode::NOT_FOUND);
+  for (const char* name : {"sweeps/9", "jobs/1"})
+    EXPECT_EQ(try_call(*client.sweeps, &v1::Sweeps::Stub::RetryFailedJobs, named<v1::RetryFailedJobsRequest>(name))
+                  .error_code(),
+              grpc::StatusCode::NOT_FOUND);
 }
 
 }  // namespace

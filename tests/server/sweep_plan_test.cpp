@@ -1,15 +1,193 @@
+// From axes and points to the jobs of a sweep.
 #include "jobs/sweep_plan.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "error.h"
+#include "jobs/case_field.h"
+#include "jobs/sweep_points.h"
 #include "server/small_case.h"
 
 namespace cellcrush::jobs {
 namespace {
+
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Values = std::vector<std::vector<double>>;
+
+std::string refusal_of(const std::string& path, double value) {
+  v1::Case target = testing::small_case();
+  try {
+    set_case_field(target, path, value);
+  } catch (const InvalidField& refused) {
+    EXPECT_EQ(refused.field(), path);
+    return refused.what();
+  }
+  return "";
+}
+
+TEST(CaseField, NumbersOfAllKindsAndPartsOfListsAreSet) {
+  v1::Case target = testing::small_case();
+  set_case_field(target, "loading.speed_m_per_s", 12.5);
+  set_case_field(target, "lattice.hexagon.rows", 7.0);
+  set_case_field(target, "lattice.imperfection.seed", 9007199254740992.0);
+  EXPECT_EQ(target.loading().speed_m_per_s(), 12.5);
+  EXPECT_EQ(target.lattice().hexagon().rows(), 7);
+  EXPECT_EQ(target.lattice().imperfection().seed(), 9007199254740992U);
+  for (int i = 0; i < 2; ++i) target.mutable_lattice()->mutable_frame()->add_nodes()->set_x_mm(0.0);
+  set_case_field(target, "lattice.frame.nodes[1].x_mm", 4.0);
+  EXPECT_EQ(target.lattice().frame().nodes(1).x_mm(), 4.0);
+  for (const char* path : {"lattice.frame.nodes[2].x_mm", "lattice.frame.nodes.x_mm", "lattice.frame.nodes[x].x_mm"})
+    EXPECT_THROW(set_case_field(target, path, 4.0), InvalidField) << path;
+}
+
+TEST(CaseField, WhatIsNoNumberOfTheCaseOrNotInRangeIsRefusedByName) {
+  using Field = std::pair<const char*, double>;
+  for (const auto& [field, words] :
+       {std::pair{Field("lattice.hexagon.rows", 1e10), "in range"},
+        std::pair{Field("lattice.hexagon.rows", std::numeric_limits<double>::quiet_NaN()), "not a whole"},
+        std::pair{Field("lattice.imperfection.seed", -1.0), "Use whole numbers from 0."},
+        std::pair{Field("lattice.imperfection.seed", 18446744073709551616.0), "in range"},
+        std::pair{Field("loading.sped_m_per_s", 1.0), "speed_m_per_s"},
+        std::pair{Field("lattice.square.rows", 1.0), "which has hexagon"}})
+    EXPECT_THAT(refusal_of(field.first, field.second), HasSubstr(words)) << field.first;
+  for (const char* path : {"title", "loading", "loading.direction", "loading.speed_m_per_s.x",
+                           "lattice.inclusions.rows", "lattice.frame.self_contact", "", ".", "loading.", "depth_mm[0]"})
+    EXPECT_FALSE(refusal_of(path, 1.0).empty()) << path;
+}
+
+v1::SweepAxis& add_list(v1::Sweep& sweep, const std::string& field, const std::vector<double>& values) {
+  auto& axis = *sweep.add_axes();
+  axis.set_field(field);
+  axis.mutable_list()->mutable_values()->Add(values.begin(), values.end());
+  return axis;
+}
+
+std::string refused_field(const v1::Sweep& sweep) {
+  try {
+    expand(sweep);
+  } catch (const InvalidField& refused) {
+    EXPECT_FALSE(refused.remedy().empty());
+    return refused.field();
+  }
+  return "";
+}
+
+TEST(SweepPoints, AGridHasEveryCombinationAndTheLastAxisChangesFastest) {
+  v1::Sweep sweep;
+  add_list(sweep, "a", {1.0, 2.0});
+  auto& seeds = *sweep.add_axes();
+  seeds.set_field("s");
+  seeds.set_seed_count(3);
+  const auto points = expand(sweep);
+  EXPECT_THAT(points.fields, ElementsAre("a", "s"));
+  EXPECT_EQ(points.values, (Values{{1, 1}, {1, 2}, {1, 3}, {2, 1}, {2, 2}, {2, 3}}));
+}
+
+TEST(SweepPoints, RangesMeetTheirEndsAndAreEvenlySpaced) {
+  v1::Sweep sweep;
+  auto& axis = *sweep.add_axes();
+  axis.set_field("a");
+  axis.mutable_linear()->set_first(0.1);
+  axis.mutable_linear()->set_last(0.7);
+  axis.mutable_linear()->set_count(4);
+  EXPECT_THAT(expand(sweep).values, ElementsAre(ElementsAre(0.1), ElementsAre(DoubleNear(0.3, 1e-15)),
+                                                ElementsAre(DoubleNear(0.5, 1e-15)), ElementsAre(0.7)));
+  axis.mutable_logarithmic()->set_first(1.0);
+  axis.mutable_logarithmic()->set_last(1000.0);
+  axis.mutable_logarithmic()->set_count(4);
+  EXPECT_THAT(expand(sweep).values, ElementsAre(ElementsAre(1.0), ElementsAre(DoubleNear(10.0, 1e-12)),
+                                                ElementsAre(DoubleNear(100.0, 1e-12)), ElementsAre(1000.0)));
+}
+
+TEST(SweepPoints, WholeNumbersEvenlySpacedAreWhole) {
+  v1::Sweep sweep;
+  auto& axis = *sweep.add_axes();
+  axis.set_field("lattice.hexagon.rows");
+  axis.mutable_linear()->set_first(1.0);
+  axis.mutable_linear()->set_last(1000.0);
+  axis.mutable_linear()->set_count(1000);
+  const auto points = expand(sweep);
+  for (int i = 0; i < 1000; ++i) EXPECT_THAT(points.values[i], ElementsAre(i + 1.0));
+}
+
+TEST(SweepPoints, ListedPointsKeepTheirOrder) {
+  v1::Sweep sweep;
+  for (const double value : {3.0, 1.0}) {
+    auto& fields = *sweep.add_points()->mutable_fields();
+    fields["b"] = value;
+    fields["a"] = 10.0 * value;
+  }
+  const auto points = expand(sweep);
+  EXPECT_THAT(points.fields, ElementsAre("a", "b"));
+  EXPECT_EQ(points.values, (Values{{30, 3}, {10, 1}}));
+  (*sweep.add_points()->mutable_fields())["b"] = 1.0;
+  EXPECT_EQ(refused_field(sweep), "sweep.points[2].fields");
+  add_list(sweep, "a", {1.0});
+  EXPECT_EQ(refused_field(sweep), "sweep.points");
+}
+
+TEST(SweepPoints, WhatCannotBeASweepIsRefusedByField) {
+  v1::Sweep sweep;
+  EXPECT_EQ(refused_field(sweep), "sweep.axes");
+  auto& axis = *sweep.add_axes();
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].field");
+  axis.set_field("a");
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0]");
+  axis.mutable_list();
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].list");
+  axis.mutable_linear()->set_count(1);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].linear.count");
+  axis.mutable_linear()->set_count(100'001);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].linear.count");
+  axis.mutable_linear()->set_count(2);
+  axis.mutable_linear()->set_last(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].linear");
+  axis.mutable_logarithmic()->set_count(2);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].logarithmic");
+  axis.set_seed_count(-1);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].seed_count");
+  axis.set_seed_count(1000);
+  add_list(sweep, "a", {1.0});
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[1].field");
+  sweep.mutable_axes(1)->set_field("b");
+  sweep.mutable_axes(1)->set_seed_count(101);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes") << "101000 points";
+  sweep.mutable_axes(1)->set_seed_count(100);
+  EXPECT_EQ(expand(sweep).values.size(), kMostPoints);
+}
+
+TEST(SweepPoints, AxesThatAdvanceTogetherListPointsAndCombineWithTheOthers) {
+  v1::Sweep sweep;
+  add_list(sweep, "a", {1.0, 2.0});
+  add_list(sweep, "b", {10.0, 20.0}).set_with_previous(true);
+  add_list(sweep, "c", {5.0, 6.0});
+  const auto points = expand(sweep);
+  EXPECT_THAT(points.fields, ElementsAre("a", "b", "c"));
+  EXPECT_EQ(points.values, (Values{{1, 10, 5}, {1, 10, 6}, {2, 20, 5}, {2, 20, 6}}));
+  sweep.mutable_axes(1)->mutable_list()->add_values(30.0);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[1]") << "3 values beside 2";
+  sweep.mutable_axes(0)->set_with_previous(true);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].with_previous");
+}
+
+TEST(SweepPoints, AHundredThousandExplicitPointsOfThreeFieldsFitInOneMessage) {
+  v1::Sweep sweep;
+  for (const char* field : {"loading.speed_m_per_s", "plates.friction", "lattice.hexagon.wall_thickness_mm"}) {
+    auto& axis = add_list(sweep, field, std::vector<double>(kMostPoints, 1.0 / 3.0));
+    axis.set_with_previous(sweep.axes_size() > 1);
+  }
+  EXPECT_EQ(expand(sweep).values.size(), kMostPoints);
+  constexpr std::size_t kLongestName = 17;
+  EXPECT_LT(sweep.ByteSizeLong() + kMostPoints * kLongestName, 4'190'000U);
+}
 
 bool is_never_cancelled() { return false; }
 

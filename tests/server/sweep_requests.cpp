@@ -1,6 +1,6 @@
 #include "server/sweep_requests.h"
 
-#include <thread>
+#include "server/daemon_process.h"
 
 namespace cellcrush::testing {
 
@@ -15,19 +15,23 @@ v1::CreateSweepRequest sweep_of(const v1::Case& submitted, const std::string& fi
 }
 
 v1::Sweep create(Client& client, const v1::CreateSweepRequest& request) {
-  v1::Sweep out;
-  const auto status = client.sweeps->CreateSweep(bounded_context().get(), request, &out);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return out;
+  return answer_of(*client.sweeps, &v1::Sweeps::Stub::CreateSweep, request);
 }
 
 v1::Sweep get_sweep(Client& client, const std::string& name) {
-  v1::GetSweepRequest request;
-  request.set_name(name);
-  v1::Sweep out;
-  const auto status = client.sweeps->GetSweep(bounded_context().get(), request, &out);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return out;
+  return answer_of(*client.sweeps, &v1::Sweeps::Stub::GetSweep, named<v1::GetSweepRequest>(name));
+}
+
+v1::Sweep cancel_sweep(Client& client, const std::string& name) {
+  return answer_of(*client.sweeps, &v1::Sweeps::Stub::CancelSweep, named<v1::CancelSweepRequest>(name));
+}
+
+v1::Sweep retry(Client& client, const std::string& name) {
+  return answer_of(*client.sweeps, &v1::Sweeps::Stub::RetryFailedJobs, named<v1::RetryFailedJobsRequest>(name));
+}
+
+v1::SweepTable table_of(Client& client, const std::string& name) {
+  return answer_of(*client.sweeps, &v1::Sweeps::Stub::GetSweepTable, named<v1::GetSweepTableRequest>(name));
 }
 
 int count_in(const v1::Sweep& sweep, v1::Job::State state) {
@@ -36,16 +40,11 @@ int count_in(const v1::Sweep& sweep, v1::Job::State state) {
 }
 
 bool wait_for_count(Client& client, const std::string& name, v1::Job::State state, int count) {
-  for (int i = 0; i < 1200; ++i) {
-    if (count_in(get_sweep(client, name), state) == count) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  return false;
+  return wait_until([&] { return count_in(get_sweep(client, name), state) == count; }, std::chrono::seconds(60));
 }
 
 WatchedSweep watch_sweep(Client& client, const std::string& name, const std::string& token, int tokens) {
-  v1::WatchSweepRequest request;
-  request.set_name(name);
+  auto request = named<v1::WatchSweepRequest>(name);
   request.set_resume_token(token);
   const auto context = bounded_context();
   const auto reader = client.sweeps->WatchSweep(context.get(), request);

@@ -19,6 +19,11 @@ v1::Sweep create(Client& client, const v1::CreateSweepRequest& request);
 /// The sweep as it is now.
 v1::Sweep get_sweep(Client& client, const std::string& name);
 
+/// These fail the test when they are refused.
+v1::Sweep cancel_sweep(Client& client, const std::string& name);
+v1::Sweep retry(Client& client, const std::string& name);
+v1::SweepTable table_of(Client& client, const std::string& name);
+
 /// How many of its jobs are in that state.
 int count_in(const v1::Sweep& sweep, v1::Job::State state);
 

@@ -1,9 +1,11 @@
+// Sweeps: their points, their jobs and what their tables tell.
 #include <gmock/gmock.h>
 
-#include <chrono>
-#include <iostream>
+#include <cmath>
 
+#include "error.h"
 #include "google/rpc/status.pb.h"
+#include "jobs/convergence.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 
@@ -15,18 +17,7 @@ using ::testing::HasSubstr;
 
 class SweepsServiceTest : public DaemonFixture {
  protected:
-  grpc::Status refusal(const v1::CreateSweepRequest& request) {
-    v1::Sweep sweep;
-    return client().sweeps->CreateSweep(bounded_context().get(), request, &sweep);
-  }
-
-  int job_count() {
-    v1::ListJobsRequest request;
-    request.set_page_size(1000);
-    v1::ListJobsResponse response;
-    EXPECT_TRUE(client().jobs->ListJobs(bounded_context().get(), request, &response).ok());
-    return response.jobs_size();
-  }
+  std::size_t job_count() { return client().list().size(); }
 
   static v1::ProblemList problems_of(const grpc::Status& status) {
     google::rpc::Status details;
@@ -45,10 +36,7 @@ TEST_F(SweepsServiceTest, ThreeSpeedsGiveATableOfThreeResults) {
   EXPECT_EQ(sweep.name(), "sweeps/1");
   EXPECT_THAT(sweep.jobs(), ElementsAre("jobs/1", "jobs/2", "jobs/3"));
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 3));
-  v1::GetSweepTableRequest asked;
-  asked.set_name(sweep.name());
-  v1::SweepTable table;
-  ASSERT_TRUE(client.sweeps->GetSweepTable(bounded_context().get(), asked, &table).ok());
+  const auto table = table_of(client, sweep.name());
   EXPECT_THAT(table.fields(), ElementsAre(kSpeed));
   ASSERT_EQ(table.rows_size(), 3);
   double plateau = 0.0;
@@ -72,9 +60,8 @@ TEST_F(SweepsServiceTest, ABadPointLeavesNoJobAndIsNamed) {
   auto& rows = *request.mutable_sweep()->add_axes();
   rows.set_field("lattice.hexagon.rows");
   for (const double value : {5.0, 2.5, 0.0}) rows.mutable_list()->add_values(value);
-  const auto status = refusal(request);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("The sweep has 3 problems"));
+  const auto status = client().try_to(request);
+  EXPECT_THAT(status, Fails(grpc::StatusCode::INVALID_ARGUMENT, "The sweep has 3 problems"));
   const auto list = problems_of(status);
   ASSERT_EQ(list.problems_size(), 3);
   EXPECT_EQ(list.problems(0).field(), "lattice.hexagon.rows");
@@ -84,10 +71,8 @@ TEST_F(SweepsServiceTest, ABadPointLeavesNoJobAndIsNamed) {
   EXPECT_EQ(list.problems(1).field(), "lattice.hexagon.rows");
   EXPECT_EQ(list.problems(2).field(), "loading.speed_m_per_s");
   EXPECT_THAT(list.problems(2).message(), HasSubstr("to point 4 of 9"));
-  EXPECT_EQ(job_count(), 0);
-  v1::ListSweepsResponse sweeps;
-  ASSERT_TRUE(client().sweeps->ListSweeps(bounded_context().get(), {}, &sweeps).ok());
-  EXPECT_EQ(sweeps.sweeps_size(), 0);
+  EXPECT_EQ(job_count(), 0U);
+  EXPECT_EQ(answer_of(*client().sweeps, &v1::Sweeps::Stub::ListSweeps, {}).sweeps_size(), 0);
 }
 
 TEST_F(SweepsServiceTest, ImplausibleValuesOfTheCaseAreNotedOnce) {
@@ -112,12 +97,12 @@ TEST_F(SweepsServiceTest, ImplausibleValuesOfSomePointsAreNotedWithTheFirst) {
   EXPECT_THAT(sweep.notes(0).message(),
               HasSubstr("This applies to point 2 of 4 (material.density_kg_per_m3 = 2.7) and to 2 more."));
   EXPECT_THAT(sweep.notes(0).remedy(), HasSubstr("2700 kg/m^3"));
-  EXPECT_EQ(job_count(), 0);
+  EXPECT_EQ(job_count(), 0U);
 }
 
 TEST_F(SweepsServiceTest, WhatIsNoSweepIsRefusedByField) {
   const auto expect = [this](const v1::CreateSweepRequest& request, const std::string& text) {
-    const auto status = refusal(request);
+    const auto status = client().try_to(request);
     EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << text;
     EXPECT_THAT(status.error_message(), HasSubstr(text));
   };
@@ -145,7 +130,7 @@ TEST_F(SweepsServiceTest, ValidateOnlyQueuesNothing) {
   auto request = sweep_of(small_case(), kSpeed, {50.0, 100.0});
   request.set_validate_only(true);
   EXPECT_TRUE(create(client, request).name().empty());
-  EXPECT_EQ(job_count(), 0);
+  EXPECT_EQ(job_count(), 0U);
 }
 
 TEST_F(SweepsServiceTest, ARequestIdMakesOneSweep) {
@@ -154,53 +139,20 @@ TEST_F(SweepsServiceTest, ARequestIdMakesOneSweep) {
   request.set_request_id("the same");
   const auto first = create(client, request);
   EXPECT_EQ(create(client, request).name(), first.name());
-  EXPECT_EQ(job_count(), 2);
+  EXPECT_EQ(job_count(), 2U);
   request.mutable_sweep()->mutable_axes(0)->mutable_list()->add_values(150.0);
-  EXPECT_EQ(refusal(request).error_code(), grpc::StatusCode::ALREADY_EXISTS);
-  EXPECT_EQ(job_count(), 2);
-}
-
-TEST_F(SweepsServiceTest, AThousandPointsAreQueuedTogetherAndCancelledTogether) {
-  auto client = this->client();
-  auto request = sweep_of(endless_case(), kSpeed, {1.0});
-  request.mutable_sweep()->clear_axes();
-  auto& seeds = *request.mutable_sweep()->add_axes();
-  seeds.set_field("lattice.imperfection.seed");
-  seeds.set_seed_count(1000);
-  *request.mutable_sweep()->mutable_case_() = small_case();
-  request.mutable_sweep()->mutable_case_()->mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.1);
-  const auto start = std::chrono::steady_clock::now();
-  const auto sweep = create(client, request);
-  const auto made = std::chrono::steady_clock::now();
-  EXPECT_EQ(sweep.jobs_size(), 1000);
-  v1::CancelSweepRequest cancel;
-  cancel.set_name(sweep.name());
-  v1::Sweep cancelled;
-  ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
-  const auto ended = std::chrono::steady_clock::now();
-  std::cout << "1000 points: made in " << std::chrono::duration<double>(made - start).count() << " s, cancelled in "
-            << std::chrono::duration<double>(ended - made).count() << " s\n";
-  EXPECT_EQ(count_in(cancelled, v1::Job::PENDING), 0);
-  EXPECT_GT(count_in(cancelled, v1::Job::CANCELLED), 500);
-  const auto watched = watch_sweep(client, sweep.name());
-  EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
-  const auto after = get_sweep(client, sweep.name());
-  EXPECT_EQ(count_in(after, v1::Job::CANCELLED) + count_in(after, v1::Job::SUCCEEDED), 1000);
-  EXPECT_EQ(client.get(sweep.jobs(999)).case_().lattice().imperfection().seed(), 1000U);
+  EXPECT_EQ(client.try_to(request).error_code(), grpc::StatusCode::ALREADY_EXISTS);
+  EXPECT_EQ(job_count(), 2U);
 }
 
 TEST_F(SweepsServiceTest, CancellingStopsRunningJobsAndKeepsWhatHasEnded) {
   auto client = this->client();
   const auto sweep = create(client, sweep_of(endless_case(), kSpeed, {1.0, 1.5, 2.0}));
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::RUNNING, 2));
-  v1::CancelSweepRequest cancel;
-  cancel.set_name(sweep.name());
-  v1::Sweep out;
-  ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &out).ok());
+  const auto out = cancel_sweep(client, sweep.name());
   EXPECT_EQ(count_in(out, v1::Job::RUNNING) + count_in(out, v1::Job::PENDING), 0);
   ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::CANCELLED, 3));
-  EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &out).ok()) << "Again changes nothing.";
-  EXPECT_EQ(count_in(out, v1::Job::CANCELLED), 3);
+  EXPECT_EQ(count_in(cancel_sweep(client, sweep.name()), v1::Job::CANCELLED), 3) << "Again changes nothing.";
 }
 
 TEST_F(SweepsServiceTest, ASweepKeepsToItsShareOfTheWorkers) {
@@ -208,8 +160,7 @@ TEST_F(SweepsServiceTest, ASweepKeepsToItsShareOfTheWorkers) {
   auto request = sweep_of(endless_case(), kSpeed, {1.0, 1.5, 2.0});
   request.mutable_sweep()->set_max_parallel(1);
   const auto sweep = create(client, request);
-  const std::string other = client.create(small_case());
-  EXPECT_TRUE(client.wait_for_state(other, v1::Job::SUCCEEDED)) << "The second worker is free for others.";
+  const std::string other = client.create(small_case(), v1::Job::SUCCEEDED);
   const auto now = get_sweep(client, sweep.name());
   EXPECT_EQ(count_in(now, v1::Job::RUNNING), 1);
   EXPECT_EQ(count_in(now, v1::Job::PENDING), 2);
@@ -223,47 +174,104 @@ TEST_F(SweepsServiceTest, SweepsAreListedInPagesAndUnknownOnesAreNotFound) {
   for (int i = 0; i < 3; ++i) create(client, sweep_of(small_case(), kSpeed, {300.0}));
   v1::ListSweepsRequest request;
   request.set_page_size(2);
-  v1::ListSweepsResponse response;
-  ASSERT_TRUE(client.sweeps->ListSweeps(bounded_context().get(), request, &response).ok());
+  const auto response = answer_of(*client.sweeps, &v1::Sweeps::Stub::ListSweeps, request);
   ASSERT_EQ(response.sweeps_size(), 2);
   EXPECT_EQ(response.sweeps(0).name(), "sweeps/3");
   EXPECT_EQ(response.sweeps(0).jobs(0), "jobs/3");
   create(client, sweep_of(small_case(), kSpeed, {300.0}));
   request.set_page_token(response.next_page_token());
-  v1::ListSweepsResponse rest;
-  ASSERT_TRUE(client.sweeps->ListSweeps(bounded_context().get(), request, &rest).ok());
+  const auto rest = answer_of(*client.sweeps, &v1::Sweeps::Stub::ListSweeps, request);
   ASSERT_EQ(rest.sweeps_size(), 1);
   EXPECT_EQ(rest.sweeps(0).name(), "sweeps/1");
   EXPECT_TRUE(rest.next_page_token().empty());
-  v1::GetSweepRequest unknown;
-  unknown.set_name("sweeps/9");
-  v1::Sweep sweep;
-  EXPECT_EQ(client.sweeps->GetSweep(bounded_context().get(), unknown, &sweep).error_code(),
+  EXPECT_EQ(try_call(*client.sweeps, &v1::Sweeps::Stub::GetSweep, named<v1::GetSweepRequest>("sweeps/9")).error_code(),
             grpc::StatusCode::NOT_FOUND);
   EXPECT_EQ(watch_sweep(client, "jobs/1").status.error_code(), grpc::StatusCode::NOT_FOUND);
 }
 
-TEST_F(SweepsServiceTest, AHalfDoneSweepIsFinishedByTheNextDaemon) {
-  auto options = default_options();
-  options.workers = 1;
-  start(options);
-  std::string name;
-  {
-    auto client = this->client();
-    auto request = sweep_of(small_case(), kSpeed, {});
-    for (int i = 0; i < 8; ++i) request.mutable_sweep()->mutable_axes(0)->mutable_list()->add_values(50.0 + i);
-    request.mutable_sweep()->set_max_parallel(1);
-    name = create(client, request).name();
-    ASSERT_TRUE(client.wait_for_state("jobs/2", v1::Job::SUCCEEDED));
+constexpr const char* kMesh = "elements_per_wall";
+constexpr const char* kSeed = "lattice.imperfection.seed";
+
+v1::CreateSweepRequest sweep_over_meshes(const std::vector<double>& meshes, int seeds) {
+  auto request = sweep_of(small_case(), kMesh, meshes);
+  auto& sweep = *request.mutable_sweep();
+  sweep.mutable_case_()->mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.01);
+  auto& axis = *sweep.add_axes();
+  axis.set_field(kSeed);
+  axis.set_seed_count(seeds);
+  return request;
+}
+
+v1::SweepTable::Row row_of(int elements, int seed, v1::Job::State state, double plateau) {
+  v1::SweepTable::Row row;
+  row.add_values(elements);
+  row.add_values(seed);
+  row.mutable_result()->set_state(state);
+  auto& summary = *row.mutable_result()->mutable_summary();
+  summary.set_plateau_stress_impact_mpa(plateau);
+  summary.set_plateau_stress_support_mpa(2.0 * plateau);
+  summary.set_absorbed_energy_mj(plateau);
+  return row;
+}
+
+TEST(SweepConvergence, LeavesOutJobsThatHaveNotSucceededAndPicksTheCoarsestMesh) {
+  const auto sweep = sweep_over_meshes({2.0, 4.0, 8.0}, 2).sweep();
+  const std::vector<v1::SweepTable::Row> rows = {
+      row_of(2, 1, v1::Job::SUCCEEDED, 0.90), row_of(2, 2, v1::Job::SUCCEEDED, 0.9002),
+      row_of(4, 1, v1::Job::SUCCEEDED, 0.98), row_of(4, 2, v1::Job::SUCCEEDED, 0.9802),
+      row_of(8, 1, v1::Job::SUCCEEDED, 1.00), row_of(8, 2, v1::Job::SUCCEEDED, 1.0002),
+      row_of(8, 3, v1::Job::FAILED, 5.0),     row_of(8, 4, v1::Job::RUNNING, 5.0)};
+  const auto found = jobs::convergence_of(sweep, rows, 0.05);
+  EXPECT_EQ(found.elements_per_wall(), 4);
+  EXPECT_EQ(found.job_count_left_out(), 2);
+  ASSERT_EQ(found.quantities_size(), 3) << "no run densified";
+  const auto& support = found.quantities(1);
+  EXPECT_EQ(support.field(), "plateau_stress_support_mpa");
+  ASSERT_EQ(support.meshes_size(), 3);
+  EXPECT_NEAR(support.meshes(0).error_relative(), 0.1, 1e-3);
+  EXPECT_NEAR(support.meshes(1).mean(), 1.9602, 1e-9);
+  EXPECT_EQ(support.meshes(2).job_count(), 2);
+  EXPECT_FALSE(jobs::convergence_of(sweep, rows, 0.001).has_elements_per_wall());
+}
+
+TEST(SweepConvergence, OfASweepOverAnythingElseIsRefused) {
+  for (const auto& request : {sweep_of(small_case(), kSpeed, {50.0, 100.0}), [] {
+                                auto both = sweep_over_meshes({2.0, 4.0}, 2);
+                                both.mutable_sweep()->mutable_axes(1)->set_field("depth_mm");
+                                return both;
+                              }()}) {
+    EXPECT_THROW(jobs::convergence_of(request.sweep(), {}, 0.05), ServiceError);
   }
-  daemon_->stop();
-  start(options);
+}
+
+class ConvergenceServiceTest : public DaemonFixture {};
+
+TEST_F(ConvergenceServiceTest, IsThatOfTheTableAndItsCostIsToldBefore) {
   auto client = this->client();
-  EXPECT_TRUE(watch_sweep(client, name).status.ok());
-  const auto sweep = get_sweep(client, name);
-  EXPECT_EQ(sweep.jobs_size(), 8);
-  EXPECT_LE(count_in(sweep, v1::Job::FAILED), 1) << "Only the job that ran may be lost.";
-  EXPECT_EQ(count_in(sweep, v1::Job::SUCCEEDED) + count_in(sweep, v1::Job::FAILED), 8);
+  auto request = sweep_over_meshes({1.0, 2.0}, 2);
+  request.set_validate_only(true);
+  const double predicted = create(client, request).predicted_seconds();
+  EXPECT_GT(predicted, 0.0);
+  request.set_validate_only(false);
+  const auto sweep = create(client, request);
+  EXPECT_EQ(sweep.predicted_seconds(), predicted);
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 4));
+  auto asked = named<v1::GetConvergenceRequest>(sweep.name());
+  const auto found = answer_of(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked);
+  EXPECT_EQ(found.wanted_error_relative(), 0.05);
+  ASSERT_GE(found.quantities_size(), 3);
+  const auto& coarse = found.quantities(0).meshes(0);
+  const double first = client.get(sweep.jobs(0)).summary().plateau_stress_impact_mpa();
+  const double second = client.get(sweep.jobs(1)).summary().plateau_stress_impact_mpa();
+  EXPECT_NEAR(coarse.mean(), 0.5 * (first + second), 1e-9);
+  EXPECT_NEAR(coarse.scatter_relative() * coarse.mean(), std::abs(first - second) / std::sqrt(2.0), 1e-9);
+  asked.set_wanted_error_relative(-0.1);
+  const auto refused = try_call(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked);
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::INVALID_ARGUMENT, "wanted_error_relative"));
+  asked.set_name("sweeps/99");
+  asked.set_wanted_error_relative(0.1);
+  EXPECT_EQ(try_call(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked).error_code(),
+            grpc::StatusCode::NOT_FOUND);
 }
 
 }  // namespace

@@ -65,26 +65,6 @@ TEST_F(TextbookJobs, SectionLawAndCyclesHold) {
   scenes::expect_shakedown(run(scenes::cycled_bar(1.0, 0.004, 10)), 10);
 }
 
-TEST_F(TextbookJobs, LimitLoadsHold) {
-  scenes::expect_limit_load(run(scenes::pushed_cantilever(8.0, 12)), &WatchedNode::uy, 1.0);
-  scenes::expect_limit_load(run(scenes::pushed_clamped_beam(3.0, 12)), &WatchedNode::uy, 8.0);
-  scenes::expect_limit_load(run(scenes::pushed_portal(8.0, 12)), &WatchedNode::ux, 4.0);
-}
-
-TEST_F(TextbookJobs, MotionsOfStruckSpinningAndLoadedBeamsHold) {
-  scenes::expect_parkes(run(scenes::StruckCantilever::spec(20, 4.0 * scenes::StruckCantilever::duration())));
-  scenes::expect_steady_stretch(run(scenes::SpinningBar::spec(8, 60.0)), 8);
-  const scenes::StepLoadedCantilever cantilever;
-  scenes::expect_dynamic_factor(run(cantilever.spec(16, cantilever.first_period(), 0)), cantilever);
-}
-
-TEST_F(TextbookJobs, LeesFrameSnapsThrough) { scenes::expect_lee_limit(run(scenes::lee_frame(60.0))); }
-
-TEST_F(TextbookJobs, EulersColumnRestsAtItsAngles) {
-  for (const auto& [ratio, degrees] : scenes::kColumnAngles)
-    scenes::expect_end_angle(run(scenes::buckled_column(ratio)), degrees);
-}
-
 TEST_F(TextbookJobs, WatchedNodesStandInTheResultBesideTheHistory) {
   const std::vector<Sample> samples = run(scenes::cycled_bar(0.0, 0.004, 2));
   expect_column("/nodes/1/ux_mm", samples, [](const Sample& sample) { return sample.watched.front().ux; });

@@ -25,15 +25,6 @@ using Kind = jobs::WorkerExit::Kind;
 using std::chrono::milliseconds;
 namespace fs = std::filesystem;
 
-worker::Order order_of(const v1::Case& submitted) {
-  worker::Order out;
-  out.set_job("jobs/1");
-  *out.mutable_case_() = submitted;
-  out.set_threads(1);
-  out.set_checkpoint_interval_s(0.5);
-  return out;
-}
-
 slurm::Ended left(slurm::Ended::Reason reason) {
   slurm::Ended out;
   out.set_kind(slurm::Ended::LEFT);

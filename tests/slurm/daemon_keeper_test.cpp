@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
-#include <thread>
 
 #include "e2e/process.h"
 #include "server/daemon_process.h"
@@ -21,48 +19,33 @@ constexpr std::chrono::seconds kKeeperLimit{20};
 // A keeper of a daemon that has left a process in a session of its own, as slurmd does.
 class DaemonKeeper : public ::testing::Test {
  protected:
-  [[nodiscard]] std::vector<std::string> command(const std::string& daemon) const {
-    return {DAEMON_KEEPER_PROGRAM, (folder_.path() / "log").string(), "/bin/sh", "-c", daemon};
+  [[nodiscard]] std::vector<std::string> command() const {
+    return {DAEMON_KEEPER_PROGRAM, (folder_.path() / "log").string(), "/bin/sh", "-c",
+            "(setsid sleep 1000 &); exec cat /dev/zero >/dev/null"};
   }
 
   // The sleep that has become a child of the keeper.
   static pid_t find_left_behind(pid_t keeper) {
-    for (int i = 0; i < 500; ++i) {
+    pid_t out = 0;
+    wait_until([&] {
       for (const pid_t child : children_of(keeper)) {
-        if (program_of(child) == "sleep") return child;
+        if (program_of(child) == "sleep") out = child;
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return 0;
+      return out != 0;
+    });
+    return out;
   }
 
   TemporaryFolder folder_;
 };
 
-const std::string kLeavesOneAndRuns = "(setsid sleep 1000 &); exec cat /dev/zero >/dev/null";
-
-TEST_F(DaemonKeeper, EndsWithTheLastProcess) {
-  e2e::Process keeper(command("(setsid sleep 0.5 &)"));
-  const e2e::Outcome outcome = keeper.wait(kKeeperLimit);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
-  EXPECT_GE(outcome.seconds, 0.5);
-}
-
-TEST_F(DaemonKeeper, KillsWhatADaemonHasLeftBehindOnSigterm) {
-  e2e::Process keeper(command(kLeavesOneAndRuns));
-  const pid_t left_behind = find_left_behind(keeper.id());
-  ASSERT_NE(left_behind, 0);
-  keeper.send(SIGTERM);
-  EXPECT_EQ(keeper.wait(kKeeperLimit).exit_code, 0);
-  EXPECT_FALSE(is_alive(left_behind));
-}
-
-TEST_F(DaemonKeeper, KillsItAlsoWhenItsParentIsKilled) {
+// Its parent's death sends it the SIGTERM that stop_daemon sends.
+TEST_F(DaemonKeeper, KillsWhatADaemonHasLeftBehindWhenItsParentIsKilled) {
   int pipe_ends[2];
   ASSERT_EQ(pipe(pipe_ends), 0);
   const pid_t parent = fork();
   if (parent == 0) {
-    const e2e::Process keeper(command(kLeavesOneAndRuns));
+    const e2e::Process keeper(command());
     const pid_t found[2] = {keeper.id(), find_left_behind(keeper.id())};
     if (write(pipe_ends[1], found, sizeof(found)) != sizeof(found)) _exit(1);
     pause();

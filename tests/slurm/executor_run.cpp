@@ -2,6 +2,15 @@
 
 namespace cellcrush::testing {
 
+worker::Order order_of(const v1::Case& submitted) {
+  worker::Order out;
+  out.set_job("jobs/1");
+  *out.mutable_case_() = submitted;
+  out.set_threads(1);
+  out.set_checkpoint_interval_s(0.5);
+  return out;
+}
+
 ExecutorRun::ExecutorRun(jobs::Executor& executor, const store::JobFolder& folder, const worker::Order& order) {
   const auto change = [this](const auto& what) {
     {

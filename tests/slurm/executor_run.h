@@ -8,9 +8,13 @@
 #include <thread>
 #include <vector>
 
+#include "cellcrush/v1/case.pb.h"
 #include "jobs/executor.h"
 
 namespace cellcrush::testing {
+
+/// An order to compute the case with one thread.
+worker::Order order_of(const v1::Case& submitted);
 
 /// One run of a job by an executor, on a thread of its own, as the daemon makes it.
 class ExecutorRun {

@@ -6,7 +6,6 @@
 
 #include <csignal>
 #include <stdexcept>
-#include <thread>
 
 namespace cellcrush::testing {
 
@@ -40,14 +39,5 @@ ReservedPort::ReservedPort() : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXE
 }
 
 ReservedPort::~ReservedPort() { close(socket_); }
-
-bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds limit) {
-  const auto end = std::chrono::steady_clock::now() + limit;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() >= end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  return true;
-}
 
 }  // namespace cellcrush::testing

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,8 +34,5 @@ class ReservedPort {
   int socket_ = -1;
   int number_ = 0;
 };
-
-/// Looks every 100 ms; false when the condition does not hold within this time.
-bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds limit);
 
 }  // namespace cellcrush::testing

@@ -1,5 +1,8 @@
-// Commands of Slurm that give no answer, or a wrong one.
+// What is asked of the commands of Slurm, and those that give no answer or a wrong one.
+#include <unistd.h>
+
 #include <fstream>
+#include <set>
 
 #include "slurm/slurm_fixture.h"
 
@@ -68,13 +71,80 @@ TEST_F(SlurmAnswerTest, WhatSacctSaysOfASilentTaskCounts) {
   EXPECT_THAT(line, HasSubstr("--jobs=1 "));
 }
 
-class SlurmAccountingAnswerTest : public SlurmFixture {};
+// Each task takes jobs until it is predicted to run for the length of a task.
+TEST_F(SlurmAnswerTest, JobsThatComeTogetherShareAnArrayAndShortOnesATask) {
+  start_executor();
+  std::vector<std::unique_ptr<ExecutorRun>> jobs;
+  std::set<std::string> places;
+  for (int i = 1; i <= 4; ++i) jobs.push_back(run(endless_case(), i));
+  for (const auto& job : jobs) {
+    const std::string place = job->wait_for_place("Slurm job");
+    places.insert(place.substr(0, place.find(',')));
+  }
+  for (const auto& job : jobs) job->cancel();
+  for (const auto& job : jobs) EXPECT_EQ(job->wait().kind, Kind::cancelled);
+  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader", "--states=PENDING"}, "", std::chrono::seconds(20)))
+      << "Two of them waited in Slurm.";
+  EXPECT_THAT(*places.begin(), HasSubstr("_"));
+  EXPECT_EQ(places.size(), 4U);
+
+  auto options = quick_options();
+  options.task_length = std::chrono::seconds(3600);
+  start_executor(options);
+  jobs.clear();
+  places.clear();
+  for (int i = 1; i <= 4; ++i) jobs.push_back(run(tiny_case(), 10 + i));
+  for (const auto& job : jobs) places.insert(job->wait_for_place("Slurm job").substr(0, 11));
+  for (const auto& job : jobs) EXPECT_TRUE(job->wait().final.has_value());
+  EXPECT_EQ(places.size(), 1U);
+  EXPECT_EQ(attempt_count(), 0U);
+}
+
+class SlurmAccountingTest : public SlurmFixture {
+ protected:
+  void SetUp() override {
+    if (!slurm_accounting_is_installed()) GTEST_SKIP() << kSlurmAccountingIsMissing;
+  }
+
+  // Submits a job that runs the shell command; returns its number.
+  std::string submit(std::vector<std::string> options, const std::string& command) {
+    options.insert(options.begin(), {"sbatch", "--parsable", "-o", "/dev/null"});
+    options.insert(options.end(), {"--wrap", command});
+    const e2e::Outcome outcome = cluster_->run(options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+    return outcome.output.substr(0, outcome.output.find('\n'));
+  }
+
+  // Whether `sacct` shows these lines of a job in time.
+  bool wait_for_record(const std::string& job, const std::string& lines) {
+    return cluster_->wait_for({"sacct", "--noheader", "--parsable2", "--allocations", "--jobs=" + job,
+                               "--format=JobID,State,NodeList,JobName"},
+                              lines, std::chrono::seconds(60));
+  }
+};
+
+// What parse_sacct_line (slurm_parts_test) reads is what sacct writes.
+TEST_F(SlurmAccountingTest, EndedCancelledAndPendingJobsAreRecorded) {
+  start_cluster({.accounting = true});
+  const std::string user = std::to_string(geteuid());
+  const std::string endless = submit({"-J", "endless", "-w", "n1"}, "sleep 1000");
+  const std::string ended = submit({"-J", "ended", "-w", "n2"}, "true");
+  const std::string array = submit({"-J", "array", "-w", "n2", "--array=1-2"}, "exit $SLURM_ARRAY_TASK_ID");
+  const std::string pending = submit({"-J", "pending", "-w", "n1", "--array=1-5%2"}, "true");
+  EXPECT_TRUE(wait_for_record(endless, endless + "|RUNNING|n1|endless")) << cluster_->logs();
+  EXPECT_TRUE(wait_for_record(ended, ended + "|COMPLETED|n2|ended")) << cluster_->logs();
+  EXPECT_TRUE(wait_for_record(array, array + "_1|FAILED|n2|array\n" + array + "_2|FAILED|n2|array"));
+  EXPECT_TRUE(wait_for_record(pending, pending + "_[1-5%2]|PENDING|None assigned|pending"));
+  EXPECT_EQ(cluster_->run({"scancel", pending, endless}).exit_code, 0);
+  const std::string cancelled = "|CANCELLED by " + user + "|";
+  EXPECT_TRUE(wait_for_record(endless, endless + cancelled + "n1|endless")) << cluster_->logs();
+  EXPECT_TRUE(wait_for_record(pending, pending + "_[1-5%2]" + cancelled + "None assigned|pending"));
+}
+
+class SlurmAccountingAnswerTest : public SlurmAccountingTest {};
 
 TEST_F(SlurmAccountingAnswerTest, ARealSacctTellsOfATaskThatSqueueHides) {
-  if (!slurm_accounting_is_installed()) GTEST_SKIP() << kSlurmAccountingIsMissing;
-  SlurmOptions accounting;
-  accounting.accounting = true;
-  start_cluster(accounting);
+  start_cluster({.accounting = true});
   auto options = quick_options();
   options.commands = replace_command("squeue", "exit 0");
   options.times.lease = std::chrono::minutes(10);
@@ -97,16 +167,6 @@ TEST_F(SlurmAnswerTest, ASilentTaskOfWhichNobodyKnowsIsGivenUpAfterItsLease) {
   EXPECT_GT(std::chrono::steady_clock::now() - begin, milliseconds(12'000));
   EXPECT_EQ(exit.kind, Kind::displaced);
   EXPECT_THAT(exit.detail, HasSubstr("no sign of life for 16 s"));
-}
-
-TEST_F(SlurmAnswerTest, AJobThatSqueueNeverShowsRunsToItsEnd) {
-  auto options = quick_options();
-  options.commands = replace_command("squeue", "exit 0");
-  options.times.squeue = milliseconds(200);
-  start_executor(options);
-  const auto job = run(slow_case());
-  EXPECT_EQ(job->wait().kind, Kind::exited);
-  EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
 }
 
 // Each line is hidden at random, of jobs that run and of jobs that wait for long.

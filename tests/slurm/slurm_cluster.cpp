@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "server/daemon_process.h"
 #include "slurm/process_tree.h"
 
 namespace cellcrush::testing {
@@ -23,6 +24,10 @@ constexpr seconds kStopLimit{20};
 const std::string kMunged = "/usr/sbin/munged";
 const std::string kSlurmctld = "/usr/sbin/slurmctld";
 const std::string kSlurmd = "/usr/sbin/slurmd";
+const std::string kSlurmdbd = "/usr/sbin/slurmdbd";
+const std::string kMariadbd = "/usr/sbin/mariadbd";
+// The tables that MariaDB itself needs; slurmdbd creates its own.
+const std::string kMariadbTables = "/usr/share/mysql/mysql_system_tables.sql";
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -55,18 +60,15 @@ SlurmCluster::SlurmCluster(const SlurmOptions& options) : config_(folder_.path()
   ports.controller = reserve_port();
   for (int& port : ports.nodes) port = reserve_port();
   const fs::path munge_socket = folder_.path() / "munge/socket";
-  if (options.accounting) {
-    accounting_ = std::make_unique<SlurmAccounting>(folder_.path(), munge_socket);
-    ports.accounting = accounting_->port();
-  }
+  if (options.accounting) ports.accounting = reserve_port();
   std::ofstream(config_) << slurm_conf_text(options, ports, folder_.path(), munge_socket);
   start_munge();
-  if (accounting_) start_accounting();
+  if (options.accounting) start_accounting(ports.accounting, munge_socket);
   start_controller();
   nodes_.resize(kNodes);
   for (int node = 1; node <= kNodes; ++node) start_node(node);
   for (int node = 1; node <= kNodes; ++node) {
-    if (!wait_for_node(node, "idle", kStartLimit))
+    if (!wait_until([&] { return node_state(node) == "idle"; }, kStartLimit))
       throw std::runtime_error(node_name(node) + " is " + node_state(node) + ", not idle:\n" + logs());
   }
 }
@@ -75,7 +77,8 @@ SlurmCluster::~SlurmCluster() {
   for (KeptDaemon& node : nodes_) stop_daemon(node);
   for (KeptDaemon& node : lost_) stop_daemon(node);
   stop_daemon(controller_);
-  accounting_.reset();
+  stop_daemon(slurmdbd_);
+  stop_daemon(database_);
   stop_daemon(munge_);
 }
 
@@ -105,9 +108,33 @@ void SlurmCluster::start_munge() {
     throw std::runtime_error("munged does not start:\n" + logs());
 }
 
-void SlurmCluster::start_accounting() {
+// slurmdbd on a port of loopback, and a MariaDB server without a port. The server asks for no password, as only the
+// calling user can reach its socket. slurmdbd answers about 1 s after its start.
+void SlurmCluster::start_accounting(int port, const fs::path& munge_socket) {
+  const fs::path folder = folder_.path() / "database";
+  const fs::path data = folder / "data";
+  const fs::path socket = folder / "socket";
+  fs::create_directories(data);
+  fs::permissions(folder, fs::perms::owner_all);
+  // The server runs these statements when it starts, line by line.
+  std::ifstream tables(kMariadbTables);
+  std::ofstream(folder / "start.sql") << "create database mysql;\nuse mysql;\n" << tables.rdbuf();
+  const std::string prefix = folder.string() + "/";
+  database_ = start(
+      "mariadbd", {kMariadbd, "--no-defaults", "--user=" + user_name(), "--datadir=" + data.string(),
+                   "--socket=" + socket.string(), "--pid-file=" + prefix + "pid", "--init-file=" + prefix + "start.sql",
+                   "--skip-networking", "--skip-grant-tables", "--innodb-buffer-pool-size=64M",
+                   "--innodb-log-file-size=8M", "--innodb-flush-log-at-trx-commit=0"});
+  bool registered = wait_until([&] { return fs::exists(socket); }, kStartLimit);
+  const fs::path configuration = folder_.path() / "slurmdbd.conf";
+  std::ofstream(configuration) << slurmdbd_conf_text(port, folder_.path(), munge_socket);
+  // slurmdbd refuses a file that others can read.
+  fs::permissions(configuration, fs::perms::owner_read | fs::perms::owner_write);
+  // It finds its file beside slurm.conf, and the client of MariaDB its socket in the environment.
+  slurmdbd_ = start("slurmdbd", {"/usr/bin/env", "SLURM_CONF=" + config_.string(), "MYSQL_UNIX_PORT=" + socket.string(),
+                                 kSlurmdbd, "-D"});
   const std::vector<std::string> clusters = {"sacctmgr", "-nP", "list", "cluster", "format=Cluster"};
-  bool registered = accounting_->start(kStartLimit) && wait_for(clusters, "", kStartLimit);
+  registered = registered && wait_for(clusters, "", kStartLimit);
   if (registered) {
     (void)run({"sacctmgr", "-i", "add", "cluster", "test"}, kStartLimit);
     registered = wait_for(clusters, "test", kStartLimit);
@@ -146,10 +173,6 @@ std::vector<int> SlurmCluster::wait_for_exit_codes(const std::string& job, std::
 std::string SlurmCluster::node_state(int node) const {
   const e2e::Outcome outcome = run({"sinfo", "-h", "-p", "main", "-n", node_name(node), "-o", "%T"});
   return outcome.output.substr(0, outcome.output.find('\n'));
-}
-
-bool SlurmCluster::wait_for_node(int node, const std::string& state, std::chrono::milliseconds limit) const {
-  return wait_until([&] { return node_state(node) == state; }, limit);
 }
 
 void SlurmCluster::kill_node(int node, JobProcesses processes) {

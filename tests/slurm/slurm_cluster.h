@@ -9,7 +9,6 @@
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
 #include "slurm/kept_daemon.h"
-#include "slurm/slurm_accounting.h"
 #include "slurm/slurm_conf.h"
 
 namespace cellcrush::testing {
@@ -59,8 +58,8 @@ class SlurmCluster {
   [[nodiscard]] e2e::Outcome run(const std::vector<std::string>& command,
                                  std::chrono::milliseconds limit = std::chrono::seconds(10)) const;
 
-  /// Runs the command every 100 ms until it succeeds with this output, but for blanks at its end. False when the time
-  /// was up before.
+  /// Runs the command again and again until it succeeds with this output, but for blanks at its end. False when the
+  /// time was up before.
   [[nodiscard]] bool wait_for(const std::vector<std::string>& command, const std::string& output,
                               std::chrono::milliseconds limit) const;
 
@@ -68,15 +67,8 @@ class SlurmCluster {
   /// Quicker than `sbatch --wait`, which looks every ten seconds.
   [[nodiscard]] std::vector<int> wait_for_exit_codes(const std::string& job, std::chrono::milliseconds limit) const;
 
-  /// As `sinfo` says it, such as `idle`, `allocated`, `down*`; the asterisk is for a node that does not answer.
-  [[nodiscard]] std::string node_state(int node) const;
-  /// False when the node does not come into the state in this time.
-  [[nodiscard]] bool wait_for_node(int node, const std::string& state, std::chrono::milliseconds limit) const;
-
   /// SIGKILL for slurmd and its slurmstepd. Slurm sees it after about 10 s; the state is then `down*`.
   void kill_node(int node, JobProcesses processes = JobProcesses::die);
-  /// REQUIRES: the node was killed. Does not wait for the controller to know of it.
-  void start_node(int node);
 
   /// SIGTERM for slurmctld, which saves its state; waits for its end. Nodes and jobs run on.
   void stop_controller();
@@ -88,15 +80,19 @@ class SlurmCluster {
 
  private:
   int reserve_port();
+  void start_node(int node);
+  /// As `sinfo` says it, such as `idle`, `allocated`, `down*`; the asterisk is for a node that does not answer.
+  [[nodiscard]] std::string node_state(int node) const;
   KeptDaemon start(const std::string& name, const std::vector<std::string>& command) const;
   void start_munge();
-  void start_accounting();
+  void start_accounting(int port, const std::filesystem::path& munge_socket);
 
   TemporaryFolder folder_;
   std::filesystem::path config_;
   std::vector<std::unique_ptr<ReservedPort>> reserved_ports_;
   KeptDaemon munge_;
-  std::unique_ptr<SlurmAccounting> accounting_;
+  KeptDaemon database_;
+  KeptDaemon slurmdbd_;
   KeptDaemon controller_;
   std::vector<KeptDaemon> nodes_;
   std::vector<KeptDaemon> lost_;  // of killed nodes whose jobs survive

@@ -4,8 +4,8 @@
 #include <set>
 #include <sstream>
 
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
@@ -37,22 +37,26 @@ class SlurmDaemonTest : public DaemonFixture {
   }
 
   static std::string create_there(Client& client, const v1::Case& submitted) {
-    v1::CreateJobRequest request;
-    *request.mutable_case_() = submitted;
+    auto request = job_of(submitted);
     request.set_executor("slurm/test");
-    v1::Job job;
-    const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return job.name();
+    return client.create(request).name();
   }
 
   static std::string place_of(Client& client, const std::string& job, const std::string& words) {
     std::string place;
-    for (int i = 0; i < 300 && place.find(words) == std::string::npos; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      place = client.get(job).place();
-    }
+    wait_until(
+        [&] {
+          place = client.get(job).place();
+          return place.find(words) != std::string::npos;
+        },
+        std::chrono::seconds(30));
     return place;
+  }
+
+  static void expect_equal(const std::vector<v1::Sample>& history, const std::vector<v1::Sample>& expected) {
+    ASSERT_EQ(history.size(), expected.size());
+    for (std::size_t k = 0; k < history.size(); ++k)
+      ASSERT_EQ(history[k].SerializeAsString(), expected[k].SerializeAsString()) << "sample " << k;
   }
 
   std::unique_ptr<SlurmCluster> cluster_;
@@ -70,16 +74,15 @@ TEST_F(SlurmDaemonTest, AVelocitySweepOnTwoNodesHasTheBitsOfALocalOne) {
     const auto job = client.get(get_sweep(client, there.name()).jobs(i));
     EXPECT_EQ(job.executor(), "slurm/test");
     EXPECT_EQ(job.attempt(), 1);
-    const auto expected = client.history(get_sweep(client, here.name()).jobs(i));
-    const auto history = client.history(job.name());
-    ASSERT_EQ(history.size(), expected.size());
-    for (std::size_t k = 0; k < history.size(); ++k)
-      ASSERT_EQ(history[k].SerializeAsString(), expected[k].SerializeAsString()) << job.name() << " sample " << k;
+    expect_equal(client.history(job.name()), client.history(get_sweep(client, here.name()).jobs(i)));
   }
   std::istringstream lines(cluster_->run({"squeue", "--noheader", "--states=all", "--array", "--format=%N"}).output);
   std::set<std::string> nodes;
   for (std::string line; std::getline(lines, line);) nodes.insert(line);
   EXPECT_EQ(nodes, (std::set<std::string>{"n1", "n2"}));
+  for (const char* left : {"attempts", "batches"})
+    EXPECT_TRUE(wait_until([&] { return std::filesystem::is_empty(cluster_->shared_folder() / "cellcrush" / left); }))
+        << left;
 }
 
 TEST_F(SlurmDaemonTest, AJobIsWatchedSuspendedResumedAndCancelledAsAnyOther) {
@@ -87,16 +90,17 @@ TEST_F(SlurmDaemonTest, AJobIsWatchedSuspendedResumedAndCancelledAsAnyOther) {
   const std::string job = create_there(client, endless_case());
   EXPECT_THAT(place_of(client, job, "RUNNING on n"), HasSubstr("Slurm job "));
   wait_for_samples(client, job, 5);
-  for (int i = 0; i < 100 && client.get(job).progress().step() == 0; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  EXPECT_GT(client.get(job).progress().step(), 0);
+  EXPECT_TRUE(wait_until([&] { return client.get(job).progress().step() > 0; }));
   ASSERT_TRUE(client.suspend(job).ok());
   EXPECT_EQ(client.get(job).state(), v1::Job::SUSPENDED);
   EXPECT_EQ(client.get(job).place(), "");
   ASSERT_TRUE(client.resume(job).ok());
   ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
+  wait_for_samples(client, job, client.history(job).size() + 5);
   ASSERT_TRUE(client.cancel(job).ok());
-  ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED));
+  EXPECT_TRUE(watch_soundly(client, job).ok()) << "No sample comes twice.";
+  EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLED);
+  EXPECT_EQ(client.get(job).begun_again_sequence(), 0) << "It continued.";
   EXPECT_TRUE(client.get(job).has_summary());
 }
 
@@ -116,10 +120,13 @@ TEST_F(SlurmDaemonTest, ADaemonThatEndsLeavesItsJobsToTheNextOne) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
   start(with_cluster());
   Client client = this->client();
+  const std::string here = client.create(slow);
+  ASSERT_TRUE(client.watch(here).status.ok());
+  const auto expected = client.history(here);
   for (const auto& each : {job, waiting}) {
-    EXPECT_TRUE(client.watch(each).status.ok());
-    EXPECT_EQ(client.get(each).state(), v1::Job::SUCCEEDED) << client.get(each).cause_message();
+    expect_success(client, each);
     EXPECT_EQ(client.get(each).attempt(), 1);
+    expect_equal(client.history(each), expected);
   }
 }
 
@@ -131,21 +138,21 @@ TEST_F(SlurmDaemonTest, WhatTheAdministratorCancelsEndsWithItsReason) {
   ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED)) << client.get(job).DebugString();
   EXPECT_THAT(client.get(job).cause_message(), HasSubstr("Slurm job 1 was cancelled in Slurm"));
   EXPECT_TRUE(client.get(job).has_summary());
+  // Also what waits there.
+  ASSERT_EQ(cluster_->run({"scontrol", "update", "NodeName=n1,n2", "State=DRAIN", "Reason=test"}).exit_code, 0);
+  const std::string waiting = create_there(client, endless_case());
+  EXPECT_THAT(place_of(client, waiting, "PENDING"), HasSubstr("Slurm job 2"));
+  ASSERT_EQ(cluster_->run({"scancel", "2"}).exit_code, 0);
+  EXPECT_TRUE(client.wait_for_state(waiting, v1::Job::CANCELLED)) << client.get(waiting).DebugString();
 }
 
 TEST_F(SlurmDaemonTest, AClusterThatTakesNothingHoldsItsOwnQueueOnly) {
   Client client = this->client();
   ASSERT_EQ(cluster_->run({"scontrol", "update", "PartitionName=main", "State=DRAIN"}).exit_code, 0);
   const std::string there = create_there(client, tiny_case());
-  const std::string here = client.create(tiny_case());
-  EXPECT_TRUE(client.wait_for_state(here, v1::Job::SUCCEEDED));
-  const auto admin = v1::Admin::NewStub(client.channel);
-  v1::Queue queue;
-  for (int i = 0; i < 100 && queue.holds_size() == 0; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ASSERT_TRUE(admin->GetQueue(bounded_context().get(), {}, &queue).ok());
-  }
-  ASSERT_EQ(queue.holds_size(), 1);
+  const std::string here = client.create(tiny_case(), v1::Job::SUCCEEDED);
+  ASSERT_TRUE(wait_until([&] { return client.queue().holds_size() == 1; }));
+  const auto queue = client.queue();
   EXPECT_EQ(queue.holds(0).executor(), "slurm/test");
   EXPECT_EQ(queue.holds(0).cause(), "cluster");
   EXPECT_THAT(queue.holds(0).reason(), HasSubstr("sbatch said"));

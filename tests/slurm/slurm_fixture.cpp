@@ -58,15 +58,6 @@ store::JobFolder SlurmFixture::job_folder(int number) const {
   return out;
 }
 
-worker::Order SlurmFixture::order_of(const v1::Case& submitted) {
-  worker::Order out;
-  out.set_job("jobs/1");
-  *out.mutable_case_() = submitted;
-  out.set_threads(1);
-  out.set_checkpoint_interval_s(0.5);
-  return out;
-}
-
 std::unique_ptr<ExecutorRun> SlurmFixture::run(const v1::Case& submitted, int number) {
   return std::make_unique<ExecutorRun>(*executor_, job_folder(number), order_of(submitted));
 }

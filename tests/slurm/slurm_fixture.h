@@ -34,8 +34,6 @@ class SlurmFixture : public ::testing::Test {
   /// Exists on return.
   [[nodiscard]] store::JobFolder job_folder(int number = 1) const;
 
-  static worker::Order order_of(const v1::Case& submitted);
-
   /// Runs the job from where it was left.
   [[nodiscard]] std::unique_ptr<ExecutorRun> run(const v1::Case& submitted, int number = 1);
 

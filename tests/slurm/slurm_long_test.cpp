@@ -1,7 +1,6 @@
-// Long trials: a daemon that is killed again and again, answers that get lost, a controller that is away for minutes.
+// Long trials: a daemon that is killed again and again, a controller that is away for minutes.
 #include <algorithm>
 #include <csignal>
-#include <fstream>
 #include <random>
 
 #include "server/daemon_fixture.h"
@@ -155,38 +154,6 @@ TEST_F(SlurmLongTest, AJobThatIsLongerThanItsTaskContinuesInTheNextWithTheSameBi
   EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
   EXPECT_GT(tasks, 1);
   EXPECT_EQ(samples, local_samples(slow));
-}
-
-// Every fifth submission is accepted, and its answer is lost.
-TEST_F(SlurmLongTest, OfTwoHundredSubmissionsWithLostAnswersNoneIsLostOrComputedTwice) {
-  start_cluster();
-  auto options = quick_options();
-  options.commands =
-      replace_command("sbatch",
-                      "echo >> $HERE/calls; n=$(wc -l < $HERE/calls)\n"
-                      "if [ $((n % 5)) = 0 ]; then $REAL \"$@\" > /dev/null; exec sleep 100; fi\nexec $REAL \"$@\"");
-  options.times.command = milliseconds(1'500);
-  options.times.unanswered = milliseconds(20'000);
-  options.program = logging_program();
-  start_executor(options);
-  constexpr int kJobs = 200;
-  std::atomic<int> next = 0;
-  std::vector<std::thread> slots;
-  std::atomic<int> succeeded = 0;
-  for (int slot = 0; slot < 2; ++slot) {
-    slots.emplace_back([&] {
-      for (int job = next++; job < kJobs; job = next++) {
-        const auto exit = run(tiny_case(), job)->wait();
-        if (exit.final && exit.final->has_summary()) ++succeeded;
-      }
-    });
-  }
-  for (auto& slot : slots) slot.join();
-  std::ifstream calls(options.commands / "calls");
-  EXPECT_GE(std::count(std::istreambuf_iterator<char>(calls), {}, '\n'), kJobs / 2);
-  EXPECT_EQ(succeeded, kJobs);
-  EXPECT_EQ(count_in_log("has ended"), kJobs);
-  EXPECT_EQ(attempt_count(), 0U);
 }
 
 }  // namespace

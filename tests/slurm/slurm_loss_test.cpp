@@ -28,6 +28,24 @@ class SlurmLossTest : public SlurmFixture {
 
   static int node_in(const std::string& place) { return place.back() - '0'; }
 
+  // Runs slow_case from where it was left to its end, with the bits of an undisturbed run. Not from step 0.
+  void expect_continued() {
+    const auto job = run(slow_case());
+    const auto exit = job->wait();
+    EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
+    ASSERT_EQ(job->begun_steps().size(), 2U);
+    EXPECT_GT(job->begun_steps().back(), 0);
+    EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+  }
+
+  // Waits for the end of slow_case, which one worker computed from its first step to its last.
+  void expect_undisturbed(ExecutorRun& job) {
+    const auto exit = job.wait();
+    EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
+    EXPECT_EQ(job.begun_steps(), std::vector<std::int64_t>{0});
+    EXPECT_EQ(job.samples(), local_samples(slow_case()));
+  }
+
   // Leaves less than a block of `block_bytes` free.
   static void fill(const std::filesystem::path& folder, std::size_t block_bytes) {
     std::ofstream filler(folder / "filler", std::ios::binary);
@@ -59,18 +77,13 @@ class SmallDisk {
 TEST_F(SlurmLossTest, AJobOfALostNodeContinuesOnAnotherWithTheSameBits) {
   start_cluster();
   start_executor();
-  auto job = run(slow_case());
+  const auto job = run(slow_case());
   ASSERT_TRUE(job->wait_for_samples(80));
   cluster_->kill_node(node_in(job->wait_for_place("RUNNING on n")));
   const auto exit = job->wait();
   EXPECT_EQ(exit.kind, Kind::displaced) << exit.detail;
   EXPECT_THAT(exit.detail, AnyOf(HasSubstr("NODE_FAIL"), HasSubstr("no sign of life")));
-  job = run(slow_case());
-  const auto end = job->wait();
-  EXPECT_EQ(end.kind, Kind::exited) << end.detail;
-  EXPECT_EQ(job->begun_steps().size(), 2U);
-  EXPECT_GT(job->begun_steps().back(), 0);
-  EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+  expect_continued();
 }
 
 // Slurm says that the node failed, and the task goes on: its heartbeat counts.
@@ -89,45 +102,6 @@ TEST_F(SlurmLossTest, ATaskThatOutlivesItsNodeIsNotComputedAgain) {
   EXPECT_EQ(job->samples(), local_samples(slow));
 }
 
-TEST_F(SlurmLossTest, JobsRunOnWhileTheControllerIsAwayAndNewOnesWaitForIt) {
-  start_cluster();
-  auto options = quick_options();
-  options.times.command = milliseconds(3'000);
-  options.times.unanswered = milliseconds(1'000);
-  start_executor(options);
-  const auto job = run(slow_case(), 1);
-  ASSERT_TRUE(job->wait_for_samples(5));
-  cluster_->stop_controller();
-  auto other = run(small_case(), 2);
-  const auto refused = other->wait();
-  EXPECT_EQ(refused.kind, Kind::not_started);
-  EXPECT_EQ(refused.trouble.shortage, Shortage::cluster);
-  EXPECT_THAT(refused.trouble.reason, HasSubstr("sbatch"));
-  EXPECT_EQ(job->wait().kind, Kind::exited);
-  EXPECT_EQ(job->samples(), local_samples(slow_case()));
-  cluster_->start_controller();
-  other = run(small_case(), 2);
-  EXPECT_EQ(other->wait().kind, Kind::exited);
-}
-
-TEST_F(SlurmLossTest, AJobThatTheAdministratorCancelsIsCancelled) {
-  start_cluster();
-  start_executor();
-  auto job = run(endless_case());
-  ASSERT_TRUE(job->wait_for_samples(3));
-  const std::string number = number_in(job->wait_for_place("RUNNING"));
-  EXPECT_EQ(cluster_->run({"scancel", number}).exit_code, 0);
-  auto exit = job->wait();
-  EXPECT_EQ(exit.kind, Kind::withdrawn) << exit.detail;
-  EXPECT_THAT(exit.detail, HasSubstr("cancelled in Slurm"));
-  // Also one that waits there.
-  EXPECT_EQ(cluster_->run({"scontrol", "update", "NodeName=n1,n2", "State=DRAIN", "Reason=test"}).exit_code, 0);
-  job = run(endless_case(), 2);
-  EXPECT_EQ(cluster_->run({"scancel", number_in(job->wait_for_place("PENDING"))}).exit_code, 0);
-  exit = job->wait();
-  EXPECT_EQ(exit.kind, Kind::withdrawn) << exit.detail;
-}
-
 TEST_F(SlurmLossTest, AJobThatSlurmSuspendsStaysAndGoesOn) {
   start_cluster();
   auto options = quick_options();
@@ -143,19 +117,15 @@ TEST_F(SlurmLossTest, AJobThatSlurmSuspendsStaysAndGoesOn) {
   std::this_thread::sleep_for(seconds(20));
   EXPECT_FALSE(job->has_ended());
   ASSERT_EQ(cluster_->run({"scontrol", "resume", number}).exit_code, 0);
-  const auto exit = job->wait();
-  EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
-  EXPECT_EQ(job->samples(), local_samples(slow_case()));
+  expect_undisturbed(*job);
 }
 
 TEST_F(SlurmLossTest, APreemptedJobContinuesLater) {
-  SlurmOptions preempting;
-  preempting.preempt_mode = "CANCEL";
-  start_cluster(preempting);
+  start_cluster({.preempt_mode = "CANCEL"});
   auto options = quick_options();
   options.sbatch = {"--partition=low"};
   start_executor(options);
-  auto job = run(slow_case());
+  const auto job = run(slow_case());
   ASSERT_TRUE(job->wait_for_samples(80));
   // Both nodes are wanted for a second.
   ASSERT_EQ(
@@ -163,25 +133,20 @@ TEST_F(SlurmLossTest, APreemptedJobContinuesLater) {
       0);
   const auto exit = job->wait();
   EXPECT_THAT(exit.kind, AnyOf(Eq(Kind::displaced), Eq(Kind::stopped))) << exit.detail;
-  job = run(slow_case());
-  EXPECT_EQ(job->wait().kind, Kind::exited);
-  EXPECT_EQ(job->begun_steps().size(), 2U);
-  EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+  expect_continued();
 }
 
 TEST_F(SlurmLossTest, AKilledTaskTakesItsWorkerAlongAndTheJobContinues) {
   start_cluster();
   start_executor();
-  auto job = run(slow_case());
+  const auto job = run(slow_case());
   ASSERT_TRUE(job->wait_for_samples(80));
   const pid_t task = job->wait_for_start();
   ASSERT_EQ(kill(task, SIGKILL), 0);
   const auto exit = job->wait();
   EXPECT_EQ(exit.kind, Kind::gone) << exit.detail;
   EXPECT_THAT(exit.detail, HasSubstr("FAILED"));
-  job = run(slow_case());
-  EXPECT_EQ(job->wait().kind, Kind::exited);
-  EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+  expect_continued();
 }
 
 // The clock of the nodes is an hour ahead of the daemon's.
@@ -195,9 +160,7 @@ TEST_F(SlurmLossTest, ClocksThatDifferDoNotMatter) {
   std::filesystem::permissions(options.program, std::filesystem::perms::all);
   start_executor(options);
   const auto job = run(slow_case());
-  EXPECT_EQ(job->wait().kind, Kind::exited);
-  EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
-  EXPECT_EQ(job->samples(), local_samples(slow_case()));
+  expect_undisturbed(*job);
   // It was ahead.
   std::ifstream log(folder_.path() / "log");
   std::string day;
@@ -225,10 +188,7 @@ TEST_F(SlurmLossTest, AFullSharedFolderLosesNothing) {
     EXPECT_FALSE(job->has_ended());
     EXPECT_LT(job->samples().size(), 200U) << "The folder was not full: " << before;
     std::filesystem::remove(options.folder / "filler");
-    const auto exit = job->wait();
-    EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
-    EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
-    EXPECT_EQ(job->samples(), local_samples(slow_case()));
+    expect_undisturbed(*job);
     // A new attempt finds no room either: its queue is held until there is some.
     fill(options.folder, 1 << 12);
     const auto next = run(tiny_case(), 2);
@@ -259,13 +219,9 @@ TEST_F(SlurmLossTest, AFullDiskOfTheDaemonKeepsAResultInTheClusterUntilThereIsRo
     EXPECT_FALSE(job->has_ended());
     EXPECT_EQ(attempt_count(), 1U);
     std::filesystem::remove(folder_.path() / "jobs/filler");
-    const auto exit = job->wait();
-    EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
+    expect_undisturbed(*job);
     EXPECT_EQ(attempt_count(), 0U);
     EXPECT_GT(std::filesystem::file_size(job_folder().result()), 10'000U);
-    EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
-    const auto samples = job->samples();
-    EXPECT_EQ(samples, local_samples(slow_case()));
   }
   executor_.reset();
 }
@@ -278,14 +234,12 @@ TEST_F(SlurmLossTest, AJobThatIsRequeuedIsComputedByOneTaskAtATime) {
   options.sbatch = {"--requeue"};
   options.program = logging_program();
   start_executor(options);
-  auto job = run(slow_case());
+  const auto job = run(slow_case());
   ASSERT_TRUE(job->wait_for_samples(80));
   ASSERT_EQ(cluster_->run({"scontrol", "requeue", number_in(job->wait_for_place("RUNNING"))}).exit_code, 0);
   const auto exit = job->wait();
   EXPECT_THAT(exit.kind, AnyOf(Eq(Kind::stopped), Eq(Kind::displaced), Eq(Kind::gone))) << exit.detail;
-  job = run(slow_case());
-  EXPECT_EQ(job->wait().kind, Kind::exited);
-  EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+  expect_continued();
   EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader"}, "", seconds(60)));
   EXPECT_EQ(count_in_log("begins"), 2);
 }
@@ -298,18 +252,6 @@ TEST_F(SlurmLossTest, AProgramThatIsNotOnTheNodesIsNamed) {
   const auto exit = run(tiny_case())->wait();
   EXPECT_EQ(exit.kind, Kind::gone);
   EXPECT_THAT(exit.detail, HasSubstr("/nowhere/cellcrushd: not found"));
-}
-
-TEST_F(SlurmLossTest, AnOptionThatSbatchRefusesHoldsTheQueueAndIsNamed) {
-  start_cluster();
-  auto options = quick_options();
-  options.sbatch = {"--partition=nowhere"};
-  start_executor(options);
-  const auto exit = run(tiny_case())->wait();
-  EXPECT_EQ(exit.kind, Kind::not_started);
-  EXPECT_EQ(exit.trouble.shortage, Shortage::cluster);
-  EXPECT_THAT(exit.trouble.reason, HasSubstr("invalid partition"));
-  EXPECT_EQ(attempt_count(), 0U);
 }
 
 }  // namespace

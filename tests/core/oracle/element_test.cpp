@@ -14,7 +14,6 @@
 #include "core/oracle/random_motions.h"
 #include "core/reference/reference_element.h"
 #include "energy/ledger.h"
-#include "law/laws.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"

@@ -3,13 +3,14 @@
 #include <chrono>
 #include <thread>
 
-#include "http/connect_protocol.h"
+#include "http/browser_rules.h"
 #include "server/http/http_fixture.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -27,8 +28,7 @@ TEST_F(HttpGatewayTest, AUnaryCallIsAnsweredInJsonAndInBinary) {
   const std::string json = call("GetJob", "application/json", R"({"name":")" + job + "\"}");
   EXPECT_THAT(json, StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(json, HasSubstr("\"name\":\"" + job + "\""));
-  v1::GetJobRequest wanted;
-  wanted.set_name(job);
+  auto wanted = named<v1::GetJobRequest>(job);
   const std::string binary = call("GetJob", "application/proto", wanted.SerializeAsString());
   v1::Job got;
   ASSERT_TRUE(got.ParseFromString(binary.substr(binary.find("\r\n\r\n") + 4)));
@@ -41,7 +41,12 @@ TEST_F(HttpGatewayTest, ErrorsHaveTheirStatusCodeAndDetails) {
   EXPECT_THAT(missing, HasSubstr("\"code\":\"not_found\""));
   const std::string bad = call("CreateJob", "application/json", R"({"case":{"depth_mm":-1}})");
   EXPECT_THAT(bad, StartsWith("HTTP/1.1 400"));
-  EXPECT_THAT(bad, HasSubstr("\"type\":\"cellcrush.v1.ProblemList\""));
+  EXPECT_THAT(bad, HasSubstr("\"type\":\"cellcrush.v1.ProblemList\",\"value\":\""));
+  EXPECT_THAT(call("GetJob", "application/json", R"({"name":"no \"x\"\n"})"), HasSubstr(R"(no \"x\"\u000a)"));
+  for (const std::string& wrong : {std::string(), std::string("ab"), envelope("{}") + "d", envelope("{}", 1)})
+    EXPECT_THAT(call("WatchJob", "application/connect+json", wrong), HasSubstr("\"error\":{\"code\":")) << wrong;
+  EXPECT_THAT(dechunked(call("WatchJob", "application/connect+proto", envelope("\xff"))),
+              AllOf(HasSubstr("invalid_argument"), HasSubstr("is not a cellcrush.v1.WatchJobRequest")));
   EXPECT_THAT(call("GetJob", "application/json", R"({"nome":1})"), HasSubstr("nome"));
   for (const char* none : {"/", "/cellcrush.v1.Jobs", "/cellcrush.v1.Jobs/None",
                            "/grpc.reflection.v1.ServerReflection/ServerReflectionInfo"})
@@ -57,18 +62,18 @@ TEST_F(HttpGatewayTest, ErrorsHaveTheirStatusCodeAndDetails) {
 TEST_F(HttpGatewayTest, AWatchIsStreamedToItsEnd) {
   const std::string job = client().create(small_case());
   ASSERT_TRUE(client().wait_for_state(job, v1::Job::SUCCEEDED));
-  const std::string body = http::envelope(0, R"({"name":")" + job + "\"}");
+  const std::string body = envelope(R"({"name":")" + job + "\"}");
   const std::string got = call("WatchJob", "application/connect+json", body);
   EXPECT_THAT(got, StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(got, HasSubstr("SUCCEEDED"));
-  EXPECT_THAT(got, HasSubstr(http::envelope(http::kEndOfStream, "{}")));
+  EXPECT_THAT(got, HasSubstr(envelope("{}", 2)));
 }
 
 TEST_F(HttpGatewayTest, AClientThatGoesAwayEndsItsStream) {
   DaemonOptions options = http_options();
   options.connections.streams = 1;
   start(options);
-  const std::string body = http::envelope(0, R"({"name":")" + client().create(endless_case()) + "\"}");
+  const std::string body = envelope(R"({"name":")" + client().create(endless_case()) + "\"}");
   for (int i = 0; i < 5; ++i) {
     {
       const HttpSocket socket(port());
@@ -85,7 +90,7 @@ TEST_F(HttpGatewayTest, AClientThatGoesAwayEndsItsStream) {
 }
 
 TEST_F(HttpGatewayTest, OpenStreamsEndWithTheDaemon) {
-  const std::string body = http::envelope(0, R"({"name":")" + client().create(endless_case()) + "\"}");
+  const std::string body = envelope(R"({"name":")" + client().create(endless_case()) + "\"}");
   const HttpSocket socket(port());
   socket.send(call_text("WatchJob", "application/connect+json", body));
   ASSERT_FALSE(socket.read_some().empty());
@@ -144,25 +149,23 @@ TEST_F(HttpGatewayTest, ThePageIsCompressedForWhomAcceptsIt) {
 }
 
 TEST_F(HttpGatewayTest, ACallEndsAtItsTimeLimit) {
-  const std::string body = http::envelope(0, R"({"name":")" + client().create(endless_case()) + "\"}");
+  const std::string body = envelope(R"({"name":")" + client().create(endless_case()) + "\"}");
   EXPECT_THAT(call("WatchJob", "application/connect+json", body, "Connect-Timeout-Ms: 300\r\n"),
               HasSubstr("\"code\":\"deadline_exceeded\""));
   EXPECT_THAT(call("ListJobs", "application/json", "{}", "Connect-Timeout-Ms: soon\r\n"), StartsWith("HTTP/1.1 400"));
 }
 
-TEST_F(HttpGatewayTest, AJobOfAnotherOwnerCannotBeCancelled) {
-  start(with_tokens(http_options()));
-  v1::CreateJobRequest create;
-  *create.mutable_case_() = endless_case();
-  const std::string made = call("CreateJob", "application/proto", create.SerializeAsString(), token_of("anna"));
-  v1::Job job;
-  ASSERT_TRUE(job.ParseFromString(made.substr(made.find("\r\n\r\n") + 4)));
-  EXPECT_EQ(job.owner(), "anna");
-  const std::string name = R"({"name":")" + job.name() + "\"}";
-  const std::string refused = call("CancelJob", "application/json", name, token_of("bob"));
-  EXPECT_THAT(refused, StartsWith("HTTP/1.1 403"));
-  EXPECT_THAT(refused, HasSubstr("belongs to anna"));
-  EXPECT_THAT(call("CancelJob", "application/json", name, token_of("anna")), StartsWith("HTTP/1.1 200"));
+TEST(HttpBrowser, PagesOfOtherSitesAreRefused) {
+  EXPECT_FALSE(http::check_browser({"localhost:80", "http://localhost:80", "same-origin"}, {80}));
+  EXPECT_FALSE(http::check_browser({"[::1]:81", "", ""}, {81}));
+  EXPECT_EQ(http::check_browser({"evil.example:81", "", ""}, {81})->status, 421U);
+  EXPECT_EQ(http::check_browser({"localhost:82", "", ""}, {81})->status, 421U);
+  EXPECT_EQ(http::check_browser({"localhost:81", "http://evil.example", ""}, {81})->status, 403U);
+  EXPECT_EQ(http::check_browser({"localhost:81", "null", ""}, {81})->status, 403U);
+  EXPECT_EQ(http::check_browser({"localhost:81", "", "cross-site"}, {81})->status, 403U);
+  EXPECT_FALSE(http::check_browser({"crush.example:81", "https://crush.example:81", ""}, {81, true}));
+  EXPECT_EQ(http::check_browser({"crush.example:81", "http://crush.example:81", ""}, {81, true})->status, 403U);
+  EXPECT_EQ(http::check_browser({"crush.example:81", "https://evil.example", ""}, {81, true})->status, 403U);
 }
 
 }  // namespace

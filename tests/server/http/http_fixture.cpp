@@ -44,6 +44,12 @@ std::string exchange_with_tls(int port, const Visitor& visitor, const std::strin
   return out;
 }
 
+std::string envelope(const std::string& message, char flags) {
+  std::string out(1, flags);
+  for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<char>(message.size() >> shift));
+  return out + message;
+}
+
 std::string dechunked(const std::string& answer) {
   std::string out;
   for (auto at = answer.find("\r\n\r\n") + 4; at < answer.size();) {

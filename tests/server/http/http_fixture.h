@@ -12,6 +12,9 @@ namespace cellcrush::testing {
 /// `latest`: the latest version of TLS that the client speaks; 0: any.
 std::string exchange_with_tls(int port, const Visitor& visitor, const std::string& request, int latest = 0);
 
+/// A message of a stream of the Connect protocol, as its specification has it: a byte of flags, four of the length.
+std::string envelope(const std::string& message, char flags = 0);
+
 /// The body of a chunked answer.
 std::string dechunked(const std::string& answer);
 

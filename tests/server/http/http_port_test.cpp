@@ -102,16 +102,6 @@ TEST_F(HttpPortTest, ConnectionsBeyondTheLimitAreClosed) {
   EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
 }
 
-TEST_F(HttpPortTest, HundredsOfIdleConnectionsHoldUpNobody) {
-  start(http_options());
-  std::vector<std::unique_ptr<HttpSocket>> idle;
-  idle.reserve(400);
-  for (int i = 0; i < 400; ++i) idle.push_back(std::make_unique<HttpSocket>(port()));
-  const auto begin = std::chrono::steady_clock::now();
-  for (int i = 0; i < 50; ++i) ASSERT_THAT(call("ListJobs", "application/json", "{}"), StartsWith("HTTP/1.1 200"));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
-}
-
 TEST_F(HttpPortTest, TenThousandConnectionsOfOneMachineHoldUpNoOther) {
   constexpr int kConnections = 10'000;
   rlimit files{};

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <thread>
 
-#include "http/connect_protocol.h"
 #include "http/gateway.h"
 #include "rpc/method_table.h"
 #include "server/http/http_fixture.h"
@@ -15,8 +14,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
 
 class HttpStreamTest : public HttpFixture {
  protected:
@@ -34,10 +31,8 @@ std::vector<v1::JobEvent> numbered(const std::vector<v1::JobEvent>& events) {
 }
 
 TEST_F(HttpStreamTest, EventsInBinaryAreThoseOfGrpc) {
-  v1::WatchJobRequest wanted;
-  wanted.set_name(client().create(small_case()));
-  const std::string answer =
-      call("WatchJob", "application/connect+proto", http::envelope(0, wanted.SerializeAsString()));
+  auto wanted = named<v1::WatchJobRequest>(client().create(small_case()));
+  const std::string answer = call("WatchJob", "application/connect+proto", envelope(wanted.SerializeAsString()));
   std::vector<v1::JobEvent> over_http;
   for (const auto& message : messages_of(dechunked(answer))) {
     v1::JobEvent event;
@@ -98,7 +93,7 @@ TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
                  &FountainService::open);
   http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, methods, {});
   const HttpSocket socket(std::stoi(gateway.url().substr(gateway.url().rfind(':') + 1)), 64 * 1024);
-  const std::string body = http::envelope(0, "");
+  const std::string body = envelope("");
   socket.send("POST /cellcrush.v1.Jobs/DownloadResult HTTP/1.1\r\nHost: " + gateway.url().substr(7) +
               "\r\nConnection: close\r\nContent-Type: application/connect+proto\r\nContent-Length: " +
               std::to_string(body.size()) + "\r\n\r\n" + body);
@@ -113,36 +108,12 @@ TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
   EXPECT_EQ(messages.size(), static_cast<std::size_t>(Fountain::kMessages));
 }
 
-TEST_F(HttpStreamTest, EveryMethodThatReturnsAStreamIsServed) {
-  const auto* pool = google::protobuf::DescriptorPool::generated_pool();
-  int streams = 0;
-  for (const char* name : {"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps", "cellcrush.v1.Admin",
-                           "grpc.health.v1.Health"}) {
-    const auto* service = pool->FindServiceByName(name);
-    for (int i = 0; i < service->method_count(); ++i) {
-      if (!service->method(i)->server_streaming()) continue;
-      ++streams;
-      const std::string target = "POST /" + service->full_name() + "/" + service->method(i)->name();
-      const std::string answer = exchange(request(
-          target, "Content-Type: application/connect+proto\r\nConnect-Timeout-Ms: 300\r\n", http::envelope(0, "")));
-      EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
-      EXPECT_THAT(answer, Not(HasSubstr("unimplemented"))) << target;
-    }
-  }
-  EXPECT_GE(streams, 7);
-}
-
-TEST_F(HttpStreamTest, ARequestThatCannotBeParsedIsRefusedByName) {
-  EXPECT_THAT(dechunked(call("WatchJob", "application/connect+proto", http::envelope(0, "\xff"))),
-              AllOf(HasSubstr("invalid_argument"), HasSubstr("is not a cellcrush.v1.WatchJobRequest")));
-}
-
 TEST_F(HttpStreamTest, AStreamCountsForTheCallerThatItsTokenNames) {
   DaemonOptions options = with_tokens(http_options());
   options.connections.streams_per_caller = 1;
   start(options);
   const auto watch = [this](const std::string& name, const std::string& timeout) {
-    return call_text("WatchJobs", "application/connect+json", http::envelope(0, "{}"),
+    return call_text("WatchJobs", "application/connect+json", envelope("{}"),
                      token_of(name) + "Connect-Timeout-Ms: " + timeout + "\r\n");
   };
   const HttpSocket socket(port());

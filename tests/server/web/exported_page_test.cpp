@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <openssl/sha.h>
 
-#include "cellcrush/v1/job.pb.h"
 #include "web/page_files.h"
 
 namespace cellcrush::web {
@@ -46,13 +45,11 @@ TEST(ExportedPage, TheBundleCanStandInAnElement) {
   EXPECT_THAT(style, Not(HasSubstr("url(")));
 }
 
-TEST(ExportedPage, ABlockHoldsItsMessageAsText) {
-  v1::Job job;
-  job.set_name("</script>");
-  EXPECT_EQ(exported_block("GetJob", job, Compression::none),
-            "<script type=\"application/x-protobuf\" data-call=\"GetJob\">" + absl::Base64Escape("\n\x9</script>") +
-                "</script>\n");
-  EXPECT_THAT(exported_block("GetJob", job, Compression::zlib), HasSubstr("data-call=\"GetJob\" data-zlib>eJ"));
+TEST(HttpPage, GzipIsForWhomAsksForItAndNoPathLeadsOut) {
+  EXPECT_EQ(find_page_file("/../etc/passwd"), nullptr);
+  for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.5, br", "deflate,gzip ; q=1"})
+    EXPECT_TRUE(accepts_gzip(yes)) << yes;
+  for (const char* no : {"", "br", "gzip;q=0", "gzip; q=0.000", "xgzip"}) EXPECT_FALSE(accepts_gzip(no)) << no;
 }
 
 }  // namespace

@@ -1,0 +1,116 @@
+// Where the daemon listens, and how many connections it admits.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "error.h"
+#include "listen_address.h"
+#include "net/acceptor.h"
+#include "net/port_probe.h"
+#include "server/temporary_folder.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using net::ConnectionTable;
+using ::testing::HasSubstr;
+
+TEST(ListenAddress, TakesSocketsAndLoopbackPorts) {
+  EXPECT_EQ(parse_listen_address("unix:/tmp/a.sock").text(), "unix:/tmp/a.sock");
+  EXPECT_EQ(parse_listen_address("127.0.0.1:50551").text(), "127.0.0.1:50551");
+  EXPECT_EQ(parse_listen_address("localhost:0").port, 0);
+  EXPECT_EQ(parse_listen_address("[::1]:7").text(), "[::1]:7");
+  for (const char* text : {"unix:/tmp/a.sock", "127.0.0.1:1", "127.3.2.1:1", "localhost:1", "[::1]:1", "[0:0::1]:1"})
+    EXPECT_TRUE(parse_listen_address(text).is_loopback()) << text;
+}
+
+TEST(ListenAddress, KnowsWhatOthersCanReach) {
+  for (const char* text :
+       {"0.0.0.0:1", "192.168.1.4:1", "[::]:1", "[::ffff:127.0.0.1]:1", "[2001:db8::1]:1", "128.0.0.1:1"})
+    EXPECT_FALSE(parse_listen_address(text).is_loopback()) << text;
+}
+
+TEST(ListenAddress, RefusesWhatIsNoAddress) {
+  for (const char* text : {"example.org:1", "unix-abstract:a:1", "::1:1", "[127.0.0.1]:1", "0x7f.1:1", ":50551",
+                           "127.0.0.1", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1", "127.0.0.1:12x", "unix:", ""})
+    EXPECT_THROW(parse_listen_address(text), ServiceError) << text;
+  EXPECT_THROW(parse_listen_address("unix:/tmp/" + std::string(120, 'x')), ServiceError);
+}
+
+TEST(ListenAddress, AFileThatIsNoSocketIsLeftAlone) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "file";
+  std::ofstream(path) << "precious";
+  EXPECT_THROW(remove_stale_socket(path.string()), ServiceError);
+  EXPECT_TRUE(std::filesystem::exists(path));
+  EXPECT_NO_THROW(remove_stale_socket((folder.path() / "absent").string()));
+}
+
+// A pair of connected sockets; the second is the peer's.
+struct SocketPair {
+  SocketPair() { EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0); }
+  ~SocketPair() {
+    close_first();
+    close(ends[1]);
+  }
+  SocketPair(const SocketPair&) = delete;
+  SocketPair& operator=(const SocketPair&) = delete;
+  void close_first() {
+    if (ends[0] >= 0) close(ends[0]);
+    ends[0] = -1;
+  }
+  int ends[2] = {-1, -1};
+};
+
+TEST(ConnectionTable, AdmitsUpToBothLimitsAndForgetsWhatWasClosed) {
+  auto now = ConnectionTable::Clock::now();
+  ConnectionTable table({3, 2}, [&now] { return now; });
+  SocketPair one;
+  SocketPair two;
+  SocketPair three;
+  SocketPair four;
+  EXPECT_EQ(table.admit(one.ends[0], "a"), std::nullopt);
+  EXPECT_EQ(table.admit(two.ends[0], "a"), std::nullopt);
+  EXPECT_THAT(table.admit(three.ends[0], "a").value(), HasSubstr("a has 2 connections open"));
+  EXPECT_EQ(table.admit(three.ends[0], "b"), std::nullopt);
+  EXPECT_THAT(table.admit(four.ends[0], "b").value(), HasSubstr("3 connections are open"));
+  one.close_first();
+  now += std::chrono::seconds(1);
+  EXPECT_EQ(table.admit(four.ends[0], "b"), std::nullopt);
+  EXPECT_EQ(table.count(), 3U);
+}
+
+TEST(ConnectionTable, TellsADescriptorThatIsUsedAgainFromTheConnectionThatHadIt) {
+  ConnectionTable table({2, 2});
+  SocketPair first;
+  const int number = first.ends[0];
+  ASSERT_EQ(table.admit(number, "a"), std::nullopt);
+  SocketPair second;
+  ASSERT_EQ(dup2(second.ends[0], number), number);
+  table.drop_closed();
+  EXPECT_EQ(table.count(), 0U);
+  EXPECT_EQ(table.admit(number, "b"), std::nullopt);
+  EXPECT_EQ(table.count(), 1U);
+}
+
+TEST(PeerOf, IsTheAddressOfIpv4AndTheNetworkOfIpv6) {
+  const auto ipv6 = [](const char* text) {
+    sockaddr_storage out{};
+    auto& name = reinterpret_cast<sockaddr_in6&>(out);
+    name.sin6_family = AF_INET6;
+    inet_pton(AF_INET6, text, &name.sin6_addr);
+    return out;
+  };
+  EXPECT_EQ(net::peer_of(ipv6("2001:db8:1:2:3:4:5:6")), "2001:db8:1:2::/64");
+  EXPECT_EQ(net::peer_of(ipv6("::ffff:192.0.2.7")), "192.0.2.7");
+  EXPECT_EQ(net::peer_of(ipv6("::1")), "::1");
+  EXPECT_EQ(net::peer_of({}), "unix");
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
