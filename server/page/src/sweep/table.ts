@@ -1,5 +1,6 @@
 // The table of a sweep: one row per job, with links, and the same as CSV.
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
+import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { idOf, pathOf } from "../api/names";
 import { csvBlob } from "../dom/download";
@@ -45,8 +46,10 @@ export class SweepTableView {
   }
 
   csv(): Blob {
-    return csvBlob([...this.fields, "job", "state", ...kSummaryNumbers.map((column) => column.field)],
-      this.rows.map((row) => [...row.values, row.job, row.result ? Job_State[row.result.state] : "",
-                              ...kSummaryNumbers.map(({ value }) => row.result?.summary && value(row.result.summary))]));
+    const numbers = (summary: Summary | undefined): (number | undefined)[] =>
+      kSummaryNumbers.map(({ value }) => summary && value(summary));
+    return csvBlob([...this.fields, "job", "state", ...kSummaryNumbers.map(({ field }) => field)],
+      this.rows.map(({ values, job, result }) =>
+        [...values, job, result ? Job_State[result.state] : "", ...numbers(result?.summary)]));
   }
 }
