@@ -90,7 +90,7 @@ class Queues {
 
   /// Cancels the waiting ones among the jobs.
   void cancel_waiting(const std::vector<std::int64_t>& jobs);
-  /// Sets aside (DataFolder::set_aside) entries of jobs/ that belong to no job, and unusable folders of unfinished jobs,
+  /// Sets aside (DataFolder::set_aside) entries of jobs/ that belong to no job, and unusable folders of open jobs,
   /// whose workers end first. The log names each one, also those that cannot be moved and stay.
   void audit_folders();
   void set_aside(const std::string& name, const std::string& why) const;

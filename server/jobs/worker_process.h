@@ -12,8 +12,8 @@
 namespace cellcrush::jobs {
 
 /// Starts a program, found by PATH unless its name has a slash. Its group is its own, so that Ctrl-C at the daemon's
-/// terminal reaches the daemon only. It inherits the output and the errors, -1: /dev/null, and no other descriptor. Only
-/// the signals of `blocked` are blocked, and none is handled. Returns 0 or an errno.
+/// terminal reaches the daemon only. It inherits output and errors, -1: /dev/null, and no other descriptor. Only the
+/// signals of `blocked` are blocked, and none is handled. Returns 0 or an errno.
 int start_process(std::vector<std::string> command, const std::vector<int>& blocked, int output, int errors,
                   pid_t& process);
 

@@ -50,8 +50,8 @@ void check_request(const std::string& request_id, const google::protobuf::Map<st
 /// Throws InvalidField unless the priority is -100 to 100.
 void check_priority(int priority, const std::string& field);
 
-/// Hash of a CreateJobRequest or CreateSweepRequest and its owner, without the id: equal for a repetition of the call by
-/// the same owner.
+/// Hash of a CreateJobRequest or CreateSweepRequest and its owner, without the id: equal for a repetition of the call
+/// by the same owner.
 template <class Request>
 std::string payload_hash(Request request, const std::string& owner);
 

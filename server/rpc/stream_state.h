@@ -63,7 +63,7 @@ class EventDelay {
   std::atomic<std::int64_t> since_ = 0;  ///< Clock's count at the first change without a message yet; 0: none
 };
 
-/// A source that changes nothing while it is read: there is nothing to wake for and no bookmark.
+/// What most sources have: nothing wakes them, a message is read when it is asked for, and there is no bookmark.
 template <class M>
 class PlainSource {
  public:

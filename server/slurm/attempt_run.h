@@ -25,8 +25,8 @@ class AttemptRun {
   AttemptRun(const AttemptFolder& shared, jobs::Executor& workers, const TaskEnd& end, std::chrono::milliseconds lease)
       : shared_(shared), workers_(workers), end_(end), lease_(lease) {}
 
-  /// Computes the claimed attempt in this folder of the node, which has its order. Returns once the daemon has the last word, or
-  /// the attempt is no longer this task's.
+  /// Computes the claimed attempt in this folder of the node, which has its order. Returns once the daemon has the last
+  /// word, or the attempt is no longer this task's.
   void run(const store::JobFolder& folder);
 
  private:
