@@ -19,7 +19,7 @@ double energy_error_of(std::span<const Sample> samples) {
   for (const Sample& sample : samples) {
     const double turnover = turnover_of(sample);
     if (turnover > threshold) {
-      error = std::max(error, std::abs(sample.energy_residual) / turnover);
+      error = std::max(error, std::abs(sample.energies.residual) / turnover);
     }
   }
   return error;
@@ -54,8 +54,8 @@ std::optional<double> plate_difference(const Curve& impact, const Curve& support
 double kinetic_share(std::span<const Sample> samples) {
   double share = 0.0;
   for (const Sample& sample : samples) {
-    if (sample.strain >= Summary::kQuasiStaticFrom && sample.energy_plastic > sample.energy_elastic) {
-      share = std::max(share, sample.energy_kinetic / sample.energy_plastic);
+    if (sample.strain >= Summary::kQuasiStaticFrom && sample.energies.plastic > sample.energies.elastic) {
+      share = std::max(share, sample.energies.kinetic / sample.energies.plastic);
     }
   }
   return share;

@@ -6,7 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
+#include <string>
 
 #include "docs/proto_comments.h"
 
@@ -18,13 +19,15 @@ namespace pb = google::protobuf;
 
 const fs::path kFolder = fs::path(CELLCRUSH_SOURCE_ROOT) / "proto";
 
+std::string text_of(const fs::path& page) {
+  std::ifstream stream(page, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 // Compares a page with what its generator makes, or writes it where CELLCRUSH_WRITE_PAGES is set.
 void hold(const fs::path& page, const std::string& made) {
   if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) std::ofstream(page, std::ios::binary) << made;
-  std::ifstream stream(page, std::ios::binary);
-  std::ostringstream found;
-  found << stream.rdbuf();
-  EXPECT_TRUE(found.str() == made) << page << " is not what proto/cellcrush/v1 says. Rewrite it: "
+  EXPECT_TRUE(text_of(page) == made) << page << " is not what proto/cellcrush/v1 says. Rewrite it: "
                                    << "CELLCRUSH_WRITE_PAGES=1 build/ci/bin/proto_pages_test";
 }
 
@@ -35,6 +38,11 @@ TEST(ProtoPages, TheLimitsOfTheSolverAreThoseOfTheCase) {
 }
 
 TEST(ProtoPages, TheApiIsThatOfTheServices) { hold(kFolder / "api.md", make_api_page()); }
+
+TEST(ProtoPages, TheColumnsOfAResultAreTheNumbersOfASample) {
+  const fs::path page = kFolder.parent_path() / "server/store/result_format.md";
+  hold(page, with_history_columns(text_of(page)));
+}
 
 // Everything in a file that has no comment.
 class Uncommented {

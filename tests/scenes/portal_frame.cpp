@@ -82,7 +82,7 @@ double expect_portal_collapse(const std::vector<Sample>& samples, PortalFrame::M
   const Sample& before = samples[samples.size() * 4 / 5];
   const double way = last.watched[0].*moved - before.watched[0].*moved;
   const double dead_work = dead * (last.watched[1].*loaded - before.watched[1].*loaded);
-  const double load = (last.work_external - before.work_external - dead_work) / way;
+  const double load = (last.energies.external - before.energies.external - dead_work) / way;
   const double middle = 0.5 * (last.watched[0].*moved + before.watched[0].*moved);
   const double ratio = std::abs(load) / collapse_load(mechanism, middle, dead_load);
   // The theory knows no axial force. Members here bear n up to 0.05 of their yield force, and the interaction of the 6

@@ -154,7 +154,7 @@ std::vector<ForceAt> force_curve(const std::vector<Sample>& samples, double Watc
     const double before = samples[i - 1].watched.front().*component;
     const double after = samples[i].watched.front().*component;
     curve.push_back(
-        {0.5 * (before + after), (samples[i].work_external - samples[i - 1].work_external) / (after - before)});
+        {0.5 * (before + after), (samples[i].energies.external - samples[i - 1].energies.external) / (after - before)});
   }
   return curve;
 }

@@ -17,7 +17,7 @@ std::vector<double> plastic_work_by_cycle(const std::vector<Sample>& samples, in
   std::vector<double> total(cycles, 0.0);
   for (const Sample& sample : samples) {
     const int cycle = std::min(cycles - 1, static_cast<int>(sample.time / period * (1.0 - 1e-12)));
-    total[cycle] = sample.energy_plastic;
+    total[cycle] = sample.energies.plastic;
   }
   for (int i = cycles - 1; i > 0; --i) {
     total[i] -= total[i - 1];

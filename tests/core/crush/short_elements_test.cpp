@@ -32,8 +32,8 @@ TEST(ShortElements, OfSquashedWallsMakeNoEnergy) {
       sample = simulation.take_sample();
     }
     EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
-    EXPECT_LT(std::abs(sample.energy_residual), 0.005 * sample.work_external) << "seed " << seed;
-    worst = std::max(worst, std::abs(sample.energy_residual / sample.work_external));
+    EXPECT_LT(std::abs(sample.energies.residual), 0.005 * sample.energies.external) << "seed " << seed;
+    worst = std::max(worst, std::abs(sample.energies.residual / sample.energies.external));
   }
   scenes::record_bound("residual in %", 100.0 * worst);
 }

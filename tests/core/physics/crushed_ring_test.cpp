@@ -107,7 +107,7 @@ TEST(CrushedRing, IsAtRestUntilAWallReachesIt) {
   const std::vector<Sample> samples = scenes::run_frame(spec);
   EXPECT_GT(samples.back().step, 100);
   for (const Sample& sample : samples) {
-    EXPECT_LT(sample.energy_kinetic + sample.energy_elastic, 1e-18);
+    EXPECT_LT(sample.energies.kinetic + sample.energies.elastic, 1e-18);
     EXPECT_EQ(sample.rigid_walls.at(1).normal_force, 0.0);
   }
 }

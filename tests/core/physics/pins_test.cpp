@@ -103,7 +103,7 @@ TEST(Pins, AtClampedNodesLetABeamVibrateAsSimpleSupportsDo) {
     }
     EXPECT_GT(greatest, 0.1);
     EXPECT_LT(worst, 1e-9 * greatest);
-    EXPECT_LT(std::abs(pinned.back().energy_residual), 1e-3 * pinned.front().energy_kinetic);
+    EXPECT_LT(std::abs(pinned.back().energies.residual), 1e-3 * pinned.front().energies.kinetic);
     scenes::record_bound("difference over deflection", worst / greatest);
   }
 }
@@ -165,7 +165,7 @@ TEST(Pins, KeepJointsTogetherToTheLastBitAndMomentumToRoundOff) {
   const auto [linear_after, angular_after] = momentum();
   EXPECT_LT((linear_after - linear).norm(), 1e-11 * linear.norm());
   EXPECT_NEAR(angular_after, angular, 1e-10 * std::abs(angular));
-  EXPECT_LT(std::abs(sample.energy_residual), 1e-3 * simulation.state().ledger.initial);
+  EXPECT_LT(std::abs(sample.energies.residual), 1e-3 * simulation.state().ledger.initial);
   double mass = 0.0;
   for (const double of_particle : scene->mass) mass += of_particle;
   EXPECT_NEAR(mass, scene->total_mass + 2e-10, 1e-12 * mass);

@@ -56,7 +56,7 @@ TEST(PulledWall, PerfectlyPlasticBearsItsYieldForceWhateverItsMesh) {
     Simulation simulation(scenes::build(pulled_wall(elements, kElongation, 20000.0 * std::max(1, elements / 2))));
     simulation.advance(simulation.scene().schedule.step_count);
     const double force = force_on_start(simulation) / Wall::kYieldForce;
-    const double work = simulation.take_sample().energy_plastic / (Wall::kYieldForce * kElongation);
+    const double work = simulation.take_sample().energies.plastic / (Wall::kYieldForce * kElongation);
     EXPECT_NEAR(force, 1.0, 1e-3) << elements << " elements";
     EXPECT_NEAR(work, 1.0, 0.01) << elements << " elements";
     worst_force = std::max(worst_force, std::abs(force - 1.0));
@@ -112,8 +112,8 @@ double residual_of_cycle(const SectionSpec& section, int elements, double strain
   while (simulation.status().kind == RunStatus::Kind::running) {
     simulation.advance(200);
     const Sample sample = simulation.take_sample();
-    residual = std::max(residual, std::abs(sample.energy_residual));
-    elastic = std::max(elastic, sample.energy_elastic);
+    residual = std::max(residual, std::abs(sample.energies.residual));
+    elastic = std::max(elastic, sample.energies.elastic);
   }
   EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
   return residual / elastic;
@@ -141,7 +141,7 @@ double residual_of_hardening_wall(double steps) {
   Simulation simulation(scenes::build(pulled_wall(2, 0.05 * Wall::kSide, steps, Wall::kModulus / 9.0)));
   simulation.advance(simulation.scene().schedule.step_count);
   const Sample sample = simulation.take_sample();
-  return std::abs(sample.energy_residual) / sample.work_external;
+  return std::abs(sample.energies.residual) / sample.energies.external;
 }
 
 // With the plastic work at the returned stress alone: 0.21 % and 0.06 %, of order 1.

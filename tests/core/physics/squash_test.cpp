@@ -57,8 +57,8 @@ Squash squash(SectionSpec::AreaRule rule, double share) {
           std::min(result.shortest, simulation.state().length[e] / simulation.scene().walls.undeformed_length.front());
     }
   }
-  result.plastic = sample.energy_plastic;
-  result.residual = sample.energy_residual / sample.work_external;
+  result.plastic = sample.energies.plastic;
+  result.residual = sample.energies.residual / sample.energies.external;
   return result;
 }
 

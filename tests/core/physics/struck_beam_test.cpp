@@ -63,7 +63,7 @@ Rest rest_of(const std::vector<Sample>& samples) {
     sum += weight * samples[i].watched[0].uy;
     weights += weight;
   }
-  return {samples[peak].time, sum / weights, samples.back().energy_plastic};
+  return {samples[peak].time, sum / weights, samples.back().energies.plastic};
 }
 
 // Half of the beam is the struck cantilever of Parkes (1955) with half of the mass. It has M_p at both of its hinges,
