@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "cellcrush/problem.h"
+#include "cellcrush/scene_spec.h"
 
 namespace cellcrush {
 

@@ -6,8 +6,21 @@
 #include <span>
 
 #include "cellcrush/scene.h"
+#include "cellcrush/state.h"
 
 namespace cellcrush {
+
+/// History of the fibres of an element: every `stride`-th value of the arrays in the state. MPa; plastic_strain is the
+/// accumulated (effective) one, dimensionless. Null: the law does not keep it. Without plastic strain there is
+/// one bit for each fibre that has yielded. T: double or float.
+template <class T>
+struct Fibres {
+  T* __restrict stress;
+  T* __restrict back_stress;
+  T* __restrict plastic_strain;
+  typename FibreHistory<T>::Bits* __restrict yielded;
+  std::size_t stride = 1;
+};
 
 /// What the solver asks of a law of the fibres beside its equations, which are in law/fibre_law-inl.h and a file for
 /// each law. State, checkpoint, hash and predicted memory have the arrays that the law keeps.

@@ -11,10 +11,8 @@
 #include "beam/element_place.h"
 #include "contact/contact_search.h"
 #include "energy/ledger.h"
-#include "geometry/all_finite.h"
 #include "measure/crush_mode.h"
-#include "measure/densest_layer.h"
-#include "measure/front.h"
+#include "measure/layers.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
 

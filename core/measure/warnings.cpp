@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contact/thickening.h"
-#include "geometry/capsule.h"
+#include "contact/touch/force_laws.h"
 #include "scene/check_spec.h"
 
 namespace cellcrush {

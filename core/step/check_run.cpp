@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/all_finite.h"
 #include "measure/warnings.h"
 #include "scene/check_spec.h"
 #include "scene/time_step.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/machine.h"
-#include "cellcrush/scene_arrays.h"
+#include "cellcrush/scene.h"
 #include "cellcrush/simd.h"
 #include "cellcrush/state.h"
 #include "scenes/frames.h"

@@ -40,7 +40,7 @@ enum class CrushMode {
   mixed,  ///< none of these
 };
 
-/// The jump across the front of a fast crush, from the motion of the cells; measure/front.h defines when there is one.
+/// The jump across the front of a fast crush, from the motion of the cells; measure/layers.h defines when there is one.
 struct Front {
   double position = 0.0;         ///< mm of the undeformed length, from the impact end
   double strain_behind = 0.0;    ///< nominal, mean from the impact end to the front
@@ -53,7 +53,7 @@ struct Front {
   double wall_fraction_behind = 0.0;
 };
 
-/// The layer across the crush that walls fill most (measure/densest_layer.h).
+/// The layer across the crush that walls fill most (measure/layers.h).
 struct DensestLayer {
   double solid_fraction = 0.0;  ///< length times thickness of the walls over the area of the layer
   double place = 0.0;           ///< mm of the undeformed length, from the impact end: mean of its metal

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact/contact_search.h"
-#include "contact/search/bucket_search.h"
+#include "contact/search/pair_search.h"
 #include "motion/initial_state.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"

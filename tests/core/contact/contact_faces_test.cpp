@@ -1,5 +1,3 @@
-#include "contact/topology/contact_faces.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/topology/face_loops.h"
 #include "contact/topology/wall_paths.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"

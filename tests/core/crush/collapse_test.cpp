@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "measure/cells.h"
+#include "measure/crush_mode.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {

@@ -8,7 +8,7 @@
 #include "cellcrush/state.h"
 #include "contact/contact_forces.h"
 #include "contact/contact_tiles.h"
-#include "contact/search/bucket_search.h"
+#include "contact/search/pair_search.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"

@@ -1,11 +1,10 @@
-#include "measure/densest_layer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "measure/cells.h"
+#include "measure/crush_mode.h"
+#include "measure/layers.h"
 #include "measure/theory.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"

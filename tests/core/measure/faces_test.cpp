@@ -6,7 +6,7 @@
 #include <numeric>
 #include <string>
 
-#include "measure/cells.h"
+#include "measure/crush_mode.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/presets.h"

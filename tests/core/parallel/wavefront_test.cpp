@@ -1,11 +1,11 @@
-#include "parallel/wavefront.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
 #include <thread>
 #include <vector>
+
+#include "parallel/workers.h"
 
 namespace cellcrush {
 namespace {

@@ -68,7 +68,8 @@ TEST(Reactions, DoTheWorkOfTheLedgerOverTheMotionsThatAreImposed) {
   spec.material.yield_stress_mpa = 200.0;
   spec.numerics.mass_damping_per_s = 2000.0;
   const std::vector<Sample> samples = scenes::run_frame(spec);
-  const double greatest = std::ranges::max(samples, {}, [](const Sample& sample) { return sample.energies.external; }).energies.external;
+  double greatest = 0.0;
+  for (const Sample& sample : samples) greatest = std::max(greatest, sample.energies.external);
   double work = 0.0;
   WatchedNode before;
   for (const Sample& sample : samples) {

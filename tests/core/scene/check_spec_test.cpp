@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "cellcrush/simulation.h"
+#include "fields/field_checker.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
@@ -20,6 +23,18 @@ const Problem* find(const Problems& problems, const std::string& field) {
 TEST(CheckSpec, EveryPresetIsSound) {
   for (const auto& preset : scenes::presets()) {
     EXPECT_TRUE(build_scene(preset.spec).problems.empty()) << preset.name;
+  }
+}
+
+TEST(FieldChecker, AFieldWithoutLimitsIsAMistakeThatNamesIt) {
+  FieldChecker check;
+  EXPECT_TRUE(check.within_limits("lattice.frame.nodes[3].x_mm", 1.0));
+  EXPECT_THROW(FieldChecker::greatest_of("zzz"), std::logic_error);
+  try {
+    check.within_limits("lattice.hexagon.rims[2].width_mm", 1.0);
+    FAIL() << "was checked";
+  } catch (const std::logic_error& error) {
+    EXPECT_NE(std::string(error.what()).find("lattice.hexagon.rims.width_mm"), std::string::npos) << error.what();
   }
 }
 
