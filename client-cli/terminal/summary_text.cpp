@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "results/energy_terms.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -102,25 +103,18 @@ std::string warning_text(const v1::Warning& warning, int width) {
 
 std::string ledger_text(const v1::Ledger& ledger, int width) {
   Table table({Align::left, Align::right, Align::right});
-  const double spent = ledger.kinetic_mj() + ledger.elastic_mj() + ledger.plastic_mj() + ledger.contact_mj() +
-                       ledger.friction_mj() + ledger.contact_damping_mj() + ledger.mass_damping_mj() +
-                       ledger.residual_mj();
+  const auto terms = energy_terms_of(*v1::Ledger::descriptor());
+  double spent = 0.0;
+  for (const EnergyTerm& term : terms) spent += term.value(ledger);
   const double whole = std::max(std::abs(spent), std::abs(ledger.work_external_mj()));
-  const auto row = [&](const char* what, double energy) {
+  const auto row = [&](const std::string& what, double energy) {
     table.add({what, number_text(1e-3 * energy) + " J", whole > 0.0 ? percent_text(energy / whole, 2) : ""});
   };
   row("energy ledger: work of plates and loads", ledger.work_external_mj());
   // Round-off of the sum is not shown as energy.
   const double start = spent - ledger.work_external_mj();
   if (std::abs(start) > 1e-9 * whole) row("initial energy", start);
-  row("kinetic energy", ledger.kinetic_mj());
-  row("elastic energy of the walls", ledger.elastic_mj());
-  row("plastic work", ledger.plastic_mj());
-  row("contact", ledger.contact_mj());
-  row("friction", ledger.friction_mj());
-  row("contact damping", ledger.contact_damping_mj());
-  row("mass damping", ledger.mass_damping_mj());
-  row("residual", ledger.residual_mj());
+  for (const EnergyTerm& term : terms) row(term.label, term.value(ledger));
   return table.text(2, width);
 }
 

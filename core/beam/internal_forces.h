@@ -1,13 +1,44 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
 
-#include "beam/walls_workspace.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "cellcrush/vector.h"
 #include "parallel/workers.h"
 
 namespace cellcrush {
+
+/// Values per element that are passed between the loops over geometry, fibres and forces.
+inline constexpr std::size_t kScratchKinds = 4;
+
+/// Scratch in either precision of the fibres.
+struct WallScratch {
+  LaneVector<float> in_single;
+  LaneVector<double> in_double;
+
+  template <class T>
+  LaneVector<T>& of() {
+    if constexpr (std::is_same_v<T, float>) {
+      return in_single;
+    } else {
+      return in_double;
+    }
+  }
+};
+
+/// Scratch for the walls, kept from step to step so that no step allocates. No result depends on its contents.
+struct WallsWorkspace {
+  std::vector<WallScratch> of_thread;  ///< one chunk at a time
+
+  // For steps that deform all chunks before any of them responds.
+  WallScratch all;  ///< kScratchKinds E
+  /// C chunks, 1 if any of the elements is squashed, so that its modulus is reduced.
+  std::vector<std::uint8_t> squashed;
+};
 
 /// Makes room for State::thickening_step, if squashed walls grow thicker. REQUIRED before the functions below.
 void size_thickening_step(const Scene& scene, State& state);
@@ -32,5 +63,12 @@ std::size_t wall_piece_count(const Scene& scene);
 /// deform_walls has been called.
 void respond_walls(const Scene& scene, State& state, WallsWorkspace& workspace, std::size_t piece,
                    double* plastic_work);
+
+/// Sums the forces of walls on joints `first` to `end` (E7), for each joint in a fixed order. The sums therefore have
+/// the same bits for any thread. Does nothing if first >= end.
+void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::size_t end);
+
+/// The same for all joints.
+void sum_joint_forces(const Scene& scene, State& state, Workers& workers);
 
 }  // namespace cellcrush

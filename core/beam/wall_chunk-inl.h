@@ -10,13 +10,11 @@
 #include <cstddef>
 #include <span>
 
-#include "beam/chunk_scratch-inl.h"
 #include "beam/cross_section-inl.h"
 #include "beam/deformation-inl.h"
 #include "beam/element_response-inl.h"
-#include "beam/grown_walls-inl.h"
 #include "cellcrush/state.h"
-#include "parallel/cache_size.h"
+#include "parallel/workers.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {

@@ -4,7 +4,6 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/contact_sums.h"
 #include "contact/contact_workspace.h"
 #include "parallel/workers.h"
 

@@ -8,9 +8,9 @@
 #include "parallel/workers.h"
 
 // The search for balls and segments that may touch. A ball is at every particle; it is never tested against the
-// elements that end at its particle. Where the faces of the scene allow it (contact/topology/contact_faces.h), the
-// search is by faces (E8c, contact/search/face_search.h), otherwise by buckets (contact/search/bucket_search.h). This
-// is the only place that chooses between them and that switches.
+// elements that end at its particle. Where the faces of the scene allow it (contact/topology/face_loops.h), the search
+// is by faces (E8c), otherwise by buckets; both are in contact/search/pair_search.h. This is the only place that
+// chooses between them and that switches.
 
 namespace cellcrush {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "contact/contact_tiles.h"
-#include "geometry/capsule-inl.h"
+#include "contact/touch_geometry-inl.h"
 
 namespace cellcrush {
 namespace {

@@ -1,17 +1,146 @@
 #include "energy/ledger.h"
 
-#include "energy/energy_kernels.h"
-#include "motion/plate_motion.h"
-#include "motion/rigid_wall_motion.h"
+#include <algorithm>
+#include <vector>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "energy/ledger.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "beam/cross_section-inl.h"
+#include "beam/element_place.h"
+#include "motion/motion_works-inl.h"
+#include "motion/particle_motion-inl.h"
+#include "motion/plate_motion.h"
+#include "motion/rigid_motion.h"
+#include "motion/rigid_wall_motion.h"
+#include "simd/lane-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// Works on the free particles, in the chunks in which they are moved.
+MotionWorks works_of_particles(const Scene& scene, const State& state) {
+  const StepFactors step = step_factors_of(scene);
+  const ParticleArrays<const State> arrays(scene, state);
+  MotionWorks sum;
+  with_force_kinds(scene, state, [&](auto kinds) HWY_ATTR {
+    using Kinds = decltype(kinds);
+    constexpr std::size_t kWidth = Kinds::kFrame ? 1 : kSumLanes;
+    const auto add_range = [&](std::size_t first, std::size_t end) HWY_ATTR {
+      for (std::size_t begin = first; begin < end; begin += kParticlesMovedTogether) {
+        const std::size_t chunk_end = std::min(begin + kParticlesMovedTogether, end);
+        sum.add(sum_works<kWidth>(begin, chunk_end, [&](auto d, std::size_t i, auto& works) HWY_ATTR {
+          const auto forces = forces_on<true, Kinds, decltype(d)>(arrays, i);
+          add_works_of_half_step<Kinds>(arrays, step, i, forces, motion_of<Kinds>(arrays, step, forces, i), works);
+        }));
+      }
+    };
+    add_range(scene.rigid.particle_count(), scene.joint_count);
+    add_range(scene.joint_count, scene.particle_count());
+  });
+  return sum;
+}
+
+/// Elastic energy, lane by lane: elements in lanes D, their fibres in lanes F.
+template <class D, class F>
+class LaneEnergy {
+  using T = hn::TFromD<F>;
+
+ public:
+  LaneEnergy(const Scene& scene, const State& state, const FibreHistory<T>& memory)
+      : scene_(scene), state_(state), memory_(memory) {
+    for (const double along : scene.section.along_weight) {
+      for (const double through : scene.section.depth_weight) {
+        weight_.push_back(static_cast<T>(along * through));
+      }
+    }
+  }
+
+  /// Adds that of a row of elements to the walls of the lanes.
+  HWY_INLINE void add_row(const WallBlock& block, std::size_t row, double* HWY_RESTRICT energy) const {
+    T squares[kMostWallsInBlock];
+    for (int lane = 0; lane < block.walls; lane += static_cast<int>(Lane<F>::kWidth)) {
+      weighted_squares(&memory_.stress[row * weight_.size()] + lane, block.walls).store(squares + lane);
+    }
+    for (int lane = 0; lane < block.walls; lane += static_cast<int>(Lane<D>::kWidth)) {
+      const Lane<D> of_lanes = energy_of(block, lane, row + lane, Lane<D>::load(squares + lane));
+      (Lane<D>::load(energy + lane) + of_lanes).store(energy + lane);
+    }
+  }
+
+ private:
+  /// Weighted squares of the stresses of the elements of the lanes; `stride` elements lie side by side for each fibre.
+  HWY_INLINE Lane<F> weighted_squares(const T* HWY_RESTRICT stress, int stride) const {
+    Lane<F> squares = 0;
+    for (const T weight : weight_) {
+      const Lane<F> of_fibre = Lane<F>::load(stress);
+      squares = fma(Lane<F>(weight) * of_fibre, of_fibre, squares);
+      stress += stride;
+    }
+    return squares;
+  }
+
+  HWY_INLINE Lane<D> energy_of(const WallBlock& block, int lane, std::size_t element, Lane<D> squares) const {
+    const CrossSection<D> section(scene_, block, lane);
+    const Lane<D> length = Lane<D>::load(&state_.length[element]);
+    Lane<D> modulus = section.modulus();
+    if (HWY_UNLIKELY(any(section.is_squashed(length)))) {
+      modulus = modulus * section.modulus_share(length, Lane<D>(1) / length, section.thickening(length));
+    }
+    return section.volume() * squares / (modulus + modulus);
+  }
+
+  const Scene& scene_;
+  const State& state_;
+  const FibreHistory<T>& memory_;
+  std::vector<T> weight_;  ///< of each fibre, in the integral over the section and along the element
+};
+
+template <class T>
+double energy_of_memory(const Scene& scene, const State& state, const FibreHistory<T>& memory) {
+  using Wide = LaneEnergy<WideTag<double, kMostWallsInBlock>, WideTag<T, kMostWallsInBlock>>;
+  using One = LaneEnergy<hn::CappedTag<double, 1>, hn::CappedTag<T, 1>>;
+  const Wide wide(scene, state, memory);
+  const One one(scene, state, memory);
+  double energy[kMostWallsInBlock] = {};
+  visit_rows(scene, [&](const WallBlock& block, std::size_t row) HWY_ATTR {
+    if (block.walls == kMostWallsInBlock) {
+      wide.add_row(block, row, energy);
+    } else {
+      one.add_row(block, row, energy);
+    }
+  });
+  double sum = 0.0;
+  for (const double of_lane : energy) {
+    sum += of_lane;
+  }
+  return sum;
+}
+
+double energy_of_walls(const Scene& scene, const State& state) {
+  return scene.single_fibres ? energy_of_memory(scene, state, state.single_fibres)
+                             : energy_of_memory(scene, state, state.fibres);
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace cellcrush {
+
+HWY_EXPORT(works_of_particles);
+HWY_EXPORT(energy_of_walls);
+
 namespace {
 
 /// The works of the newest forces over the half step up to the time of the state, and twice the kinetic energy at that
 /// time.
 MotionWorks works_of_half_step(const Scene& scene, const State& state) {
   const double half = 0.5 * scene.schedule.time_step;
-  MotionWorks works = half_step_works(scene, state);
+  MotionWorks works = half_step_works_of_rigid_bodies(scene, state);
+  works.add(HWY_DYNAMIC_DISPATCH(works_of_particles)(scene, state));
   works.add(plate_works(state.impact_force, half * scene.plates.speed_at(state.time - half)));
   works.add(rigid_wall_works(scene, state, state.time - scene.schedule.time_step, state.time));
   return works;
@@ -30,9 +159,10 @@ Energies evaluate_energies(const Scene& scene, const State& state) {
   Energies now{state.ledger};
   newest.accumulate(now);
   now.kinetic = 0.5 * newest.twice_kinetic;
-  now.elastic = elastic_energy(scene, state);
+  now.elastic = HWY_DYNAMIC_DISPATCH(energy_of_walls)(scene, state);
   now.residual = residual_of(now);
   return now;
 }
 
 }  // namespace cellcrush
+#endif

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <stdexcept>
 #include <string_view>
-#include <vector>
 
 namespace cellcrush {
 namespace {
@@ -16,20 +16,23 @@ constexpr double kLargest = 1e12;  // shown as no limit
 struct FieldLimits {
   std::string_view path;
   FieldChecker::Range range;
-  std::string unit;
+  std::string_view unit;
 };
+
+constexpr FieldLimits kLimits[] = {
+#include "fields/field_limits.inc"
+};
+static_assert(std::ranges::is_sorted(kLimits, {}, &FieldLimits::path));
 
 /// The limits of a field at `path`, which may have indices in brackets.
 const FieldLimits& limits_of(std::string path) {
-  static const std::vector<FieldLimits> kLimits = {
-      // in the order of their paths
-#include "fields/field_limits.inc"
-  };
   for (std::size_t open = path.find('['); open != std::string::npos; open = path.find('[')) {
     path.erase(open, path.find(']', open) + 1 - open);
   }
   const auto found = std::ranges::lower_bound(kLimits, std::string_view(path), {}, &FieldLimits::path);
-  assert(found != kLimits.end() && found->path == path);
+  if (found == std::end(kLimits) || found->path != path) {
+    throw std::logic_error("The solver checks " + path + ", but case.proto gives it no minimum and maximum.");
+  }
   return *found;
 }
 
@@ -69,7 +72,7 @@ bool FieldChecker::in_range(const std::string& field, std::optional<double> valu
 
 bool FieldChecker::within_limits(const std::string& field, std::optional<double> value, const std::string& note) {
   const FieldLimits& limits = limits_of(field);
-  return in_range(field, value, limits.range, limits.unit + note);
+  return in_range(field, value, limits.range, std::string(limits.unit) + note);
 }
 
 void FieldChecker::add(const std::string& field, const std::string& value, const std::string& message,

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "cellcrush/problem.h"
+#include "cellcrush/scene_spec.h"
 
 namespace cellcrush {
 
@@ -24,7 +24,7 @@ class FieldChecker {
   bool in_range(const std::string& field, std::optional<double> value, Range range, const std::string& unit = "");
 
   /// Requires a finite value within the limits of the field, which field_limits.inc has from case.proto. `note` follows
-  /// limits and unit in the remedy.
+  /// limits and unit in the remedy. Throws std::logic_error if the file lacks the field, as greatest_of does.
   bool within_limits(const std::string& field, std::optional<double> value, const std::string& note = "");
 
   /// The upper limit of a field in field_limits.inc.

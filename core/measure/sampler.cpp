@@ -11,10 +11,8 @@
 #include "beam/element_place.h"
 #include "contact/contact_search.h"
 #include "energy/ledger.h"
-#include "geometry/all_finite.h"
 #include "measure/crush_mode.h"
-#include "measure/densest_layer.h"
-#include "measure/front.h"
+#include "measure/layers.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
 
@@ -190,17 +188,8 @@ Sample Sampler::take(const Scene& scene, const State& state) {
     measure_stress(scene, state, sample);
     measure_collapse(scene, state, sample);
   }
-  const Energies energies = evaluate_energies(scene, state);
-  sample.energy_kinetic = energies.kinetic;
-  sample.energy_elastic = energies.elastic;
-  sample.energy_plastic = energies.plastic;
-  sample.energy_contact = energies.contact;
-  sample.energy_friction = energies.friction;
-  sample.energy_damping = energies.contact_damping + energies.mass_damping;
-  sample.work_external = energies.external;
-  sample.energy_residual = energies.residual;
+  sample.energies = evaluate_energies(scene, state);
   sample.energy_contact_stored = state.contact_totals.stored;
-  sample.energy_contact_damping = energies.contact_damping;
   sample.deepest_penetration = state.contact_totals.deepest_penetration;
   sample.contact_count = state.contact_totals.count;
   find_warnings(scene, state, sample);

@@ -5,9 +5,8 @@
 #include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "measure/cells.h"
-#include "measure/columns.h"
-#include "measure/densest_layer.h"
+#include "measure/crush_mode.h"
+#include "measure/layers.h"
 
 namespace cellcrush {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contact/thickening.h"
-#include "geometry/capsule.h"
+#include "contact/touch/force_laws.h"
 #include "scene/check_spec.h"
 
 namespace cellcrush {
@@ -134,10 +134,7 @@ std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, dou
 }
 
 double turnover_of(const Sample& sample) {
-  const double initial = sample.energy_residual + sample.energy_kinetic + sample.energy_elastic +
-                         sample.energy_plastic + sample.energy_contact + sample.energy_friction +
-                         sample.energy_damping - sample.work_external;
-  return std::max(std::abs(sample.work_external), sample.energy_kinetic + initial);
+  return std::max(std::abs(sample.energies.external), sample.energies.kinetic + sample.energies.initial);
 }
 
 std::vector<Warning> collect_warnings(std::span<const Sample> samples) {
@@ -147,10 +144,10 @@ std::vector<Warning> collect_warnings(std::span<const Sample> samples) {
   }
   add_drift(
       samples, Warning::Kind::energy_drift, "The energy balance has an error of",
-      [](const Sample& sample) { return std::abs(sample.energy_residual); }, warnings);
+      [](const Sample& sample) { return std::abs(sample.energies.residual); }, warnings);
   add_drift(
       samples, Warning::Kind::contact_energy, "Contacts have created energy of",
-      [](const Sample& sample) { return -sample.energy_contact; }, warnings);
+      [](const Sample& sample) { return -sample.energies.contact; }, warnings);
   std::stable_sort(warnings.begin(), warnings.end(),
                    [](const Warning& a, const Warning& b) { return a.step < b.step; });
   return warnings;

@@ -1,10 +1,36 @@
 #include "parallel/workers.h"
 
+#include <hwy/cache_control.h>
+#include <unistd.h>
+
 #include <algorithm>
 
-#include "parallel/spin.h"
+#include "cellcrush/tuning.h"
 
 namespace cellcrush {
+namespace {
+
+/// Waits until the condition holds, for at most kSpinCount checks. Returns whether it holds.
+template <class Condition>
+bool spin_until(const Condition& holds) {
+  for (int check = 0; check < kSpinCount; ++check) {
+    if (holds()) {
+      return true;
+    }
+    hwy::Pause();
+  }
+  return false;
+}
+
+/// Waits until the condition holds; the thread yields in between.
+template <class Condition>
+void wait_until(const Condition& holds) {
+  while (!spin_until(holds)) {
+    std::this_thread::yield();
+  }
+}
+
+}  // namespace
 
 Workers::Workers(int count) : claimed_(static_cast<std::size_t>(count)) {
   for (std::size_t part = 1; part < claimed_.size(); ++part) {
@@ -104,6 +130,42 @@ void Workers::work(std::size_t part) {
       do_part(part);
     }
   }
+}
+
+std::size_t last_cache_bytes() {
+  static const std::size_t kBytes = [] {
+    constexpr std::size_t kMostOfOneProcess = std::size_t{32} << 20;
+    const long found = sysconf(_SC_LEVEL3_CACHE_SIZE);
+    return found > 0 ? std::min(static_cast<std::size_t>(found), kMostOfOneProcess) : kMostOfOneProcess;
+  }();
+  return kBytes;
+}
+
+Wavefront::Wavefront(std::size_t steps, std::size_t items, std::size_t lag, std::size_t at_once)
+    : items_(items), lag_(lag), at_once_(at_once), done_(steps) {
+  std::vector<std::size_t> first(steps, 0);  // the column in which each step begins
+  for (std::size_t step = 1; step < steps; ++step) {
+    const std::size_t room = step >= at_once ? first[step - at_once] + items : 0;
+    first[step] = std::max(first[step - 1] + lag, room);
+  }
+  tasks_.reserve(steps * items);
+  for (std::size_t column = 0; column < first.back() + items; ++column) {
+    for (std::size_t step = 0; step < steps && first[step] <= column; ++step) {
+      if (column - first[step] < items) {
+        tasks_.push_back({step, column - first[step]});
+      }
+    }
+  }
+}
+
+void Wavefront::wait_for(const Task& task) const {
+  const auto has_done = [&](std::size_t step, std::size_t items) {
+    return done_[step].load(std::memory_order_acquire) >= std::min(items, items_);
+  };
+  wait_until([&] {
+    return has_done(task.step, task.index) && (task.step == 0 || has_done(task.step - 1, task.index + lag_)) &&
+           (task.step < at_once_ || has_done(task.step - at_once_, items_));
+  });
 }
 
 }  // namespace cellcrush

@@ -3,7 +3,7 @@
 #include "cellcrush/fidelity.h"
 #include "cellcrush/simulation.h"
 #include "contact/topology/bands.h"
-#include "contact/topology/contact_faces.h"
+#include "contact/topology/face_loops.h"
 #include "contact/topology/wall_paths.h"
 #include "lattice/lattice.h"
 #include "scene/check_spec.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cellcrush/problem.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
 

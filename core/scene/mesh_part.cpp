@@ -11,7 +11,6 @@
 #include "scene/masses.h"
 #include "scene/mesh.h"
 #include "scene/time_step.h"
-#include "section/rule_factors.h"
 #include "section/section_rule.h"
 
 namespace cellcrush {

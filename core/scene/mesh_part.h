@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <memory>
 
-#include "cellcrush/problem.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
 #include "scene/time_step.h"

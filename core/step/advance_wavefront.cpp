@@ -9,8 +9,7 @@
 #include "contact/contact_search.h"
 #include "contact/contact_tiles.h"
 #include "contact/topology/bands.h"
-#include "parallel/cache_size.h"
-#include "parallel/wavefront.h"
+#include "parallel/workers.h"
 #include "step/execute_stages.h"
 
 namespace cellcrush {

@@ -20,7 +20,7 @@ std::int64_t steps_in_wavefront(std::int64_t steps);
 ///
 /// If every stage passes over the whole of a large lattice, the steps wait for memory. Here a band does its step
 /// (motion, walls, and the contacts of the band before). While its data is in the caches, the next step follows some
-/// bands behind (parallel/wavefront.h). This is possible because a band interacts with its neighbours only
+/// bands behind (parallel/workers.h). This is possible because a band interacts with its neighbours only
 /// (contact/topology/bands.h). Bands in progress are far enough apart for threads to do them side by side. Forces on a
 /// particle are added in the order of bands, whichever thread computes them. Sums over the lattice are recorded by
 /// chunk and step and added afterwards.

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/all_finite.h"
 #include "measure/warnings.h"
 #include "scene/check_spec.h"
 #include "scene/time_step.h"
@@ -81,7 +80,7 @@ double energy_at_yield(const Scene& scene) {
 }
 
 RunStatus check_energy(const Scene& scene, const State& state, const Sample& sample) {
-  if (!std::isfinite(sample.energy_residual)) {
+  if (!std::isfinite(sample.energies.residual)) {
     const auto lost = find_lost(scene, [&](std::size_t i) { return has_finite_forces(state, i); });
     return diverged(state, lost ? "The force on " + place_of(scene, *lost) + "," : "The energy");
   }
@@ -91,16 +90,16 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
   if (turnover <= 0.0 || turnover <= kRoundOff * energy_at_yield(scene)) {
     return {};
   }
-  if (std::abs(sample.energy_residual) > kLargestEnergyError * turnover) {
+  if (std::abs(sample.energies.residual) > kLargestEnergyError * turnover) {
     return {RunStatus::Kind::energy_balance,
-            "The energy balance has an error of " + percent_of(sample.energy_residual / turnover) +
+            "The energy balance has an error of " + percent_of(sample.energies.residual / turnover) +
                 " of the work done at " + moment_of(state.step, state.time) + ": the time integration is unstable" +
                 fastest_place(scene, state) + ".",
             "Use a shorter numerics.time_step_s."};
   }
-  if (-sample.energy_contact > kLargestEnergyError * turnover) {
+  if (-sample.energies.contact > kLargestEnergyError * turnover) {
     return {RunStatus::Kind::contact_energy,
-            "Contacts have created energy of " + percent_of(-sample.energy_contact / turnover) +
+            "Contacts have created energy of " + percent_of(-sample.energies.contact / turnover) +
                 " of the work done by " + moment_of(state.step, state.time) + ": walls already overlapped by " +
                 percent_of(state.contact_totals.deepest_birth) + " of their thickness when their contact was found" +
                 fastest_place(scene, state) + ".",

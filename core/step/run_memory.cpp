@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "cellcrush/scene_arrays.h"
+#include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
 #include "step/advance_step.h"

@@ -6,7 +6,7 @@
 #include "measure/theory.h"
 #include "scene/check_spec.h"
 #include "scene/time_step.h"
-#include "section/rule_factors.h"
+#include "section/section_rule.h"
 
 namespace cellcrush {
 namespace {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cellcrush/scene.h"
-#include "cellcrush/scene_arrays.h"
 #include "cellcrush/state.h"
 #include "measure/sampler.h"
 #include "step/advance_step.h"

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "beam/internal_forces.h"
-#include "beam/joint_forces.h"
 #include "contact/contact_forces.h"
 #include "contact/contact_search.h"
 #include "contact/contact_tiles.h"

@@ -4,7 +4,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/contact_sums.h"
+#include "contact/contact_workspace.h"
 #include "motion/integrate_motion.h"
 #include "motion/plate_motion.h"
 #include "touch/plate_forces.h"

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "beam/walls_workspace.h"
+#include "beam/internal_forces.h"
 #include "cellcrush/scene.h"
 #include "contact/contact_workspace.h"
 #include "parallel/workers.h"

@@ -2,7 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/contact_sums.h"
+#include "contact/contact_workspace.h"
 
 namespace cellcrush {
 

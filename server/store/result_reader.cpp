@@ -41,7 +41,7 @@ std::vector<v1::Sample> ResultReader::history() const {
   std::vector<v1::Sample> out;
   for (const auto& layout : history_columns()) {
     const std::string path = "history/" + layout.name;
-    if (layout.is_count && H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) == 0) continue;
+    if (!out.empty() && H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) == 0) continue;  // of an earlier version
     const auto values = column("history", layout.name.c_str(), layout.type());
     if (out.empty()) out.resize(values.size());
     if (out.size() != values.size()) throw damaged_result("the columns of its history differ in length");

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include "cellcrush/problem.h"
 #include "cellcrush/scene_spec.h"
 #include "cellcrush/v1/case.pb.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cellcrush/problem.h"
+#include "cellcrush/scene_spec.h"
 #include "cellcrush/v1/problem.pb.h"
 
 namespace cellcrush::translate {

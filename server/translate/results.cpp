@@ -90,7 +90,7 @@ v1::StageTimes to_proto(const std::array<double, kStageCount>& seconds) {
   return out;
 }
 
-// A term X_mj of the ledger is the sample's energy_X_mj or X_mj; only mass damping is a difference.
+// A term X_mj of the ledger is the sample's energy_X_mj or X_mj.
 v1::Ledger ledger_of(const Sample& sample) {
   v1::Ledger out;
   const auto set = setter_of(out);
@@ -99,7 +99,6 @@ v1::Ledger ledger_of(const Sample& sample) {
     if (name.starts_with(kEnergy)) name.remove_prefix(kEnergy.size());
     set(name, number, scale);
   });
-  out.set_mass_damping_mj(sample.energy_damping - sample.energy_contact_damping);
   return out;
 }
 
@@ -108,6 +107,7 @@ v1::Ledger ledger_of(const Sample& sample) {
 v1::Sample to_proto(const Sample& sample, const v1::Frame& frame) {
   v1::Sample out;
   visit_columns(sample, setter_of(out));
+  out.set_energy_damping_mj(sample.energy_damping());
   if (sample.front) *out.mutable_front() = to_proto(*sample.front);
   for (std::size_t i = 0; i < sample.watched.size(); ++i) {
     auto& watched = *out.add_watched();

@@ -15,7 +15,6 @@
 #include "bench/bench_program.h"
 #include "bench/machine.h"
 #include "bench/picture_file.h"
-#include "cellcrush/scene_arrays.h"
 #include "cellcrush/simd.h"
 #include "cellcrush/stage.h"
 #include "cellcrush/state.h"

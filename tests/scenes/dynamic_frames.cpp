@@ -124,7 +124,7 @@ std::pair<double, double> expect_parkes(const std::vector<Sample>& samples) {
   const double energy = 0.5 * StruckCantilever::kTipMass * StruckCantilever::kSpeed * StruckCantilever::kSpeed;
   EXPECT_NEAR(deflection, 1.0, 0.02);
   EXPECT_NEAR(duration, 1.0, 0.03);
-  EXPECT_NEAR(samples.back().energy_plastic / energy, 1.0, 0.01);
+  EXPECT_NEAR(samples.back().energies.plastic / energy, 1.0, 0.01);
   return {deflection, duration};
 }
 
@@ -145,7 +145,7 @@ std::pair<double, double> expect_steady_stretch(const std::vector<Sample>& sampl
   const double mean = windowed_mean(samples, stretch);
   EXPECT_NEAR(mean / lumped, 1.0, 1e-3);
   EXPECT_NEAR(mean / SpinningBar::kStretch, 1.0, 1e-3 + 1.0 / (n * n));
-  const auto total = [](const Sample& sample) { return sample.energy_kinetic + sample.energy_elastic; };
+  const auto total = [](const Sample& sample) { return sample.energies.kinetic + sample.energies.elastic; };
   double swing = 0.0;
   for (const Sample& sample : samples) {
     swing = std::max(swing, std::abs(total(sample) / total(samples.front()) - 1.0));

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "contact/contact_forces.h"
-#include "contact/contact_sums.h"
 #include "contact/contact_tiles.h"
-#include "contact/search/bucket_search.h"
+#include "contact/contact_workspace.h"
+#include "contact/search/pair_search.h"
 #include "contact/topology/bands.h"
 #include "contact/topology/face_loops.h"
 

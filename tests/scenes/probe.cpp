@@ -2,7 +2,7 @@
 
 #include "contact/contact_forces.h"
 #include "contact/contact_tiles.h"
-#include "contact/search/bucket_search.h"
+#include "contact/search/pair_search.h"
 #include "motion/initial_state.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "cellcrush/state.h"
-#include "measure/cells.h"
+#include "measure/crush_mode.h"
 #include "scenes/frames.h"
 
 namespace cellcrush::scenes {

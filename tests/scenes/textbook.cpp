@@ -45,7 +45,7 @@ std::vector<double> plastic_work_by_cycle(const std::vector<Sample>& samples, in
   std::vector<double> total(cycles, 0.0);
   for (const Sample& sample : samples) {
     const int cycle = std::min(cycles - 1, static_cast<int>(sample.time / period * (1.0 - 1e-12)));
-    total[cycle] = sample.energy_plastic;
+    total[cycle] = sample.energies.plastic;
   }
   for (int i = cycles - 1; i > 0; --i) {
     total[i] -= total[i - 1];
@@ -155,7 +155,7 @@ std::vector<ForceAt> force_curve(const std::vector<Sample>& samples, double Watc
     const double before = samples[i - 1].watched.front().*component;
     const double after = samples[i].watched.front().*component;
     curve.push_back(
-        {0.5 * (before + after), (samples[i].work_external - samples[i - 1].work_external) / (after - before)});
+        {0.5 * (before + after), (samples[i].energies.external - samples[i - 1].energies.external) / (after - before)});
   }
   return curve;
 }

@@ -129,14 +129,6 @@ TEST_F(ResultFileTest, HasTheAgreedDatasetsShapesAndTypes) {
   EXPECT_TRUE(is_type(file_.id(), "/frames/plastic_fraction", H5T_IEEE_F32LE));
 }
 
-TEST_F(ResultFileTest, EveryColumnOfTheHistoryIsOnThePageOfTheFormat) {
-  std::ifstream file(RESULT_FORMAT);
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
-  ASSERT_FALSE(page.empty());
-  for (const HistoryColumn& column : history_columns())
-    EXPECT_NE(page.find("| `/history/" + column.name + "` | S | "), std::string::npos) << column.name;
-}
-
 TEST_F(ResultFileTest, TheHistoryIsExtendibleAndCompressed) {
   const Hdf5Handle dataset(H5Dopen2(file_.id(), "/history/strain", H5P_DEFAULT), H5Dclose, "strain");
   const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose, "space");

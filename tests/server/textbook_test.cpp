@@ -31,10 +31,10 @@ class TextbookJobs : public DaemonFixture {
   static Sample sample_of(const v1::Sample& in) {
     Sample out;
     out.time = in.time_s();
-    out.energy_kinetic = in.energy_kinetic_mj();
-    out.energy_elastic = in.energy_elastic_mj();
-    out.energy_plastic = in.energy_plastic_mj();
-    out.work_external = in.work_external_mj();
+    out.energies.kinetic = in.energy_kinetic_mj();
+    out.energies.elastic = in.energy_elastic_mj();
+    out.energies.plastic = in.energy_plastic_mj();
+    out.energies.external = in.work_external_mj();
     for (const auto& node : in.watched()) {
       out.watched.push_back({node.ux_mm(), node.uy_mm(), node.rotation_rad(), node.reaction_x_n(), node.reaction_y_n(),
                              node.reaction_moment_n_mm()});

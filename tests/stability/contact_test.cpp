@@ -85,7 +85,7 @@ TEST(StartOverlap, WallsThatBeginInEachOtherFlyApartOnEnergyThatNobodyPut) {
   Simulation simulation(scene);
   simulation.advance(50);
   EXPECT_GT(simulation.state().velocity[2].y(), 1e3);
-  EXPECT_EQ(simulation.take_sample().work_external, 0.0);
+  EXPECT_EQ(simulation.take_sample().energies.external, 0.0);
 }
 
 // Beyond omega dt = 2 a resting contact throws what lies on it; up to there it keeps its energy for a million steps

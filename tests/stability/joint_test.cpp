@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "geometry/capsule.h"
+#include "contact/touch/force_laws.h"
 #include "scenes/frames.h"
 #include "scenes/probe.h"
 

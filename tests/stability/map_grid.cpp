@@ -57,11 +57,11 @@ Result crush(const std::string& lattice, const Point& point) {
   result.status = simulation.status().kind;
   result.deepest_penetration = samples.back().deepest_penetration;
   result.end_strain = samples.back().strain;
-  const double last = samples.back().work_external;
+  const double last = samples.back().energies.external;
   for (const Sample& sample : samples) {
-    if (sample.work_external > 0.01 * last) {
-      result.energy_error = std::max(result.energy_error, std::abs(sample.energy_residual) / turnover_of(sample));
-      result.contact_energy = std::max(result.contact_energy, -sample.energy_contact / turnover_of(sample));
+    if (sample.energies.external > 0.01 * last) {
+      result.energy_error = std::max(result.energy_error, std::abs(sample.energies.residual) / turnover_of(sample));
+      result.contact_energy = std::max(result.contact_energy, -sample.energies.contact / turnover_of(sample));
     }
   }
   if (result.status != RunStatus::Kind::finished) {

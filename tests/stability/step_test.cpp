@@ -216,7 +216,8 @@ TEST(CycleOfFourSteps, FeedsItselfBeyondAQuarterOfAPeriodInAStep) {
       const auto after = std::find_if(sound.samples.begin(), sound.samples.end(),
                                       [](const Sample& sample) { return sample.strain > 0.11; });
       ASSERT_NE(after, sound.samples.end());
-      EXPECT_NEAR(end.energy_residual, after->energy_residual, 0.002 * end.work_external) << elements << " " << share;
+      EXPECT_NEAR(end.energies.residual, after->energies.residual, 0.002 * end.energies.external)
+          << elements << " " << share;
     }
   }
 }
@@ -225,7 +226,7 @@ TEST(CycleOfFourSteps, FeedsItselfBeyondAQuarterOfAPeriodInAStep) {
 double most_made_by_contacts(const WatchedRun& run) {
   double most = 0.0;
   for (const Sample& sample : run.samples) {
-    most = std::max(most, -sample.energy_contact / sample.work_external);
+    most = std::max(most, -sample.energies.contact / sample.energies.external);
   }
   return most;
 }

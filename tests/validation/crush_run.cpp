@@ -78,19 +78,19 @@ double plate_force_difference(std::span<const Sample> samples) {
 double least_contact_work_share(std::span<const Sample> samples) {
   double least = 0.0;
   for (const Sample& sample : samples) {
-    if (sample.work_external > 0.0) {
-      least = std::min(least, sample.energy_contact / sample.work_external);
+    if (sample.energies.external > 0.0) {
+      least = std::min(least, sample.energies.contact / sample.energies.external);
     }
   }
   return least;
 }
 
 /// Greatest kinetic energy over another energy of the same moment, beyond a strain.
-double greatest_kinetic_share(std::span<const Sample> samples, double Sample::*energy, double from) {
+double greatest_kinetic_share(std::span<const Sample> samples, double Energies::*energy, double from) {
   double greatest = 0.0;
   for (const Sample& sample : samples) {
-    if (sample.strain > from && sample.*energy > 0.0) {
-      greatest = std::max(greatest, sample.energy_kinetic / (sample.*energy));
+    if (sample.strain > from && sample.energies.*energy > 0.0) {
+      greatest = std::max(greatest, sample.energies.kinetic / (sample.energies.*energy));
     }
   }
   return greatest;
@@ -135,9 +135,9 @@ CrushRun run_crush(const SceneSpec& spec, double until, const CrushWatch& watch)
   run.deepest_birth = simulation.state().contact_totals.deepest_birth;
   run.contact_work_share = least_contact_work_share(run.samples);
   run.plate_force_difference = plate_force_difference(run.samples);
-  run.kinetic_over_work = greatest_kinetic_share(run.samples, &Sample::work_external, kSettled);
-  run.kinetic_over_plastic = greatest_kinetic_share(run.samples, &Sample::energy_plastic, kSettled);
-  run.kinetic_over_plastic_flowing = greatest_kinetic_share(run.samples, &Sample::energy_plastic, kFlowing);
+  run.kinetic_over_work = greatest_kinetic_share(run.samples, &Energies::external, kSettled);
+  run.kinetic_over_plastic = greatest_kinetic_share(run.samples, &Energies::plastic, kSettled);
+  run.kinetic_over_plastic_flowing = greatest_kinetic_share(run.samples, &Energies::plastic, kFlowing);
   run.state_hash = scenes::hash_of(simulation.state());
   return run;
 }

@@ -10,24 +10,29 @@
 namespace cellcrush::validation {
 namespace {
 
-constexpr std::array<std::pair<const char*, double Sample::*>, 12> kColumns = {{
-    {"strain", &Sample::strain},
-    {"travel", &Sample::travel},
-    {"stress_impact", &Sample::stress_impact},
-    {"stress_support", &Sample::stress_support},
-    {"work_external", &Sample::work_external},
-    {"kinetic", &Sample::energy_kinetic},
-    {"elastic", &Sample::energy_elastic},
-    {"plastic", &Sample::energy_plastic},
-    {"contact", &Sample::energy_contact},
-    {"friction", &Sample::energy_friction},
-    {"damping", &Sample::energy_damping},
-    {"residual", &Sample::energy_residual},
+struct CurveColumn {
+  const char* name;
+  double& (*of)(Sample&);
+};
+
+constexpr std::array<CurveColumn, 12> kColumns = {{
+    {"strain", [](Sample& sample) -> double& { return sample.strain; }},
+    {"travel", [](Sample& sample) -> double& { return sample.travel; }},
+    {"stress_impact", [](Sample& sample) -> double& { return sample.stress_impact; }},
+    {"stress_support", [](Sample& sample) -> double& { return sample.stress_support; }},
+    {"work_external", [](Sample& sample) -> double& { return sample.energies.external; }},
+    {"kinetic", [](Sample& sample) -> double& { return sample.energies.kinetic; }},
+    {"elastic", [](Sample& sample) -> double& { return sample.energies.elastic; }},
+    {"plastic", [](Sample& sample) -> double& { return sample.energies.plastic; }},
+    {"contact", [](Sample& sample) -> double& { return sample.energies.contact; }},
+    {"friction", [](Sample& sample) -> double& { return sample.energies.friction; }},
+    {"damping", [](Sample& sample) -> double& { return sample.energies.mass_damping; }},  // of contacts and of masses
+    {"residual", [](Sample& sample) -> double& { return sample.energies.residual; }},
 }};
 
 std::string first_line() {
   std::string line;
-  for (const auto& [name, field] : kColumns) {
+  for (const auto& [name, of] : kColumns) {
     line += (line.empty() ? "" : ",") + std::string(name);
   }
   return line;
@@ -102,11 +107,12 @@ CurveFile::CurveFile(const std::string& file) : stream_(file) {
   }
 }
 
-void CurveFile::add(const Sample& sample) {
+void CurveFile::add(Sample sample) {
+  sample.energies.mass_damping += std::exchange(sample.energies.contact_damping, 0.0);
   const char* separator = "";
-  for (const auto& [name, field] : kColumns) {
+  for (const auto& [name, of] : kColumns) {
     char text[32];
-    std::snprintf(text, sizeof(text), "%s%.6g", std::exchange(separator, ","), sample.*field);
+    std::snprintf(text, sizeof(text), "%s%.6g", std::exchange(separator, ","), of(sample));
     stream_ << text;
   }
   stream_ << std::endl;
@@ -123,8 +129,8 @@ std::vector<Sample> read_curve(const std::string& file) {
   while (std::getline(stream, line) && !stream.eof()) {
     std::istringstream cells(line);
     Sample sample;
-    for (const auto& [name, field] : kColumns) {
-      cells >> sample.*field;
+    for (const auto& [name, of] : kColumns) {
+      cells >> of(sample);
       cells.ignore();
     }
     samples.push_back(sample);

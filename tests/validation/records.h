@@ -14,7 +14,7 @@ class CurveFile {
  public:
   /// Throws std::runtime_error when the file cannot be written.
   explicit CurveFile(const std::string& file);
-  void add(const Sample& sample);
+  void add(Sample sample);
 
  private:
   std::ofstream stream_;

@@ -26,7 +26,7 @@ std::vector<Sample> crush(double end) {
     sample.travel = 100.0 * strain;
     sample.stress_impact = strain > 0.28 && strain < 0.32 ? 3.0 : 2.0 + 100.0 * std::max(0.0, strain - 0.6);
     sample.stress_support = sample.stress_impact - 0.5;
-    sample.energy_residual = -0.25;
+    sample.energies.residual = -0.25;
     samples.push_back(sample);
   }
   return samples;
@@ -53,7 +53,7 @@ TEST_F(CurveFileTest, GivesBackWhatWasWritten) {
   EXPECT_NEAR(read[400].travel, written[400].travel, 1e-4);
   EXPECT_EQ(read[300].stress_impact, 3.0);
   EXPECT_EQ(read[300].stress_support, 2.5);
-  EXPECT_EQ(read[300].energy_residual, -0.25);
+  EXPECT_EQ(read[300].energies.residual, -0.25);
 }
 
 TEST_F(CurveFileTest, LeavesOutARowThatWasCutShort) {

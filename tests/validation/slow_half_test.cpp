@@ -81,7 +81,7 @@ TEST_P(SlowHalf, BeginsAsItsKeptCurve) {
     }
   }
   RecordProperty("worst_difference", std::to_string(worst));
-  EXPECT_NEAR(now.back().work_external / kept[now.size() - 1].work_external, 1.0, kWorkTolerance);
+  EXPECT_NEAR(now.back().energies.external / kept[now.size() - 1].energies.external, 1.0, kWorkTolerance);
   EXPECT_LT(run.summary.energy_error_relative, 0.01);
 }
 

@@ -1,12 +1,10 @@
-#include "contact/search/bucket_search.h"
-
 #include <algorithm>
 
 #include "contact/search/candidate_lists.h"
+#include "contact/search/pair_search.h"
 #include "contact/thickening.h"
-#include "geometry/all_finite.h"
+#include "contact/touch_geometry-inl.h"
 #include "geometry/bucket_grid.h"
-#include "geometry/capsule-inl.h"
 
 namespace cellcrush {
 namespace {

@@ -1,4 +1,4 @@
-#include "contact/search/face_kernels.h"
+#include "contact/search/face_pairs.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "contact/search/face_kernels.cpp"
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/capsule-inl.h"
+#include "contact/touch_geometry-inl.h"
 #include "simd/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -10,7 +10,6 @@
 #include <span>
 
 #include "contact/search/candidate_lists.h"
-#include "contact/search/face_kernels.h"
 #include "contact/thickening.h"
 #include "contact/topology/face_loops.h"
 #include "geometry/bucket_grid.h"

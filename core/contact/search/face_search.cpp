@@ -1,5 +1,3 @@
-#include "contact/search/face_search.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,8 +5,8 @@
 
 #include "cellcrush/tuning.h"
 #include "contact/search/candidate_lists.h"
-#include "contact/search/face_kernels.h"
 #include "contact/search/face_pairs.h"
+#include "contact/search/pair_search.h"
 #include "contact/thickening.h"
 
 namespace cellcrush {

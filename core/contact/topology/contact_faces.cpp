@@ -1,4 +1,3 @@
-#include "contact/topology/contact_faces.h"
 
 #include <algorithm>
 #include <cmath>

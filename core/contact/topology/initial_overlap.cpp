@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "contact/topology/wall_paths.h"
+#include "contact/touch/force_laws.h"
 #include "geometry/bucket_grid.h"
-#include "geometry/capsule.h"
 
 namespace cellcrush {
 namespace {

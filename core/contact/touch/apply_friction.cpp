@@ -6,7 +6,7 @@
 #include "contact/thickening.h"
 #include "contact/touch/contact_stages.h"
 #include "contact/touch/force_laws.h"
-#include "geometry/capsule-inl.h"
+#include "contact/touch_geometry-inl.h"
 
 namespace cellcrush {
 namespace {

@@ -16,7 +16,7 @@ namespace cellcrush {
 ///
 /// A candidate that touches is not tested: its pair is evaluated in every step. In a search by faces, a candidate that
 /// does not touch sleeps until its group has travelled so far that its gap can have closed (E8c,
-/// contact/search/face_search.h). In a search by buckets, all candidates that do not touch are tested.
+/// contact/search/pair_search.h). In a search by buckets, all candidates that do not touch are tested.
 void find_overlaps(const Scene& scene, const State& state, ContactLists& lists, ContactWorkspace& workspace,
                    Workers& workers);
 
@@ -36,9 +36,9 @@ void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists&
 void link_pairs_of_ball(const Scene& scene, TouchMemory& touching, int ball, int index);
 
 /// Overwrites the geometry of the pairs from `first` to `end` of ContactLists::touching (Eq. 41-42, E8,
-/// geometry/capsule.h), their unlimited viscous force (Eq. 43, E9) and the slip of their mid-lines. Updates the sides:
-/// a new pair, or a ball beyond an end of its segment, gets the side on which it is. Overwrites `released` by the pairs
-/// that no longer touch.
+/// contact/touch/force_laws.h), their unlimited viscous force (Eq. 43, E9) and the slip of their mid-lines. Updates the
+/// sides: a new pair, or a ball beyond an end of its segment, gets the side on which it is. Overwrites `released` by
+/// the pairs that no longer touch.
 void evaluate_touches(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t first,
                       std::size_t end, std::vector<int>& released);
 

@@ -6,8 +6,7 @@
 #include <hwy/highway.h>
 
 #include "contact/search/candidate_lists.h"
-#include "contact/touch/viscous_force-inl.h"
-#include "geometry/capsule-inl.h"
+#include "contact/touch_geometry-inl.h"
 #include "simd/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();

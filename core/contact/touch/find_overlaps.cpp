@@ -14,7 +14,7 @@
 
 #include "cellcrush/tuning.h"
 #include "contact/search/candidate_lists.h"
-#include "geometry/capsule-inl.h"
+#include "contact/touch_geometry-inl.h"
 #include "simd/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,7 +1,7 @@
 #include "contact/touch/force_laws.h"
 
 #include "cellcrush/vector.h"
-#include "contact/touch/viscous_force-inl.h"
+#include "contact/touch_geometry-inl.h"
 
 namespace cellcrush {
 namespace {
@@ -15,6 +15,12 @@ double length_of(const State& state, std::span<const int> elements) {
 }
 
 }  // namespace
+
+Projection project(const Vector2& point, const Vector2& start, const Vector2& axis, double length) {
+  const Vector2 from_start = point - start;
+  const auto foot = HWY_NAMESPACE::project_clamped(from_start.x(), from_start.y(), axis.x(), axis.y(), length);
+  return {foot.along, {foot.x, foot.y}};
+}
 
 NormalForce evaluate_normal_force(double stiffness, double damping_ratio, double inverse_mass, double depth,
                                   double rate) {

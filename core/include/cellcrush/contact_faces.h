@@ -43,7 +43,7 @@ struct BorderParticle {
   int last_band = 0;  ///< the last band that has elements at the particle
 };
 
-/// The faces into which the elements divide the plane, for the contact search (E8c, contact/search/face_search.h): the
+/// The faces into which the elements divide the plane, for the contact search (E8c, contact/search/pair_search.h): the
 /// cells and the outer border. E elements. Built by build_contact_faces; empty where contacts are searched by buckets.
 struct ContactFaces {
   /// Whether a search by faces finds every contact, and if not, why.

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "cellcrush/lane_vector.h"
 #include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
 
@@ -59,7 +58,7 @@ struct ContactLists {
   double searched_growth = 0.0;           ///< reach_growth when the list was made
   std::int64_t search_count = 0;
 
-  // Search by faces only (E8c, contact/search/face_search.h); empty where contacts are searched by buckets. F faces, S
+  // Search by faces only (E8c, contact/search/pair_search.h); empty where contacts are searched by buckets. F faces, S
   // corners and thick ends, G groups.
   std::vector<FaceList> face_list;              ///< F
   std::vector<double> face_clearance;           ///< F, mm by which gaps may close before an unlisted pair touches

@@ -24,22 +24,22 @@ struct Energies : Ledger {
 };
 
 struct LedgerTerm {
-  const char* name;
+  const char* name;  ///< of the column of the history, if it is one: a field of cellcrush.v1.Sample
   double Energies::*value;
   bool is_supplied;  ///< enters the residual with its own sign; otherwise with the opposite one
 };
 
-/// All terms of the balance, in the order in which the residual adds them.
+/// All terms of the balance, in the order in which the residual adds them. Samples and outputs follow this list.
 inline constexpr std::array kLedgerTerms = {
-    LedgerTerm{"external", &Energies::external, true},
-    LedgerTerm{"initial", &Energies::initial, true},
-    LedgerTerm{"kinetic", &Energies::kinetic, false},
-    LedgerTerm{"elastic", &Energies::elastic, false},
-    LedgerTerm{"plastic", &Energies::plastic, false},
-    LedgerTerm{"contact", &Energies::contact, false},
-    LedgerTerm{"contact_damping", &Energies::contact_damping, false},
-    LedgerTerm{"friction", &Energies::friction, false},
-    LedgerTerm{"mass_damping", &Energies::mass_damping, false},
+    LedgerTerm{"work_external_mj", &Energies::external, true},
+    LedgerTerm{"energy_initial_mj", &Energies::initial, true},
+    LedgerTerm{"energy_kinetic_mj", &Energies::kinetic, false},
+    LedgerTerm{"energy_elastic_mj", &Energies::elastic, false},
+    LedgerTerm{"energy_plastic_mj", &Energies::plastic, false},
+    LedgerTerm{"energy_contact_mj", &Energies::contact, false},
+    LedgerTerm{"energy_contact_damping_mj", &Energies::contact_damping, false},
+    LedgerTerm{"energy_friction_mj", &Energies::friction, false},
+    LedgerTerm{"energy_mass_damping_mj", &Energies::mass_damping, false},
 };
 static_assert(kLedgerTerms.size() + 1 == sizeof(Energies) / sizeof(double), "Every term but the residual is listed.");
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cellcrush/ledger.h"
+
 namespace cellcrush {
 
 /// Displacements and rotation of a watched particle from its undeformed position: mm, mm, rad. The reactions of its
@@ -38,7 +40,7 @@ enum class CrushMode {
   mixed,  ///< none of these
 };
 
-/// The jump across the front of a fast crush, from the motion of the cells; measure/front.h defines when there is one.
+/// The jump across the front of a fast crush, from the motion of the cells; measure/layers.h defines when there is one.
 struct Front {
   double position = 0.0;         ///< mm of the undeformed length, from the impact end
   double strain_behind = 0.0;    ///< nominal, mean from the impact end to the front
@@ -51,7 +53,7 @@ struct Front {
   double wall_fraction_behind = 0.0;
 };
 
-/// The layer across the crush that walls fill most (measure/densest_layer.h).
+/// The layer across the crush that walls fill most (measure/layers.h).
 struct DensestLayer {
   double solid_fraction = 0.0;  ///< length times thickness of the walls over the area of the layer
   double place = 0.0;           ///< mm of the undeformed length, from the impact end: mean of its metal
@@ -85,16 +87,8 @@ struct Sample {
   double strain = 0.0;         ///< travel over the undeformed length
   double stress_impact = 0.0;  ///< plate force over width times depth, compression positive
   double stress_support = 0.0;
-  double energy_kinetic = 0.0;
-  double energy_elastic = 0.0;
-  double energy_plastic = 0.0;
-  double energy_contact = 0.0;  ///< accumulated work against the elastic normal forces
-  double energy_friction = 0.0;
-  double energy_damping = 0.0;  ///< contact damping and mass damping
-  double work_external = 0.0;
-  double energy_residual = 0.0;         ///< work_external minus all energies
-  double energy_contact_stored = 0.0;   ///< elastic energy stored in contacts now (E8b)
-  double energy_contact_damping = 0.0;  ///< part of energy_damping due to contacts
+  Energies energies;
+  double energy_contact_stored = 0.0;  ///< elastic energy stored in contacts now (E8b); not a term of the balance
   /// Greatest of wall contacts since the start, divided by the thickness of the thinner wall.
   double deepest_penetration = 0.0;
   std::int64_t contact_count = 0;   ///< wall contacts closed now
@@ -107,6 +101,8 @@ struct Sample {
   std::vector<WatchedNode> watched;          ///< in the order of the frame's watched nodes
   std::vector<RigidWallSample> rigid_walls;  ///< in the order of the frame's rigid walls
   std::vector<Warning> warnings;             ///< of contacts, first seen at this sample
+
+  [[nodiscard]] double energy_damping() const { return energies.contact_damping + energies.mass_damping; }
 };
 
 /// Calls visit(name, number, scale) for each number of a front, in the order of the outputs: its name there, with the
@@ -124,7 +120,8 @@ void visit_columns_of_front(F& front, const Visitor& visit) {
 }
 
 /// The columns of the history, besides those of the front: calls visit(name, number, scale) as above. The names are
-/// those of the fields of cellcrush.v1.Sample, from which all outputs take theirs. `S`: Sample or const Sample.
+/// those of the fields of cellcrush.v1.Sample, from which all outputs take theirs; a term of the ledger without a field
+/// is in no output. `S`: Sample or const Sample.
 template <class S, class Visitor>
 void visit_columns(S& sample, const Visitor& visit) {
   visit("step", sample.step, 1.0);
@@ -133,16 +130,9 @@ void visit_columns(S& sample, const Visitor& visit) {
   visit("strain", sample.strain, 1.0);
   visit("stress_impact_mpa", sample.stress_impact, 1.0);
   visit("stress_support_mpa", sample.stress_support, 1.0);
-  visit("energy_kinetic_mj", sample.energy_kinetic, 1.0);
-  visit("energy_elastic_mj", sample.energy_elastic, 1.0);
-  visit("energy_plastic_mj", sample.energy_plastic, 1.0);
-  visit("energy_contact_mj", sample.energy_contact, 1.0);
-  visit("energy_friction_mj", sample.energy_friction, 1.0);
-  visit("energy_damping_mj", sample.energy_damping, 1.0);
-  visit("work_external_mj", sample.work_external, 1.0);
-  visit("energy_residual_mj", sample.energy_residual, 1.0);
+  for (const LedgerTerm& term : kLedgerTerms) visit(term.name, sample.energies.*term.value, 1.0);
+  visit("energy_residual_mj", sample.energies.residual, 1.0);
   visit("energy_contact_stored_mj", sample.energy_contact_stored, 1.0);
-  visit("energy_contact_damping_mj", sample.energy_contact_damping, 1.0);
   visit("deepest_penetration", sample.deepest_penetration, 1.0);
   visit("contact_count", sample.contact_count, 1.0);
   visit("solid_fraction", sample.solid_fraction, 1.0);

@@ -180,7 +180,7 @@ struct SectionSpec {
 
 struct ContactSpec {
   enum class Search {
-    faces,   ///< by the faces of the lattice, where these are enough (E8c, contact/topology/contact_faces.h)
+    faces,   ///< by the faces of the lattice, where these are enough (E8c, contact/topology/face_loops.h)
     buckets  ///< in space, as in the paper (section 4.1)
   };
   double friction = 0.0;
@@ -255,5 +255,15 @@ struct SceneSpec {
 
   bool operator==(const SceneSpec&) const = default;
 };
+
+/// One reason why a case cannot run: the field, its value, what is wrong and what to do.
+struct Problem {
+  std::string field;    ///< path in the case, such as "lattice.hexagon.side_mm"
+  std::string value;    ///< value found, as text; empty if the field is missing
+  std::string message;  ///< what is wrong, as a sentence
+  std::string remedy;   ///< what to do about it, as a sentence
+};
+
+using Problems = std::vector<Problem>;
 
 }  // namespace cellcrush

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "cellcrush/problem.h"
 #include "cellcrush/sample.h"
 #include "cellcrush/scene_spec.h"
 #include "cellcrush/stage.h"

@@ -4,7 +4,6 @@
 #include <deque>
 #include <memory>
 
-#include "cellcrush/problem.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
 

@@ -6,7 +6,6 @@
 
 #include "cellcrush/byte_stream.h"
 #include "cellcrush/contact_lists.h"
-#include "cellcrush/lane_vector.h"
 #include "cellcrush/ledger.h"
 #include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"

@@ -4,9 +4,9 @@
 #include <set>
 #include <sstream>
 
-#include "lattice/lattice.h"
-#include "lattice/wall_builder.h"
 #include "fields/field_checker.h"
+#include "lattice/lattice.h"
+#include "lattice/layout.h"
 
 // Regular hexagons with walls along y. Rows run along x, from the bottom up, and have `columns` and `columns - 1` cells
 // in turn.

@@ -1,5 +1,5 @@
 #include "lattice/lattice.h"
-#include "lattice/wall_builder.h"
+#include "lattice/layout.h"
 
 // Squares with walls along x and y.
 namespace cellcrush {

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include "lattice/lattice.h"
-#include "lattice/wall_builder.h"
+#include "lattice/layout.h"
 
 // Equilateral triangles with walls along x: `rows` rows between lines that have `columns + 1` and, shifted by half a
 // side, `columns` joints in turn.

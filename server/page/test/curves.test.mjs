@@ -28,6 +28,8 @@ test("the areas of the ledger add up to the work without the residual", () => {
   });
   const chart = energyChart([sample], strainAxis(0.8));
   assert.ok(Math.abs(chart.columns[1][0] - 0.099) < 1e-9); // J: the highest area comes first
+  assert.deepEqual(chart.series.map(({ label }) => label),
+                   ["contact damping", "contact", "elastic", "kinetic", "plastic", "work of the plates"]);
 });
 
 test("numbers have three significant digits, times a unit", () => {

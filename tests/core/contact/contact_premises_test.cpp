@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cellcrush/state.h"
-#include "contact/topology/contact_faces.h"
+#include "contact/topology/face_loops.h"
 #include "contact/topology/initial_overlap.h"
 #include "contact/topology/wall_paths.h"
 #include "scenes/frames.h"

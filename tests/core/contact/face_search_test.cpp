@@ -1,5 +1,3 @@
-#include "contact/search/face_search.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 
 #include "contact/contact_forces.h"
 #include "contact/contact_search.h"
-#include "contact/search/bucket_search.h"
+#include "contact/search/pair_search.h"
 #include "motion/initial_state.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"

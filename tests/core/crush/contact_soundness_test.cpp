@@ -7,7 +7,7 @@
 #include "cellcrush/state.h"
 #include "contact/contact_forces.h"
 #include "contact/contact_tiles.h"
-#include "contact/search/bucket_search.h"
+#include "contact/search/pair_search.h"
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
@@ -39,14 +39,14 @@ TEST_P(ContactSoundness, NoWallsCrossAndContactMakesNoEnergy) {
   scenes::watch(simulation, [&](const Sample& now) {
     sample = now;
     ASSERT_TRUE(scenes::find_crossings(*scene, simulation.state()).empty()) << "at strain " << sample.strain;
-    EXPECT_GE(sample.energy_contact, -0.005 * sample.work_external) << "at strain " << sample.strain;
-    EXPECT_GE(sample.energy_contact_damping, 0.0);
-    largest_work = std::max(largest_work, sample.work_external);
-    least_contact_energy = std::min(least_contact_energy, sample.energy_contact / largest_work);
+    EXPECT_GE(sample.energies.contact, -0.005 * sample.energies.external) << "at strain " << sample.strain;
+    EXPECT_GE(sample.energies.contact_damping, 0.0);
+    largest_work = std::max(largest_work, sample.energies.external);
+    least_contact_energy = std::min(least_contact_energy, sample.energies.contact / largest_work);
   });
   EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
   EXPECT_NEAR(sample.strain, 0.8, 1e-3);
-  EXPECT_LT(std::abs(sample.energy_residual), 0.01 * sample.work_external);
+  EXPECT_LT(std::abs(sample.energies.residual), 0.01 * sample.energies.external);
   scenes::record_bound("penetration over h", sample.deepest_penetration, 0.35);
   scenes::record_bound("penetration at first touch over h", simulation.state().contact_totals.deepest_birth, 0.12);
   scenes::record_bound("negative contact work in %", 100.0 * least_contact_energy);

@@ -45,7 +45,7 @@ void expect_sound_contact(const CountedCrush& crush) {
   // In the first samples the work is small, and a bounce of a few steps makes 0.5 % of it.
   for (const Sample& sample : crush.samples) {
     const double most = sample.strain < 0.003 ? 0.007 : 0.005;
-    EXPECT_GE(sample.energy_contact, -most * sample.work_external) << "at strain " << sample.strain;
+    EXPECT_GE(sample.energies.contact, -most * sample.energies.external) << "at strain " << sample.strain;
   }
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "measure/cells.h"
+#include "measure/crush_mode.h"
 #include "measure/crush_mode.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/cells.h"
-#include "measure/densest_layer.h"
-#include "measure/front.h"
+#include "measure/crush_mode.h"
+#include "measure/layers.h"
 #include "measure/theory.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"

@@ -74,9 +74,9 @@ class SummaryTest : public testing::Test {
       sample.strain = 0.001 * i;
       sample.stress_impact = 1.0;
       sample.stress_support = 1.0;
-      sample.energy_elastic = 10.0;
-      sample.energy_plastic = std::max(0.0, 1000.0 * (sample.strain - 0.02));
-      sample.energy_kinetic = 1.0;
+      sample.energies.elastic = 10.0;
+      sample.energies.plastic = std::max(0.0, 1000.0 * (sample.strain - 0.02));
+      sample.energies.kinetic = 1.0;
       samples.push_back(sample);
     }
     return samples;
@@ -104,9 +104,10 @@ TEST_F(SummaryTest, PlatesAreComparedByTheirMeansBeyondFivePercentOfStrain) {
 TEST_F(SummaryTest, LedgerErrorOfARunThatOnlyItsInitialEnergyDrivesIsRelativeToThat) {
   std::vector<Sample> samples(10);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].energy_kinetic = 100.0 - 10.0 * static_cast<double>(i);
-    samples[i].energy_plastic = 9.5 * static_cast<double>(i);
-    samples[i].energy_residual = 0.5 * static_cast<double>(i);  // of 100 at the start
+    samples[i].energies.initial = 100.0;
+    samples[i].energies.kinetic = 100.0 - 10.0 * static_cast<double>(i);
+    samples[i].energies.plastic = 9.5 * static_cast<double>(i);
+    samples[i].energies.residual = 0.5 * static_cast<double>(i);
   }
   EXPECT_NEAR(summarize(*scene_, samples).energy_error_relative, 4.5 / 110.0, 0.005);
 }
@@ -115,7 +116,7 @@ TEST_F(SummaryTest, KineticEnergyIsHeldAgainstPlasticWorkOnceThatOutweighsTheEla
   // At 5 % strain 30 of plastic work outweigh the 10 of elastic energy.
   EXPECT_NEAR(summarize(*scene_, steady_samples()).quasi_static->kinetic_share, 1.0 / 30.0, 1e-9);
   std::vector<Sample> springy = steady_samples();
-  for (Sample& sample : springy) sample.energy_elastic = 100.0;  // outweighed from 12 % strain on
+  for (Sample& sample : springy) sample.energies.elastic = 100.0;  // outweighed from 12 % strain on
   EXPECT_NEAR(summarize(*scene_, springy).quasi_static->kinetic_share, 1.0 / 101.0, 1e-4);
 }
 

@@ -61,7 +61,7 @@ TEST(PulledWall, PerfectlyPlasticBearsItsYieldForceWhateverItsMesh) {
     Simulation simulation(scenes::build(pulled_wall(elements, kElongation, 20000.0 * std::max(1, elements / 2))));
     simulation.advance(simulation.scene().schedule.step_count);
     const double force = force_on_start(simulation) / kYieldForce;
-    const double work = simulation.take_sample().energy_plastic / (kYieldForce * kElongation);
+    const double work = simulation.take_sample().energies.plastic / (kYieldForce * kElongation);
     EXPECT_NEAR(force, 1.0, 1e-3) << elements << " elements";
     EXPECT_NEAR(work, 1.0, 0.01) << elements << " elements";
     worst_force = std::max(worst_force, std::abs(force - 1.0));
@@ -112,8 +112,8 @@ double residual_of_cycle(const SectionSpec& section, int elements, double strain
   double residual = 0.0;
   double elastic = 0.0;
   const auto note = [&](const Sample& sample) {
-    residual = std::max(residual, std::abs(sample.energy_residual));
-    elastic = std::max(elastic, sample.energy_elastic);
+    residual = std::max(residual, std::abs(sample.energies.residual));
+    elastic = std::max(elastic, sample.energies.elastic);
   };
   scenes::watch(simulation, note, 200);
   EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
@@ -141,7 +141,7 @@ double residual_of_hardening_wall(double steps) {
   Simulation simulation(scenes::build(pulled_wall(2, 0.05 * kSide, steps, kModulus / 9.0)));
   simulation.advance(simulation.scene().schedule.step_count);
   const Sample sample = simulation.take_sample();
-  return std::abs(sample.energy_residual) / sample.work_external;
+  return std::abs(sample.energies.residual) / sample.energies.external;
 }
 
 // With the plastic work at the returned stress alone: 0.21 % and 0.06 %, of order 1.
@@ -211,8 +211,8 @@ Squash squash(SectionSpec::AreaRule rule, double share) {
     }
   };
   scenes::watch(simulation, note, 2);
-  result.plastic = sample.energy_plastic;
-  result.residual = sample.energy_residual / sample.work_external;
+  result.plastic = sample.energies.plastic;
+  result.residual = sample.energies.residual / sample.energies.external;
   return result;
 }
 

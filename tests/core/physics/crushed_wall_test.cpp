@@ -53,7 +53,7 @@ double work_at(const std::vector<Sample>& samples, double strain) {
                                       [&](const Sample& sample, double at) { return strain_of(sample) < at; });
   const auto before = after - 1;
   const double share = (strain - strain_of(*before)) / (strain_of(*after) - strain_of(*before));
-  return before->work_external + share * (after->work_external - before->work_external);
+  return before->energies.external + share * (after->energies.external - before->energies.external);
 }
 
 /// Nominal stress in MPa at a strain, the slope of the work over 0.002 of strain.

@@ -233,7 +233,7 @@ TEST(StruckBeam, WithSlidingEndsComesToRestWhereAndWhenParkesHasIt) {
     const double time = mass * speed * kHalf / (2.0 * kFullMoment);
     const std::vector<Sample> samples = scenes::run_frame(struck(ratio, speed, false, 3.0 * time));
     const scenes::Rest rest = scenes::rest_of(samples);
-    EXPECT_NEAR(samples.back().energy_plastic / (mass * speed * speed), 1.0, 0.01) << ratio;
+    EXPECT_NEAR(samples.back().energies.plastic / (mass * speed * speed), 1.0, 0.01) << ratio;
     const std::string name = ratio == 5.0 ? "mass of five beams: " : "mass of twenty beams: ";
     scenes::record_figure(name + "deflection", rest.deflection / kDeflection, 4, {1.0, 0.02});
     scenes::record_figure(name + "time", rest.time / time, 3, {1.0, 0.025});
@@ -253,7 +253,7 @@ TEST(StruckBeam, HeldAlongItsAxisComesToRestWhereMembraneForcesStopIt) {
     const std::vector<Sample> samples = scenes::run_frame(struck(ratio, speed, true, 2.0 * time));
     const scenes::Rest rest = scenes::rest_of(samples);
     const double deflection = rest.deflection / (share * kThickness);
-    EXPECT_NEAR(samples.back().energy_plastic / work, 1.0, 0.01) << share;
+    EXPECT_NEAR(samples.back().energies.plastic / work, 1.0, 0.01) << share;
     scenes::record_figure(share == 1.0 ? "a thickness" : "two thicknesses", deflection, 4, {1.0, 0.02});
   }
 }

@@ -171,8 +171,8 @@ TEST(Friction, PlatesHoldTheEndsOfALatticeThatSpreads) {
     const auto scene = scenes::build(spec);
     Simulation simulation(scene);
     const Sample sample = scenes::run_to_end(simulation).back();
-    EXPECT_EQ(sample.energy_friction > 0.0, friction > 0.0);
-    EXPECT_LT(std::abs(sample.energy_residual), 0.01 * sample.work_external);
+    EXPECT_EQ(sample.energies.friction > 0.0, friction > 0.0);
+    EXPECT_LT(std::abs(sample.energies.residual), 0.01 * sample.energies.external);
     double left = 1e9;
     double right = -1e9;
     for (std::size_t i = 0; i < scene->particle_count(); ++i) {

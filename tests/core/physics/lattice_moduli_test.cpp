@@ -181,7 +181,7 @@ using StrainedCell = SceneSpec (*)(double thickness, double strain_x, double str
 /// Modulus along y of a cell of which the elastic energy under three even strains is known.
 double modulus_from_energy(StrainedCell cell, double thickness, double area) {
   const auto stiffness = [&](double x, double y) {
-    return 2.0 * scenes::run_frame(cell(thickness, kStrain * x, kStrain * y)).back().energy_elastic /
+    return 2.0 * scenes::run_frame(cell(thickness, kStrain * x, kStrain * y)).back().energies.elastic /
            (area * kStrain * kStrain);
   };
   const double along_x = stiffness(1.0, 0.0);
@@ -218,7 +218,7 @@ TEST(LatticeModuli, HexagonSpecimenWithFreeSidesApproachesTheLatticeAsOneOverIts
   for (const int columns : {4, 8, 16}) {
     const auto samples = scenes::run_frame(strained_hexagon_strip(kRatio * kSide, columns, kStrain));
     const double area = 1.5 * kSide * kSqrt3 * kSide * columns;
-    const double modulus = 2.0 * samples.back().energy_elastic / (area * kStrain * kStrain);
+    const double modulus = 2.0 * samples.back().energies.elastic / (area * kStrain * kStrain);
     shortfall.push_back(1.0 - modulus / hexagon_modulus(kRatio));
   }
   for (std::size_t i = 1; i < shortfall.size(); ++i) {
@@ -236,7 +236,7 @@ double collapse_ratio(int elements, const SectionSpec& section, double strain) {
   const auto samples = scenes::run_frame(crushed_hexagon(thickness, kYieldStress, 1.1 * strain, elements, section));
   const auto at = samples.size() * 10 / 11;
   const double way = samples[at + 5].watched.front().uy - samples[at - 5].watched.front().uy;
-  const double force = (samples[at + 5].work_external - samples[at - 5].work_external) / way;
+  const double force = (samples[at + 5].energies.external - samples[at - 5].energies.external) / way;
   const double angle = std::asin(0.5 + samples[at].watched.front().uy / (0.5 * kSide));
   const double collapse = 2.0 / 3.0 * kYieldStress * kRatio * kRatio;
   const double exact = collapse * std::cos(std::numbers::pi / 6.0) / std::cos(angle);

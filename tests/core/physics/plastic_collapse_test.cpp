@@ -242,7 +242,7 @@ TEST(CrushedRing, IsAtRestUntilAWallReachesIt) {
   const std::vector<Sample> samples = scenes::run_frame(spec);
   EXPECT_GT(samples.back().step, 100);
   for (const Sample& sample : samples) {
-    EXPECT_LT(sample.energy_kinetic + sample.energy_elastic, 1e-18);
+    EXPECT_LT(sample.energies.kinetic + sample.energies.elastic, 1e-18);
     EXPECT_EQ(sample.rigid_walls.at(1).normal_force, 0.0);
   }
 }
@@ -324,7 +324,7 @@ double collapse(Mechanism mechanism, double dead_load, double way) {
   const Sample& before = samples[samples.size() * 4 / 5];
   const double moved_by = last.watched[0].*moved - before.watched[0].*moved;
   const double dead_work = dead * (last.watched[1].*loaded - before.watched[1].*loaded);
-  const double load = (last.work_external - before.work_external - dead_work) / moved_by;
+  const double load = (last.energies.external - before.energies.external - dead_work) / moved_by;
   const double middle = 0.5 * (last.watched[0].*moved + before.watched[0].*moved);
   const double ratio = std::abs(load) / collapse_load(mechanism, middle, dead_load);
   // The theory knows no axial force. Members here bear n up to 0.05 of their yield force, and the interaction of the 6

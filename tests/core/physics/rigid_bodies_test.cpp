@@ -70,7 +70,7 @@ TEST(RigidBodies, KeepTheirShapeTheLedgerAndTheMomentum) {
     }
     EXPECT_LT(worst, 1e-9) << kernel;
     EXPECT_GT((run.state.rigid_centre[0] - rigid.centre[0]).norm(), 1.0) << kernel;
-    EXPECT_LT(std::abs(run.last.energy_residual), 0.01 * run.last.work_external) << kernel;
+    EXPECT_LT(std::abs(run.last.energies.residual), 0.01 * run.last.energies.external) << kernel;
     const Vector2 momentum = scenes::momentum_of(*run.scene, run.state).linear;
     const double impulse = run.state.impact_impulse - run.state.support_impulse;
     EXPECT_NEAR(momentum.y(), impulse, 1e-2 * run.state.impact_impulse) << kernel;
@@ -81,7 +81,7 @@ TEST(RigidBodies, KeepTheirShapeTheLedgerAndTheMomentum) {
 TEST(RigidBodies, CrushLikeStiffBeams) {
   const Crush rigid = crush(specimen_with_inclusions(Inclusions::Model::rigid), 0.15);
   const Crush meshed = crush(specimen_with_inclusions(Inclusions::Model::meshed), 0.15);
-  EXPECT_NEAR(rigid.last.work_external, meshed.last.work_external, 0.02 * meshed.last.work_external);
+  EXPECT_NEAR(rigid.last.energies.external, meshed.last.energies.external, 0.02 * meshed.last.energies.external);
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "cellcrush/spec_checker.h"
+#include "fields/field_checker.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
@@ -39,6 +41,18 @@ Problems problems_with(const std::function<void(SceneSpec&)>& change) {
   SceneSpec spec = scenes::hexagon_specimen(20, 7);
   change(spec);
   return build_scene(spec).problems;
+}
+
+TEST(FieldChecker, AFieldWithoutLimitsIsAMistakeThatNamesIt) {
+  FieldChecker check;
+  EXPECT_TRUE(check.within_limits("lattice.frame.nodes[3].x_mm", 1.0));
+  EXPECT_THROW(FieldChecker::greatest_of("zzz"), std::logic_error);
+  try {
+    check.within_limits("lattice.hexagon.rims[2].width_mm", 1.0);
+    FAIL() << "was checked";
+  } catch (const std::logic_error& error) {
+    EXPECT_NE(std::string(error.what()).find("lattice.hexagon.rims.width_mm"), std::string::npos) << error.what();
+  }
 }
 
 TEST(CheckSpec, EveryPresetIsSoundAndPlausible) {

@@ -105,10 +105,10 @@ TEST(ContactLaw, OverdampedContactIsSoundAtTheChosenStep) {
   simulation.advance(scene->schedule.step_count);
   const Sample sample = simulation.take_sample();
   EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished);
-  EXPECT_GT(sample.energy_contact, 0.0);
-  EXPECT_GT(sample.energy_contact_damping, 0.0);
+  EXPECT_GT(sample.energies.contact, 0.0);
+  EXPECT_GT(sample.energies.contact_damping, 0.0);
   EXPECT_LT(sample.deepest_penetration, 0.1);
-  EXPECT_LT(std::abs(sample.energy_residual), 0.01 * sample.work_external);
+  EXPECT_LT(std::abs(sample.energies.residual), 0.01 * sample.energies.external);
 }
 
 }  // namespace

@@ -195,7 +195,7 @@ TEST(Lattices, BowedWallsAreHalfSineWavesWithinTheBowAndStrangersToTheJoints) {
 /// Highest impact stress up to 1 % strain, at which straight walls buckle.
 double first_peak_of_squares(double bow) {
   Simulation simulation(scenes::build(crushed_squares({0.001, 1, bow})));
-  EXPECT_NEAR(simulation.take_sample().energy_elastic, 0.0, 1e-20) << "walls have no stress in the bowed shape";
+  EXPECT_NEAR(simulation.take_sample().energies.elastic, 0.0, 1e-20) << "walls have no stress in the bowed shape";
   double peak = 0.0;
   scenes::watch(
       simulation, [&](const Sample& sample) { peak = std::max(peak, sample.stress_impact); }, 50);

@@ -1,4 +1,3 @@
-#include "section/quadrature.h"
 
 #include <gtest/gtest.h>
 

@@ -1,19 +1,26 @@
 // The energy ledger as stacked areas: what became of the work of the plates.
-import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
+import { getOption, hasOption } from "@bufbuild/protobuf";
+import { term } from "../../gen/cellcrush/v1/field_pb";
+import { SampleSchema, type Sample } from "../../gen/cellcrush/v1/sample_pb";
 import type { ChartData, Series } from "./chart_data";
 import { finite, thin, type Axis } from "./curves";
 
 interface Term { label: string; colour: string; value(sample: Sample): number }
 
-const kTerms: Term[] = [
-  { label: "plastic", colour: "energy-plastic", value: (s) => s.energyPlasticMj },
-  { label: "kinetic", colour: "energy-kinetic", value: (s) => s.energyKineticMj },
-  { label: "elastic", colour: "energy-elastic", value: (s) => s.energyElasticMj },
-  { label: "contact", colour: "energy-contact", value: (s) => s.energyContactMj },
-  { label: "contact damping", colour: "energy-damping", value: (s) => s.energyContactDampingMj },
-  { label: "mass damping", colour: "energy-mass", value: (s) => s.energyDampingMj - s.energyContactDampingMj },
-  { label: "friction", colour: "energy-friction", value: (s) => s.energyFrictionMj },
-];
+const kColours = 8; // --energy-1 and on
+const valueOf = (sample: Sample, localName: string): number =>
+  Number((sample as unknown as Record<string, unknown>)[localName]);
+
+// The numbers of a sample that have the option `term`, the lowest area first.
+const kTerms: Term[] = SampleSchema.fields.filter((field) => hasOption(field, term))
+  .map((field) => ({ field, of: getOption(field, term) })).sort((a, b) => a.of.place - b.of.place)
+  .map(({ field, of }) => {
+    const part = SampleSchema.fields.find(({ name }) => name === of.without);
+    return {
+      label: of.label, colour: `energy-${(of.place - 1) % kColours + 1}`,
+      value: (sample) => valueOf(sample, field.localName) - (part ? valueOf(sample, part.localName) : 0),
+    };
+  });
 const kVisibleShare = 0.002; // a term that stays below this part of the work is left out
 const kMostPoints = 1500;
 

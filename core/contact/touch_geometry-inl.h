@@ -1,19 +1,20 @@
 // Included once for each target; see Highway's documentation of foreach_target.h.
-#if defined(CELLCRUSH_GEOMETRY_CAPSULE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CELLCRUSH_GEOMETRY_CAPSULE_INL_H_
-#undef CELLCRUSH_GEOMETRY_CAPSULE_INL_H_
+#if defined(CELLCRUSH_CONTACT_TOUCH_GEOMETRY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_CONTACT_TOUCH_GEOMETRY_INL_H_
+#undef CELLCRUSH_CONTACT_TOUCH_GEOMETRY_INL_H_
 #else
-#define CELLCRUSH_GEOMETRY_CAPSULE_INL_H_
+#define CELLCRUSH_CONTACT_TOUCH_GEOMETRY_INL_H_
 #endif
 
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// See geometry/capsule.h.
+/// See Projection of contact/touch/force_laws.h.
 template <class Number>
 struct Offset {
   Number along;  ///< mm from the segment's start to the foot, 0 to length
@@ -39,7 +40,15 @@ HWY_INLINE Number share_of_end(Number share) {
   return share * share * (Number(3.0) - Number(2.0) * share);
 }
 
+/// Viscous force c dD/dt of a contact that deepens at `rate` (mm/s): c = 2 damping_ratio sqrt(k m), with the effective
+/// mass m = 1 / inverse_mass (Eq. 43, E9). For one contact, or for one per lane.
+template <class Number>
+HWY_INLINE Number viscous_force(double stiffness, double damping_ratio, Number inverse_mass, Number rate) {
+  using std::sqrt;
+  return 2.0 * damping_ratio * sqrt(stiffness / inverse_mass) * rate;
+}
+
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // CELLCRUSH_GEOMETRY_CAPSULE_INL_H_
+#endif  // CELLCRUSH_CONTACT_TOUCH_GEOMETRY_INL_H_
