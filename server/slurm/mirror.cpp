@@ -36,7 +36,7 @@ bool Mirror::pass() {
   if (checkpoint_version && checkpoint_version != checkpoint_) checkpoint = read_small_file(from_.checkpoint());
   if (!version_of(from_.reports())) return false;
   // Opened at each pass: NFS looks for what other machines wrote when a file is opened.
-  worker::ReportLogReader reader(from_.reports());
+  store::ReportLogReader reader(from_.reports());
   reader.start_at(offset_);
   for (bool more = true; more;) {
     std::string records;

@@ -12,6 +12,7 @@
 #include "load/job_runs.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
+#include "server/sample_writer.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 #include "store/journal.h"
@@ -58,6 +59,7 @@ void measure_journal(Rounds& rounds) {
   const double together = seconds_since(start) / kJobs;
   rounds["change_s"].push_back(together);
   rounds["commit_s"].push_back(std::max(alone - together, 0.0));
+  testing::SampleWriter reported(folder.path());
   v1::Sample sample;
   for (const std::int64_t job : running) {
     for (int i = 0; i < kSamples; ++i) {
@@ -74,7 +76,7 @@ void measure_journal(Rounds& rounds) {
       sample.set_energy_residual_mj(1e-3 * i);
       sample.set_deepest_penetration(1e-4 * i);
       sample.set_contact_count(i);
-      journal.append_sample(job, sample);
+      reported.add(journal, job, sample);
     }
   }
   start = Clock::now();

@@ -31,7 +31,7 @@ TEST_F(ChangeReaderTest, EveryChangeOfAJobOrSweepIsNotedInTheOrderOfTheCommits) 
   const auto sweep = journal_->create_sweep({}, {member, member}, "", "");
   v1::Sample sample;
   sample.set_step(1);
-  journal_->append_sample(first, sample);
+  add_sample(first, sample);
   journal_->commit_samples();
   change(first, v1::Job::FAILED);
   journal_->delete_job(first);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "error.h"
+#include "server/sample_writer.h"
 #include "server/temporary_folder.h"
 #include "store/change_reader.h"
 #include "store/journal.h"
@@ -26,7 +27,7 @@ class RecentEventsTest : public ::testing::Test {
     for (int i = 0; i < count; ++i) {
       v1::Sample sample;
       sample.set_step(step_++);
-      journal_.append_sample(job_, sample);
+      reported_.add(journal_, job_, sample);
     }
     journal_.commit_samples();
   }
@@ -51,6 +52,7 @@ class RecentEventsTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
+  testing::SampleWriter reported_{folder_.path()};
   Hub hub_;
   store::Journal journal_{folder_.path() / "journal.sqlite", [this](std::int64_t job) { hub_.announce(job); }};
   store::JournalReader reader_{folder_.path() / "journal.sqlite"};
@@ -93,6 +95,7 @@ TEST_F(RecentEventsTest, ALateWatcherGetsNoSampleFromBeforeTheJobBeganAgain) {
   add_samples(10);
   EXPECT_EQ(numbers_after(0), range(1, 12));
   journal_.begin_again(job_, "Restarted.");
+  reported_.discard(job_);
   EXPECT_EQ(numbers_after(0), (std::vector<std::int64_t>{1, 2, 13}));
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "error.h"
+#include "server/sample_writer.h"
 #include "server/temporary_folder.h"
 #include "store/journal.h"
 
@@ -28,7 +29,7 @@ class SweepSourceTest : public ::testing::Test {
     for (int i = 0; i < samples; ++i) {
       v1::Sample sample;
       sample.set_step(i);
-      journal_.append_sample(job, sample);
+      reported_.add(journal_, job, sample);
     }
     change(job, v1::Job::SUCCEEDED);
   }
@@ -42,6 +43,7 @@ class SweepSourceTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
+  testing::SampleWriter reported_{folder_.path()};
   Hub hub_;
   store::Journal journal_{folder_.path() / "journal.sqlite", [this](std::int64_t job) { hub_.announce(job); }};
   store::JournalReader reader_{folder_.path() / "journal.sqlite"};

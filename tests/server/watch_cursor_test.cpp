@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "error.h"
+#include "server/sample_writer.h"
 #include "server/temporary_folder.h"
 #include "store/journal.h"
 #include "watch/frame_chunks.h"
@@ -26,7 +27,7 @@ class WatchCursorTest : public ::testing::Test {
     for (int i = 0; i < count; ++i) {
       v1::Sample sample;
       sample.set_step(step_++);
-      journal_.append_sample(job_, sample);
+      reported_.add(journal_, job_, sample);
     }
   }
 
@@ -38,6 +39,7 @@ class WatchCursorTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
+  testing::SampleWriter reported_{folder_.path()};
   Hub hub_;
   store::Journal journal_{folder_.path() / "journal.sqlite", [this](std::int64_t job) { hub_.announce(job); }};
   store::JournalReader reader_{folder_.path() / "journal.sqlite"};

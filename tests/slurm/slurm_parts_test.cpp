@@ -18,7 +18,7 @@
 #include "slurm/scratch_folder.h"
 #include "slurm/shared_folder.h"
 #include "slurm/small_file.h"
-#include "worker/report_log.h"
+#include "store/report_log.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -231,11 +231,11 @@ TEST(ReportLogReader, TakesAHoleForNothing) {
   const testing::TemporaryFolder temporary;
   const fs::path path = temporary.path() / "reports";
   std::ofstream(path, std::ios::binary) << std::string(4096, '\0');
-  worker::ReportLogReader reader(path);
+  store::ReportLogReader reader(path);
   std::string records;
   EXPECT_FALSE(reader.read_record(records));
   worker::Report report;
-  EXPECT_EQ(reader.read(report), worker::ReportLogReader::Read::end);
+  EXPECT_EQ(reader.read(report), store::ReportLogReader::Read::end);
 }
 
 class MirrorTest : public ::testing::Test {
@@ -262,7 +262,7 @@ class MirrorTest : public ::testing::Test {
 TEST_F(MirrorTest, CopiesWholeReportsOnly) {
   Mirror mirror(from_, sink_, 0);
   EXPECT_FALSE(mirror.pass());
-  worker::ReportLog log(from_.reports());
+  store::ReportLog log(from_.reports());
   log.append(progress(1));
   EXPECT_TRUE(mirror.pass());
   const std::string first = content(from_.reports());
@@ -285,7 +285,7 @@ TEST_F(MirrorTest, PutsTheResultBeforeTheReportThatAnnouncesItAndACheckpointAfte
     void put_result(const fs::path&) override { calls.emplace_back("result"); }
   } recorder;
   Mirror mirror(from_, recorder, 0);
-  worker::ReportLog log(from_.reports());
+  store::ReportLog log(from_.reports());
   log.append(progress(1));
   write_small_file(from_.checkpoint(), "checkpoint 1");
   write_small_file(from_.result(), "result");
@@ -300,7 +300,7 @@ TEST_F(MirrorTest, PutsTheResultBeforeTheReportThatAnnouncesItAndACheckpointAfte
 }
 
 TEST_F(MirrorTest, RepeatsWhatFailed) {
-  worker::ReportLog log(from_.reports());
+  store::ReportLog log(from_.reports());
   log.append(progress(1));
   const FolderSink nowhere(store::JobFolder(temporary_.path() / "absent"));
   FolderSink failing = nowhere;
