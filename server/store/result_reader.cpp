@@ -54,13 +54,15 @@ std::vector<v1::Sample> ResultReader::history(std::int64_t first, std::int64_t c
     if (out.size() != values.size()) throw damaged_result("the columns of its history differ in length");
     for (std::size_t i = 0; i < values.size(); ++i) layout.set(out[i], values[i]);
   }
+  const auto has = [this](const char* group) { return H5Lexists(file_.id(), group, H5P_DEFAULT) > 0; };
+  if (out.empty() || (!has("nodes") && !has("rigid_walls"))) return out;
+  // In the order of the case, as the groups of the file have none.
   v1::Case submitted;
   google::protobuf::util::JsonParseOptions options;
   options.ignore_unknown_fields = true;
-  // In the order of the case, as the groups of the file have none.
   if (!google::protobuf::util::JsonStringToMessage(text_attribute("case"), &submitted, options).ok())
     throw damaged_result("its case cannot be read");
-  if (!out.empty()) read_parts(file_.id(), submitted.lattice().frame(), from, out);
+  read_parts(file_.id(), submitted.lattice().frame(), from, out);
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "server/small_case.h"
 #include "server/watch_contract.h"
 #include "store/journal_reader.h"
+#include "store/report_log.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 
 class CorruptRowTest : public FaultFixture {
  protected:
@@ -63,13 +63,12 @@ class CorruptRowTest : public FaultFixture {
     return watched.status;
   }
 
-  // Changes a bit in the middle of a file.
-  void flip(const std::string& name) const {
+  // Changes a bit of a file.
+  void flip(const std::string& name, std::uint64_t offset) const {
     std::fstream file(data_folder() / name, std::ios::binary | std::ios::in | std::ios::out);
-    const auto middle = static_cast<std::streamoff>(std::filesystem::file_size(data_folder() / name) / 2);
-    file.seekg(middle);
+    file.seekg(static_cast<std::streamoff>(offset));
     const int byte = file.get();
-    file.seekp(middle);
+    file.seekp(static_cast<std::streamoff>(offset));
     file.put(static_cast<char>(byte ^ 1));
   }
 
@@ -132,7 +131,7 @@ TEST_F(CorruptRowTest, AResultThatCannotBeReadCostsOnlyItsSamples) {
     for (const auto& name : {job, next}) EXPECT_TRUE(client.wait_for_state(name, v1::Job::SUCCEEDED));
   }
   stop_daemon();
-  flip(job + "/result.h5");
+  flip(job + "/result.h5", std::filesystem::file_size(data_folder() / job / "result.h5") / 2);
   start_daemon(arguments_);
   auto client = this->client();
   EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED);
@@ -162,12 +161,17 @@ TEST_F(CorruptRowTest, AReportThatCannotBeReadEndsTheJobWhichKeepsTheSamplesBefo
     kill_daemon();
     kill(worker, SIGKILL);
   }
-  flip(job + "/reports");
+  {
+    store::ReportLogReader reports(data_folder() / job / "reports");
+    v1::Sample sample;
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(reports.read_sample(sample), store::ReportLogReader::Read::message);
+    flip(job + "/reports", reports.offset() - 1);
+  }
   start_daemon(arguments_);
   auto client = this->client();
   EXPECT_TRUE(client.wait_for_state(job, v1::Job::FAILED));
   grpc::Status history;
-  EXPECT_THAT(client.history(job, history), Not(IsEmpty()));
+  EXPECT_EQ(client.history(job, history).size(), 4U);
   EXPECT_EQ(history.error_code(), grpc::StatusCode::DATA_LOSS);
   const std::string next = client.create(tiny_case());
   EXPECT_TRUE(client.wait_for_state(next, v1::Job::SUCCEEDED));

@@ -154,8 +154,8 @@ TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
   std::size_t sample_count = 0;
   {
     auto client = this->client();
-    for (int i = 0; i < 2; ++i) ASSERT_TRUE(client.wait_for_state(client.create(small_case()), v1::Job::SUCCEEDED));
-    sample_count = client.history("jobs/2").size();
+    for (int i = 0; i < 9; ++i) ASSERT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::Job::SUCCEEDED));
+    sample_count = client.history("jobs/9").size();
   }
   stop_daemon();
   std::int64_t page = 0;
@@ -177,7 +177,7 @@ TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS) << status.error_message();
   EXPECT_THAT(status.error_message(), AllOf(HasSubstr(journal().string() + " is damaged"), HasSubstr("restore")));
   EXPECT_EQ(client.get("jobs/1").state(), v1::Job::SUCCEEDED);
-  EXPECT_EQ(client.history("jobs/2").size(), sample_count);
+  EXPECT_EQ(client.history("jobs/9").size(), sample_count);
   stop_daemon();
 }
 

@@ -89,7 +89,7 @@ JobRuns run_jobs(const std::filesystem::path& folder, const v1::Case& submitted,
   add_solver_times(client, sweep, out);
   out.journal_bytes = journal_bytes_in(journal_file) - journal;
   store::Database database(journal_file);
-  store::Statement events(database, "SELECT COUNT(*) FROM events");
+  store::Statement events(database, "SELECT SUM(last_sequence) FROM jobs");
   if (events.step()) out.events = static_cast<double>(events.integer(0));
   for (int i = 1; i <= jobs; ++i)
     out.result_bytes +=

@@ -92,9 +92,8 @@ TEST_F(GroupCommitTest, WhenTheCommitFailsAllAreToldThatAndTheNextOneGoesOn) {
   writers.emplace_back([&] { writes.run([&] { insert(0); }); });
   while (commits_ == 0) std::this_thread::yield();
   writers.emplace_back([&] { EXPECT_THROW(writes.run([] { throw std::runtime_error("its own"); }), ServiceError); });
-  writers.emplace_back([&] {
-    EXPECT_THROW(writes.run([&] { database_.execute("INSERT INTO children VALUES (7)"); }), ServiceError);
-  });
+  writers.emplace_back(
+      [&] { EXPECT_THROW(writes.run([&] { database_.execute("INSERT INTO children VALUES (7)"); }), ServiceError); });
   writers.clear();
   writes.run([&] { insert(1); });
   EXPECT_EQ(count(), 2);
