@@ -25,8 +25,8 @@ class GroupCommit {
   GroupCommit& operator=(const GroupCommit&) = delete;
 
   /// Runs `body` within a transaction, one writer at a time, on this or another thread; returns once its statements are
-  /// durable. Rethrows the error of `body` or of the commit. Nothing of this writer is then in the database. A body must
-  /// not call run.
+  /// durable. Rethrows the error of `body` or of the commit. Nothing of this writer is then in the database. A body
+  /// must not call run.
   void run(const Step& body);
 
   /// Writers that wait for the next commit.

@@ -42,7 +42,8 @@ struct SweepJob {
   std::int64_t element_steps = 0;  ///< elements times steps of the run
 };
 
-/// Writes the journal (journal_format.md) of a data folder. Thread-safe. Failures throw ServiceError; a failed write changes nothing.
+/// Writes the journal (journal_format.md) of a data folder. Thread-safe. Failures throw ServiceError; a failed write
+/// changes nothing.
 class Journal {
  public:
   /// Called for a job with new durable events, on the thread that wrote them.
@@ -111,9 +112,9 @@ class Journal {
   /// Deletes a hidden sweep without jobs.
   void end_sweep_deletion(std::int64_t sweep);
 
-  /// Makes a state change durable, and the samples gathered for the job before it. Throws failed_precondition if the transition
-  /// is not allowed (job_state.h). If a job FAILED and its sweep reaches max_failures, also sets the sweep's PENDING
-  /// jobs to CANCELLED and returns them.
+  /// Makes a state change durable, and the samples gathered for the job before it. Throws failed_precondition if the
+  /// transition is not allowed (job_state.h). If a job FAILED and its sweep reaches max_failures, also sets the sweep's
+  /// PENDING jobs to CANCELLED and returns them.
   std::vector<std::int64_t> change_state(std::int64_t job, const StateChange& change);
 
   /// Resets a job that is PENDING, RUNNING or SUSPENDED: its samples and mesh no longer count, and an event says `why`

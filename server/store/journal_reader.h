@@ -99,8 +99,8 @@ class JournalReader {
   std::optional<v1::Mesh> mesh(std::int64_t job);
 
  private:
-  /// Of a row with number, job, submitted_case, last_sequence, state, samples. A row damaged since the journal was opened is
-  /// presented as such.
+  /// Of a row with number, job, submitted_case, last_sequence, state, samples. A row damaged since the journal was
+  /// opened is presented as such.
   static StoredJob read_job(const Statement& row);
 
   /// Numbers between these two, exclusive.

@@ -7,8 +7,8 @@
 
 namespace cellcrush::store {
 
-/// Creates the tables of a new journal, or upgrades one of the version before. Returns the seconds counted by the service clock (service_clock.h). Throws
-/// ServiceError (failed_precondition) for a journal of another version.
+/// Creates the tables of a new journal, or upgrades one of the version before. Returns the seconds counted by the
+/// service clock (service_clock.h). Throws ServiceError (failed_precondition) for a journal of another version.
 std::int64_t prepare_journal(Database& database, const std::filesystem::path& data_folder);
 
 /// Turns a journal of version 6, which had the samples as events, into one of version 7: those of an ended job go to

@@ -22,8 +22,8 @@ PartKind watched_nodes();
 /// /rigid_walls/{id}.
 PartKind rigid_walls();
 
-/// Writes the numbers of the parts of a frame to a result, with one row per sample, parallel to /history. Writes nothing
-/// without such parts. Failures throw ServiceError.
+/// Writes the numbers of the parts of a frame to a result, with one row per sample, parallel to /history. Writes
+/// nothing without such parts. Failures throw ServiceError.
 class PartHistories {
  public:
   explicit PartHistories(const PartKind& kind) : kind_(kind) {}

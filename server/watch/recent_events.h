@@ -25,8 +25,8 @@ class RecentEvents {
   static constexpr std::size_t kMostBytes = 128 * 1024;  ///< of an answer that is kept, encoded
 
   /// Up to kAtOnce events after event `after`, in order; none only if there are none. `stamp`: Channel::stamp, from
-  /// before the call: an answer holds as long as it is the same. Throws ServiceError: not_found if there is no such job,
-  /// and the errors of JournalReader::events.
+  /// before the call: an answer holds as long as it is the same. Throws ServiceError: not_found if there is no such
+  /// job, and the errors of JournalReader::events.
   std::vector<Event> after(store::JournalReader& journal, std::int64_t job, std::int64_t after, std::uint64_t stamp);
 
   /// How often the journal was read.
