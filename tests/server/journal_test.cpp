@@ -188,30 +188,6 @@ TEST_F(JournalTest, AChangeThatMayNotBeChangesNothing) {
   EXPECT_THROW(change(job + 1, v1::Job::RUNNING), ServiceError);
 }
 
-TEST_F(JournalTest, JobsAreListedNewestFirstAndFoundByState) {
-  const auto first = create();
-  const auto second = create();
-  change(first, v1::Job::RUNNING);
-  const auto listed = reader_->list_jobs({}, true, 0, 10);
-  ASSERT_EQ(listed.size(), 2U);
-  EXPECT_EQ(listed[0].number, second);
-  EXPECT_EQ(reader_->list_jobs({}, true, second, 10).size(), 1U);
-  EXPECT_EQ(reader_->list_jobs({}, false, 0, 10)[0].number, first);
-  ASSERT_EQ(reader_->queued_jobs(v1::Job::RUNNING).size(), 1U);
-  EXPECT_EQ(reader_->queued_jobs(v1::Job::RUNNING)[0].job, first);
-  ASSERT_EQ(reader_->queued_jobs(v1::Job::PENDING).size(), 1U);
-  EXPECT_EQ(reader_->queued_jobs(v1::Job::PENDING)[0].job, second);
-}
-
-TEST_F(JournalTest, AMeshIsKept) {
-  const auto job = create();
-  EXPECT_FALSE(reader_->mesh(job));
-  v1::Mesh mesh;
-  mesh.set_particle_count(12);
-  journal_->set_mesh(job, mesh);
-  EXPECT_EQ(reader_->mesh(job)->particle_count(), 12);
-}
-
 TEST_F(JournalTest, AFilterLooksThroughMoreJobsThanAPageHolds) {
   for (int i = 0; i < 500; ++i) create();
   change(3, v1::Job::RUNNING);

@@ -167,6 +167,7 @@ TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
   frame.add_rigid_walls()->set_id("floor");
   v1::Mesh mesh;
   mesh.set_particle_count(3);
+  for (const int node : {0, 1}) mesh.add_element_nodes(node);
   mesh.add_thickness_mm(0.5F);
   ResultWriter writer(path_ = folder_.path() / "frame.h5", mesh);
   for (std::size_t i = 0; i < samples.size(); ++i) {
