@@ -156,7 +156,9 @@ TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
     auto client = this->client();
     // Their events fill several pages.
     auto submitted = tiny_case();
-    submitted.set_title(std::string(700, 'x'));
+    std::string title;
+    for (int i = 0; i < 175; ++i) title += "\U0001F41D";
+    submitted.set_title(title);
     for (int i = 0; i < 4; ++i) ASSERT_TRUE(client.wait_for_state(client.create(submitted), v1::Job::SUCCEEDED));
     sample_count = client.history("jobs/4").size();
   }
