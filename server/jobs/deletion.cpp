@@ -96,9 +96,14 @@ void Retention::measure(const std::function<bool()>& given_up) const {
   while (count == kReadAtOnce && !given_up()) {
     std::vector<store::Journal::Measured> measured;
     for (const std::int64_t job : parts_.reader.jobs_to_measure(kReadAtOnce)) {
-      std::error_code failed;
-      const auto size = std::filesystem::file_size(parts_.folder.job_folder(job).result(), failed);
-      measured.push_back({job, failed ? 0 : static_cast<std::int64_t>(size)});
+      const auto folder = parts_.folder.job_folder(job);
+      std::int64_t size = 0;
+      for (const auto& path : {folder.result(), folder.history()}) {
+        std::error_code failed;
+        const auto bytes = std::filesystem::file_size(path, failed);
+        if (!failed) size += static_cast<std::int64_t>(bytes);
+      }
+      measured.push_back({job, size});
     }
     parts_.journal.set_measured(measured);
     count = measured.size();

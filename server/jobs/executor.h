@@ -10,7 +10,7 @@
 
 #include "shortage.h"
 #include "store/job_folder.h"
-#include "worker/report.pb.h"
+#include "store/report.pb.h"
 
 namespace cellcrush::jobs {
 

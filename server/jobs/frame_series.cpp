@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "error.h"
+#include "store/report_log.h"
 #include "store/result_reader.h"
-#include "worker/report_log.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -30,10 +30,10 @@ class FramesOfResult final : public FrameSeries {
 class FramesOfReports final : public FrameSeries {
  public:
   explicit FramesOfReports(const std::filesystem::path& path)
-      : path_(path), reader_(std::make_unique<worker::ReportLogReader>(path)) {
-    worker::ReportLogReader reader(path);
+      : path_(path), reader_(std::make_unique<store::ReportLogReader>(path)) {
+    store::ReportLogReader reader(path);
     worker::Report report;
-    while (reader.read(report) == worker::ReportLogReader::Read::message) {
+    while (reader.read(report) == store::ReportLogReader::Read::message) {
       if (!report.has_frame() || report.frame().index() != times_.time_s_size()) continue;
       times_.add_time_s(report.frame().time_s());
       times_.add_strain(report.frame().strain());
@@ -43,8 +43,8 @@ class FramesOfReports final : public FrameSeries {
 
   v1::FieldFrame frame(int index) override {
     worker::Report report;
-    if (index < next_) reader_ = std::make_unique<worker::ReportLogReader>(path_);
-    while (reader_->read(report) == worker::ReportLogReader::Read::message) {
+    if (index < next_) reader_ = std::make_unique<store::ReportLogReader>(path_);
+    while (reader_->read(report) == store::ReportLogReader::Read::message) {
       if (!report.has_frame() || report.frame().index() != index) continue;
       next_ = index + 1;
       return std::move(*report.mutable_frame());
@@ -56,7 +56,7 @@ class FramesOfReports final : public FrameSeries {
 
  private:
   std::filesystem::path path_;
-  std::unique_ptr<worker::ReportLogReader> reader_;
+  std::unique_ptr<store::ReportLogReader> reader_;
   int next_ = 0;  ///< index after that of the last frame
   v1::StreamFramesResponse::FrameTimes times_;
 };

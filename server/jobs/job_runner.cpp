@@ -153,9 +153,7 @@ worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
 
 WorkerExit JobRunner::run_worker(const store::StoredJob& stored, const Run& run) {
   parts_.folder.make_job_folder(stored.number);
-  // Without them, the samples in the journal cannot be attributed.
-  if (!parts_.folder.has_reports(stored.number) && parts_.reader.last_sampled_step(stored.number) >= 0)
-    throw BeginAgain{kReportsAreGone};
+  if (stored.samples > 0 && !parts_.folder.has_reports(stored.number)) throw BeginAgain{kReportsAreGone};
   worker::Order order = order_of(stored);
   order.set_threads(run.threads);
   return parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), run.interruptions);
@@ -189,13 +187,14 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
     if (!place.empty()) parts_.hold.succeeded();
   };
   events.watched = [channel] { return channel->is_watched(); };
-  events.reported = [this, job, channel, last_step = parts_.reader.last_sampled_step(job)](
-                        worker::Report& report) mutable { pass_on(job, last_step, *channel, report); };
+  events.reported = [this, job, channel, seen = Seen{-1, 0, stored.samples}](worker::Report& report) mutable {
+    pass_on(job, seen, *channel, report);
+  };
   return events;
 }
 
 // Samples reported again have the same bits.
-void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report) {
+void JobRunner::pass_on(std::int64_t job, Seen& seen, watch::Channel& channel, worker::Report& report) {
   switch (report.report_case()) {
     case worker::Report::kBegun:
       if (const auto& epoch = parts_.journal.epoch(); !epoch.admits(report.begun().epoch()))
@@ -207,10 +206,11 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
       channel.publish(std::move(*report.mutable_mesh()));
       break;
     case worker::Report::kSample:
-      if (report.sample().step() <= last_step) break;
-      last_step = report.sample().step();
-      parts_.journal.append_sample(job, report.sample(),
-                                   channel.is_watched() ? store::Journal::kSoon : store::Journal::kLazyCommit);
+      if (report.sample().step() <= seen.last_step) break;
+      seen.last_step = report.sample().step();
+      if (++seen.count <= seen.announced) break;
+      parts_.journal.note_samples(job, seen.count,
+                                  channel.is_watched() ? store::Journal::kSoon : store::Journal::kLazyCommit);
       break;
     case worker::Report::kFrame: channel.publish(std::move(*report.mutable_frame())); break;
     case worker::Report::kProgress:
@@ -278,7 +278,8 @@ bool JobRunner::got_further(std::int64_t job) {
   } catch (const std::exception&) {
     // The samples stored before count. The journal retries on its own and logs the failure.
   }
-  return losses_.may_retry(job, parts_.reader.last_sampled_step(job));
+  const auto stored = parts_.reader.find_job(job);
+  return losses_.may_retry(job, stored ? stored->samples : 0);
 }
 
 // Makes a result from the reports of lost workers, if possible.
@@ -321,8 +322,8 @@ v1::Job::State JobRunner::begin_again(std::int64_t job, const std::string& why) 
   } catch (const ServiceError& error) {
     if (error.kind() == ServiceError::Kind::not_found) return v1::Job::JOB_STATE_UNSPECIFIED;
     if (error.kind() != ServiceError::Kind::failed_precondition) throw;
-    // A cancelled job ends without a result.
-    parts_.folder.discard_run(job);
+    // A cancelled job ends without a result, and keeps its history.
+    parts_.folder.clean_job_folder(job);
     return v1::Job::CANCELLING;
   }
   spdlog::warn("{}: {}", store::name_of(job), why);

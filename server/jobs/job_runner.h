@@ -75,7 +75,13 @@ class JobRunner {
   std::optional<store::StateChange> left_behind(const store::StoredJob& stored);
   WorkerExit run_worker(const store::StoredJob& stored, const Run& run);
   WorkerEvents events_of(const store::StoredJob& stored);
-  void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report);
+  /// What has come of the reports, from the first on.
+  struct Seen {
+    std::int64_t last_step = -1;
+    std::int64_t count = 0;      ///< of samples
+    std::int64_t announced = 0;  ///< by runs before
+  };
+  void pass_on(std::int64_t job, Seen& seen, watch::Channel& channel, worker::Report& report);
   store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit, Run& run);
   void note_cancelling(std::int64_t job);
   bool has_started(std::int64_t job);

@@ -13,11 +13,11 @@ class LossCount {
  public:
   static constexpr int kMost = 3;
 
-  /// Adds a loss; `step` is that of the newest sample. Whether the job may be retried; if not, its count is forgotten.
-  bool may_retry(std::int64_t job, std::int64_t step) {
+  /// Adds a loss; `samples`: how many the job has. Whether the job may be retried; if not, its count is forgotten.
+  bool may_retry(std::int64_t job, std::int64_t samples) {
     const MutexLock lock(mutex_);
     Losses& losses = losses_[job];
-    if (step > losses.step) losses = {0, step};
+    if (samples > losses.samples) losses = {0, samples};
     if (++losses.count < kMost) return true;
     losses_.erase(job);
     return false;
@@ -31,7 +31,7 @@ class LossCount {
  private:
   struct Losses {
     int count = 0;
-    std::int64_t step = -1;  ///< of the newest sample at the last loss
+    std::int64_t samples = 0;  ///< at the last loss
   };
 
   Mutex mutex_;

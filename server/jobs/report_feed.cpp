@@ -27,9 +27,9 @@ ReportFeed::Reading ReportFeed::read(bool live) {
   Reading out = Reading::nothing_new;
   while (true) {
     switch (reader_.read(report_)) {
-      case worker::ReportLogReader::Read::end: return out;
-      case worker::ReportLogReader::Read::broken: return Reading::broken;
-      case worker::ReportLogReader::Read::message: break;
+      case store::ReportLogReader::Read::end: return out;
+      case store::ReportLogReader::Read::broken: return Reading::broken;
+      case store::ReportLogReader::Read::message: break;
     }
     out = Reading::something_new;
     if (report_.has_begun()) final_.reset();

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "jobs/executor.h"
-#include "worker/report_log.h"
+#include "store/report_log.h"
 
 namespace cellcrush::jobs {
 
@@ -30,7 +30,7 @@ class ReportFeed {
 
  private:
   const WorkerEvents& events_;
-  worker::ReportLogReader reader_;
+  store::ReportLogReader reader_;
   worker::Report report_;  ///< the current report; its memory is reused
   std::optional<worker::Final> final_;
   v1::Progress progress_;  ///< the newest

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "slurm/small_file.h"
-#include "worker/report_log.h"
+#include "store/report_log.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -46,7 +46,7 @@ bool Mirror::pass() {
   if (checkpoint_version && checkpoint_version != checkpoint_) checkpoint = read_small_file(from_.checkpoint());
   if (!version_of(from_.reports())) return false;
   // Opened at each pass: NFS looks for what other machines wrote when a file is opened.
-  worker::ReportLogReader reader(from_.reports());
+  store::ReportLogReader reader(from_.reports());
   reader.start_at(offset_);
   for (bool more = true; more;) {
     std::string records;

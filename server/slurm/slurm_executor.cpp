@@ -13,13 +13,13 @@
 #include "slurm/mirror.h"
 #include "slurm/small_file.h"
 #include "store/durable_file.h"
-#include "worker/report_log.h"
+#include "store/report_log.h"
 
 namespace cellcrush::slurm {
 namespace {
 
 // Removes half a report at the end, which a killed daemon or worker may have left.
-void cut_incomplete_report(const store::JobFolder& folder) { worker::ReportLog log(folder.reports()); }
+void cut_incomplete_report(const store::JobFolder& folder) { store::ReportLog log(folder.reports()); }
 
 }  // namespace
 

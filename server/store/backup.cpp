@@ -8,7 +8,8 @@
 
 #include "error.h"
 #include "store/durable_file.h"
-#include "store/job_removal.h"
+#include "store/job_folder.h"
+#include "store/job_rows.h"
 #include "store/job_state.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
@@ -22,56 +23,77 @@ namespace {
 
 constexpr const char* kJournalName = "journal.sqlite";
 
-std::string result_name(std::int64_t job) { return name_of(job) + "/result.h5"; }
+// A job with files that a restored daemon serves.
+struct ServedJob {
+  std::int64_t number = 0;
+  bool has_result = false;
+};
 
-std::vector<std::int64_t> jobs_with_result(Database& journal) {
-  Statement read(journal, "SELECT number, state, job FROM jobs ORDER BY number");
-  std::vector<std::int64_t> out;
+std::vector<ServedJob> find_served(Database& journal) {
+  Statement read(journal, "SELECT number, state, job, samples FROM jobs ORDER BY number");
+  std::vector<ServedJob> out;
   while (read.step()) {
     v1::Job job;
-    if (read_job_bytes(read.bytes(2), read.integer(1), job) && is_terminal(job.state()) && job.has_summary())
-      out.push_back(read.integer(0));
+    if (!read_job_bytes(read.bytes(2), read.integer(1), job)) continue;
+    const bool has_result = is_terminal(job.state()) && job.has_summary();
+    // A restore cancels a job that is CANCELLING; others begin again.
+    const bool has_history = read.integer(3) > 0 && (is_terminal(job.state()) || job.state() == v1::Job::CANCELLING);
+    if (has_result || has_history) out.push_back({read.integer(0), has_result});
   }
   return out;
 }
 
-// The results of a journal's jobs, beside its copy.
-class ResultBackup {
+// The results and histories of a journal's jobs, beside its copy.
+class FileBackup {
  public:
-  ResultBackup(const std::filesystem::path& data_folder, const std::filesystem::path& target, Database& live)
+  FileBackup(const std::filesystem::path& data_folder, const std::filesystem::path& target, Database& live)
       : data_folder_(data_folder), target_(target), live_(live) {}
 
-  void copy(std::int64_t job, BackupManifest& manifest) {
+  void copy(const ServedJob& served, BackupManifest& manifest) {
+    const std::int64_t job = served.number;
+    const std::size_t before = manifest.files.size();
     std::string problem = "the result is damaged.";
     try {
-      auto file = copy_result(job);
-      if (read_seal(target_ / result_name(job)) != Seal::broken) {
-        manifest.files.push_back(std::move(file));
+      const JobFolder folder(data_folder_ / name_of(job));
+      const bool has_history = copy_file(job, folder.history(), "history", manifest) ||
+                               (!served.has_result && copy_file(job, folder.reports(), "history", manifest));
+      // One that was CANCELLING may have a result by now.
+      if (has_history && !served.has_result) return;
+      if (!copy_file(job, folder.result(), "result.h5", manifest))
+        problem = "the file is missing.";
+      else if (read_seal(target_ / manifest.files.back().path) != Seal::broken)
         return;
-      }
+      else
+        manifest.files.pop_back();
     } catch (const ServiceError& error) {
       if (error.kind() == ServiceError::Kind::storage_full) throw;
       problem = error.what();
     }
     std::error_code none;
-    std::filesystem::remove_all(target_ / name_of(job), none);
-    if (is_there(job))
+    std::filesystem::remove(target_ / name_of(job) / "result.h5", none);
+    if (is_there(job)) {
       manifest.lost.push_back(name_of(job) + " has no result in this backup: " + problem);
-    else
-      deleted_.push_back(job);
+      return;
+    }
+    std::filesystem::remove_all(target_ / name_of(job), none);
+    manifest.files.resize(before);
+    deleted_.push_back(job);
   }
 
   /// Jobs that were deleted while the backup was made.
   [[nodiscard]] const std::vector<std::int64_t>& deleted() const { return deleted_; }
 
  private:
-  BackupFile copy_result(std::int64_t job) {
+  // False if it is absent.
+  bool copy_file(std::int64_t job, const std::filesystem::path& from, const char* name, BackupManifest& manifest) {
     std::error_code error;
+    if (!std::filesystem::exists(from, error)) return false;
     std::filesystem::create_directories(target_ / name_of(job), error);
     if (error) throw_file_error(target_ / name_of(job), "created", error.value());
-    auto file = digest_of(data_folder_ / result_name(job), target_ / result_name(job));
-    file.path = result_name(job);
-    return file;
+    auto file = digest_of(from, target_ / name_of(job) / name);
+    file.path = name_of(job) + "/" + name;
+    manifest.files.push_back(std::move(file));
+    return true;
   }
 
   // A job's rows are deleted before its folder.
@@ -120,9 +142,9 @@ BackupManifest take_backup(const std::filesystem::path& data_folder, const std::
   {
     // The copy keeps the journal mode of the original until it is reopened.
     Database copy(copy_path, Database::Access::single_file);
-    ResultBackup results(data_folder, staged.path(), live);
-    for (const std::int64_t job : jobs_with_result(copy)) results.copy(job, manifest);
-    remove_deleted(copy, results.deleted());
+    FileBackup files(data_folder, staged.path(), live);
+    for (const ServedJob& job : find_served(copy)) files.copy(job, manifest);
+    remove_deleted(copy, files.deleted());
   }
   manifest.files.push_back(digest_of(copy_path));
   manifest.files.back().path = kJournalName;

@@ -14,6 +14,7 @@
 
 #include "error.h"
 #include "store/durable_file.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -73,15 +74,10 @@ std::string digest_of_text(std::string_view text) {
   return digest.hexadecimal();
 }
 
-// A restore creates files with these names, so only the journal and results are allowed.
-bool is_name_of_backup(const std::string& path) {
+// A restore creates files with these names, so only the journal, results and histories are allowed.
+bool is_name_of_backup(const std::filesystem::path& path) {
   if (path == "journal.sqlite") return true;
-  constexpr std::string_view kBefore = "jobs/";
-  constexpr std::string_view kBehind = "/result.h5";
-  if (!path.starts_with(kBefore) || !path.ends_with(kBehind) || path.size() <= kBefore.size() + kBehind.size())
-    return false;
-  const auto number = std::string_view(path).substr(kBefore.size(), path.size() - kBefore.size() - kBehind.size());
-  return number.size() < 20 && number.find_first_not_of("0123456789") == std::string_view::npos;
+  return (path.filename() == "result.h5" || path.filename() == "history") && number_of(path.parent_path().string());
 }
 
 ServiceError damaged_manifest() {

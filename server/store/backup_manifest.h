@@ -9,7 +9,7 @@ namespace cellcrush::store {
 
 /// A file of a backup.
 struct BackupFile {
-  std::string path;  ///< "journal.sqlite" or "jobs/N/result.h5"
+  std::string path;  ///< "journal.sqlite", "jobs/N/result.h5" or "jobs/N/history"
   std::uint64_t size = 0;
   std::string sha256;  ///< in hexadecimal
 };

@@ -170,10 +170,17 @@ void DataFolder::set_aside(std::int64_t job, const std::string& reason) const {
 
 void DataFolder::clean_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
-  // Reports are deleted last: they mark a folder that holds more than a result.
   for (const auto& path : {folder.partial_result(), folder.order(), folder.claim(), folder.partial_checkpoint(),
-                           folder.previous_checkpoint(), folder.checkpoint(), folder.attempt(), folder.reports()})
+                           folder.previous_checkpoint(), folder.checkpoint(), folder.attempt()})
     remove_file(path);
+  // Reports go last: they mark a folder that holds more than a result. Without a result, they are the job's history.
+  std::error_code none;
+  const bool is_history = has_reports(job) && !std::filesystem::exists(folder.result(), none) &&
+                          !std::filesystem::exists(folder.history(), none);
+  if (!is_history) return remove_file(folder.reports());
+  std::error_code error;
+  std::filesystem::rename(folder.reports(), folder.history(), error);
+  if (error) throw_file_error(folder.reports(), "renamed", error.value());
 }
 
 bool DataFolder::has_reports(std::int64_t job) const {
@@ -183,8 +190,8 @@ bool DataFolder::has_reports(std::int64_t job) const {
 }
 
 void DataFolder::discard_run(std::int64_t job) const {
-  remove_file(job_folder(job).result());
   clean_job_folder(job);
+  for (const auto& path : {job_folder(job).result(), job_folder(job).history()}) remove_file(path);
 }
 
 std::int64_t DataFolder::free_bytes() const {

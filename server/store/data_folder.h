@@ -36,7 +36,8 @@ class DataFolder {
   /// folders are usable. Throws ServiceError, with the shortage, if none is.
   void make_job_folder(std::int64_t job) const;
 
-  /// Deletes everything but the result from the folder of an ended job. Throws ServiceError.
+  /// Deletes everything but the result from the folder of an ended job. Without one, the reports become its history.
+  /// Throws ServiceError.
   void clean_job_folder(std::int64_t job) const;
 
   /// Whether the job's folder contains reports of workers.

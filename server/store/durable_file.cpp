@@ -41,6 +41,15 @@ void synchronize(const std::filesystem::path& path, int flags) {
 
 }  // namespace
 
+bool synchronize_file(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0 && shortage_of_errno(errno) != Shortage::descriptors) return false;
+  const int error = file >= 0 && fdatasync(file) == 0 ? 0 : errno;
+  if (file >= 0) close(file);
+  if (error != 0) throw_file_error(path, "written", error);
+  return true;
+}
+
 void publish_file(const std::filesystem::path& from, const std::filesystem::path& to) {
   synchronize(from, O_RDONLY);
   std::error_code error;

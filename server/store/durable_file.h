@@ -13,6 +13,10 @@ namespace cellcrush::store {
 /// caller. Throws ServiceError: internal for another kind of file, or if it cannot be opened.
 int open_to_read(const std::filesystem::path& path);
 
+/// Makes the bytes of a file durable, whoever wrote them. False if there is no such file that can be read. Throws the
+/// errors of throw_file_error.
+bool synchronize_file(const std::filesystem::path& path);
+
 /// Renames a complete file to its final name so that it survives a power loss: fsync, rename, fsync of the folder. Both
 /// names are in the same folder. Throws the errors of throw_file_error.
 void publish_file(const std::filesystem::path& from, const std::filesystem::path& to);

@@ -1,6 +1,5 @@
 #include "store/group_commit.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -9,8 +8,8 @@ namespace cellcrush::store {
 GroupCommit::GroupCommit(Database& database, Committed on_commit)
     : database_(database), on_commit_(std::move(on_commit)) {}
 
-void GroupCommit::run(const Step& body, const Step& undo) {
-  Write own{body, undo, nullptr};
+void GroupCommit::run(const Step& body) {
+  Write own{body, nullptr};
   MutexLock lock(mutex_);
   waiting_.push_back(&own);
   changed_.wait(lock, [&]() CELLCRUSH_REQUIRES(mutex_) { return own.done || !committing_; });
@@ -41,8 +40,8 @@ void GroupCommit::commit(const std::vector<Write*>& batch) {
     transaction.commit();
     if (on_commit_) on_commit_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   } catch (...) {
-    const auto error = std::current_exception();
-    std::for_each(batch.rbegin(), batch.rend(), [&error](Write* write) { fail(*write, error); });
+    // A body may have failed because of another body's writes, which have vanished.
+    for (Write* write : batch) write->error = std::current_exception();
   }
 }
 
@@ -55,16 +54,9 @@ void GroupCommit::do_write(Write& write) {
     // A full disk ends the whole transaction.
     if (!database_.in_transaction()) throw;
     Statement(database_, "ROLLBACK TO own").run();
-    fail(write, std::current_exception());
+    write.error = std::current_exception();
   }
   Statement(database_, "RELEASE own").run();
-}
-
-// A body may fail because of another body's writes, which vanish if the commit fails: the commit's error then counts.
-void GroupCommit::fail(Write& write, std::exception_ptr error) noexcept {
-  const bool is_undone = write.error != nullptr;
-  write.error = std::move(error);
-  if (write.undo && !is_undone) write.undo();
 }
 
 }  // namespace cellcrush::store

@@ -25,9 +25,9 @@ class GroupCommit {
   GroupCommit& operator=(const GroupCommit&) = delete;
 
   /// Runs `body` within a transaction, one writer at a time, on this or another thread; returns once its statements are
-  /// durable. Rethrows the error of `body` or of the commit. Nothing of this writer is then in the database, and `undo`
-  /// was called, in the reverse order of the bodies. A body must not call run, and `undo` must not throw.
-  void run(const Step& body, const Step& undo = {});
+  /// durable. Rethrows the error of `body` or of the commit. Nothing of this writer is then in the database. A body
+  /// must not call run.
+  void run(const Step& body);
 
   /// Writers that wait for the next commit.
   [[nodiscard]] std::size_t waiting_count() const;
@@ -35,14 +35,12 @@ class GroupCommit {
  private:
   struct Write {
     const Step& body;
-    const Step& undo;
     std::exception_ptr error;
     bool done = false;
   };
 
   void commit(const std::vector<Write*>& batch);
   void do_write(Write& write);
-  static void fail(Write& write, std::exception_ptr error) noexcept;
 
   Database& database_;
   Committed on_commit_;

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "store/search_columns.h"
-
 namespace cellcrush::store {
 
 JobConditions::JobConditions(const JobFilter& filter, int first_parameter) : first_parameter_(first_parameter) {

@@ -2,9 +2,15 @@
 
 #include <algorithm>
 
-#include "store/search_columns.h"
-
 namespace cellcrush::store {
+
+std::string folded_title(const std::string& title) {
+  std::string out = title;
+  for (char& character : out) {
+    if (character >= 'A' && character <= 'Z') character = static_cast<char>(character - 'A' + 'a');
+  }
+  return out;
+}
 
 bool matches(const JobFilter& filter, const v1::Job& job) {
   const auto has_state = [&](v1::Job::State state) { return job.state() == state; };

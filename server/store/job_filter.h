@@ -16,6 +16,9 @@ struct JobFilter {
   std::vector<std::string> owners;
 };
 
+/// A title as filters compare it: ASCII letters in lower case, all else unchanged.
+std::string folded_title(const std::string& title);
+
 /// Whether a job meets all conditions. Its own title counts, as a job in an event has no case.
 bool matches(const JobFilter& filter, const v1::Job& job);
 

@@ -15,6 +15,8 @@ class JobFolder {
   [[nodiscard]] std::filesystem::path order() const { return root_ / "order"; }
   [[nodiscard]] std::filesystem::path claim() const { return root_ / "worker"; }
   [[nodiscard]] std::filesystem::path reports() const { return root_ / "reports"; }
+  /// The samples of an ended job whose result does not have them; as the reports.
+  [[nodiscard]] std::filesystem::path history() const { return root_ / "history"; }
   [[nodiscard]] std::filesystem::path checkpoint() const { return root_ / "checkpoint"; }
   [[nodiscard]] std::filesystem::path previous_checkpoint() const { return root_ / "checkpoint.previous"; }
   [[nodiscard]] std::filesystem::path partial_checkpoint() const { return root_ / "checkpoint.partial"; }

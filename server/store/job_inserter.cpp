@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "store/job_bytes.h"
-#include "store/journal_schema.h"
+#include "store/job_filter.h"
+#include "store/job_rows.h"
 #include "store/queued_job.h"
 
 namespace cellcrush::store {
@@ -17,8 +17,8 @@ JobInserter::JobInserter(Database& database)
            "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence, priority, "
            "submission, element_steps, owner, title, bytes, executor) "
            "VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8, ?9, ?10, ?11, ?12)"),
-      event_(database, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, 1, ?2, ?3)"),
-      labels_(database) {}
+      event_(database, "INSERT INTO events (job, sequence, payload) VALUES (?1, 1, ?2)"),
+      label_(database, "INSERT INTO job_labels (key, value, job) VALUES (?1, ?2, ?3)") {}
 
 std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   job.set_state(v1::Job::PENDING);
@@ -42,8 +42,8 @@ std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   entry.submission ? job_.bind(7, *entry.submission) : job_.bind_null(7);
   job_.run();
   const std::int64_t number = database_.last_number();
-  event_.bind(1, number).bind(2, kStateEvent).bind_blob(3, bytes).run();
-  labels_.insert(number, job.labels());
+  event_.bind(1, number).bind_blob(2, bytes).run();
+  for (const auto& [key, value] : job.labels()) label_.bind_text(1, key).bind_text(2, value).bind(3, number).run();
   return number;
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "cellcrush/v1/job.pb.h"
-#include "store/search_columns.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -30,7 +29,7 @@ class JobInserter {
   Database& database_;
   Statement job_;
   Statement event_;
-  LabelInserter labels_;
+  Statement label_;
 };
 
 }  // namespace cellcrush::store

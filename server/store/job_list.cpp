@@ -52,7 +52,7 @@ std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool n
   const std::string direction = newest_first ? " DESC" : "";
   const std::string number = conditions.numbers().column;
   Statement read(database_,
-                 "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE number IN "
+                 "SELECT number, job, submitted_case, last_sequence, state, samples FROM jobs WHERE number IN "
                  "(SELECT " +
                      number + " FROM " + conditions.numbers().table + " WHERE " + number + " > ?1 AND " + number +
                      " < ?2" + conditions.sql() + " ORDER BY " + number + direction + " LIMIT ?3) ORDER BY number" +

@@ -4,11 +4,13 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "error.h"
-#include "store/begin_again.h"
-#include "store/job_bytes.h"
+#include "store/durable_file.h"
+#include "store/job_folder.h"
+#include "store/job_rows.h"
 #include "store/job_state.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
@@ -36,29 +38,12 @@ void apply(const StateChange& change, v1::Job& job) {
 
 }  // namespace
 
-/// Marks that a writer holds gathered samples, until they are durable or given back.
-class Journal::Taking {
- public:
-  explicit Taking(Journal& journal) : journal_(journal) {
-    const MutexLock lock(journal_.gather_mutex_);
-    ++journal_.takings_;
-  }
-  ~Taking() {
-    const MutexLock lock(journal_.gather_mutex_);
-    --journal_.takings_;
-  }
-  Taking(const Taking&) = delete;
-  Taking& operator=(const Taking&) = delete;
-
- private:
-  Journal& journal_;
-};
-
 Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit,
                  Clocks::Source uptime)
-    : on_durable_(std::move(on_durable)),
+    : data_folder_(path.parent_path()),
+      on_durable_(std::move(on_durable)),
       database_(path),
-      clock_(prepare_journal(database_), std::move(uptime)),
+      clock_(prepare_journal(database_, data_folder_), std::move(uptime)),
       writes_(database_, std::move(on_commit)) {
   mend_jobs(database_, clock_.seconds());
   prepare_giving_back(database_);
@@ -84,62 +69,69 @@ Journal::~Journal() {
 
 std::vector<std::int64_t> Journal::change_state(std::int64_t job, const StateChange& change) {
   std::vector<std::int64_t> stopped;
-  Gathered samples;
-  const Taking taking(*this);
-  writes_.run(
-      [&] {
-        samples = take_gathered(job);
-        insert_samples(job, samples[job]);
-        write_change(job, change);
-        if (change.state == v1::Job::FAILED) stopped = stop_failing_sweep(job);
-      },
-      [&] { give_back(std::move(samples)); });
+  const auto samples = durable_samples(job);
+  writes_.run([&] {
+    add_samples(samples);
+    write_change(job, change);
+    if (change.state == v1::Job::FAILED) stopped = stop_failing_sweep(job);
+  });
+  forget_gathered(is_terminal(change.state) ? Counts{{job, std::numeric_limits<std::int64_t>::max()}} : samples);
   on_durable_(job);
   for (const std::int64_t other : stopped) on_durable_(other);
   return stopped;
 }
 
+Journal::StoredState Journal::read_state(std::int64_t job) {
+  Statement read(database_, "SELECT job, state, last_sequence FROM jobs WHERE number = ?1");
+  if (!read.bind(1, job).step()) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
+  StoredState out;
+  if (!read_job_bytes(read.bytes(0), read.integer(1), out.job)) throw unreadable_entry(job);
+  out.last_sequence = read.integer(2);
+  return out;
+}
+
 void Journal::begin_again(std::int64_t job, const std::string& why) {
-  Gathered dropped;
-  const Taking taking(*this);
-  writes_.run(
-      [&] {
-        dropped = take_gathered(job);
-        store::begin_again(database_, job, why);
-      },
-      [&] { give_back(std::move(dropped)); });
+  writes_.run([&] {
+    auto [stored, last] = read_state(job);
+    if (stored.state() != v1::Job::PENDING && stored.state() != v1::Job::RUNNING &&
+        stored.state() != v1::Job::SUSPENDED) {
+      throw ServiceError(ServiceError::Kind::failed_precondition,
+                         name_of(job) + " is " + v1::Job::State_Name(stored.state()) + " and cannot be restarted.");
+    }
+    if (stored.state() == v1::Job::RUNNING) stored.set_state(v1::Job::PENDING);
+    stored.set_cause_message(why);
+    stored.set_worker_pid(0);
+    stored.set_begun_again_sequence(last + 1);
+    add_state(database_, job, stored, last + 1);
+    Statement update(database_, "UPDATE jobs SET samples = 0, begun_again = last_sequence WHERE number = ?1");
+    update.bind(1, job).run();
+    Statement(database_, "DELETE FROM meshes WHERE job = ?1").bind(1, job).run();
+    // Those of a failed attempt are noted again with the next reports.
+    const MutexLock lock(gather_mutex_);
+    gathered_.erase(job);
+  });
   on_durable_(job);
 }
 
 void Journal::write_change(std::int64_t job, const StateChange& change) {
-  v1::Job stored;
-  {
-    Statement read(database_, "SELECT job, state FROM jobs WHERE number = ?1");
-    if (!read.bind(1, job).step())
-      throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
-    if (!read_job_bytes(read.bytes(0), read.integer(1), stored)) throw unreadable_entry(job);
-  }
+  auto [stored, last] = read_state(job);
   if (!may_follow(stored.state(), change.state)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        name_of(job) + " is " + v1::Job::State_Name(stored.state()) + " and cannot become " +
                            v1::Job::State_Name(change.state) + ".");
   }
   apply(change, stored);
-  const std::int64_t sequence = find_last_sequence(job).value() + 1;
-  insert_event(job, sequence, kStateEvent, job_bytes(stored));
-  Statement update(database_,
-                   "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4, ended_at = ?5 WHERE number = ?1");
-  update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence);
-  if (is_terminal(stored.state())) update.bind(5, clock_.seconds());
-  update.run();
+  add_state(database_, job, stored, last + 1);
+  if (!is_terminal(stored.state())) return;
+  Statement(database_, "UPDATE jobs SET ended_at = ?2 WHERE number = ?1").bind(1, job).bind(2, clock_.seconds()).run();
 }
 
-void Journal::append_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within) {
-  std::string bytes = sample.SerializeAsString();
+void Journal::note_samples(std::int64_t job, std::int64_t count, std::chrono::milliseconds within) {
   const auto limit = std::chrono::steady_clock::now() + within;
   {
     const MutexLock lock(gather_mutex_);
-    gathered_[job].push_back({sample.step(), std::move(bytes)});
+    std::int64_t& gathered = gathered_[job];
+    gathered = std::max(gathered, count);
     if (limit >= commit_at_) return;
     commit_at_ = limit;
   }
@@ -168,86 +160,59 @@ void Journal::commit_gathered_when_due() {
       commit_samples();
       failing = false;
     } catch (const std::exception& error) {
-      // The samples were given back and are retried; the same failure is logged once.
+      // The same failure is logged once.
       if (!failing) spdlog::error("Samples cannot be saved: {}", error.what());
       failing = true;
+      const MutexLock lock(gather_mutex_);
+      commit_at_ = std::min(commit_at_, std::chrono::steady_clock::now() + kBeforeNextTry);
     }
   }
 }
 
 void Journal::commit_samples() {
+  const auto samples = durable_samples(std::nullopt);
+  if (samples.empty()) return;
+  writes_.run([&] { add_samples(samples); });
+  forget_gathered(samples);
+  for (const auto& [job, count] : samples) on_durable_(job);
+}
+
+Journal::Counts Journal::durable_samples(std::optional<std::int64_t> job) {
+  Counts out;
   {
     const MutexLock lock(gather_mutex_);
-    if (gathered_.empty() && takings_ == 0) return;
-  }
-  // Samples taken by another writer are durable once this write has had its turn.
-  Gathered samples;
-  const Taking taking(*this);
-  writes_.run(
-      [&] {
-        samples = take_gathered(std::nullopt);
-        for (const auto& [job, of_job] : samples) insert_samples(job, of_job);
-      },
-      [&] { give_back(std::move(samples)); });
-  for (const auto& [job, of_job] : samples) on_durable_(job);
-}
-
-std::optional<std::int64_t> Journal::find_last_sequence(std::int64_t job) {
-  Statement read(database_, "SELECT last_sequence FROM jobs WHERE number = ?1");
-  return read.bind(1, job).step() ? std::optional(read.integer(0)) : std::nullopt;
-}
-
-void Journal::insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload) {
-  Statement insert(database_, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
-  insert.bind(1, job).bind(2, sequence).bind(3, kind).bind_blob(4, payload).run();
-}
-
-std::int64_t Journal::find_newest_step(std::int64_t job) {
-  Statement read(database_, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC");
-  read.bind(1, job).bind(2, kSampleEvent);
-  for (v1::Sample sample; read.step();) {
-    if (sample.ParseFromString(read.bytes(0))) return sample.step();
-  }
-  return -1;
-}
-
-void Journal::insert_samples(std::int64_t job, const std::vector<GatheredSample>& samples) {
-  if (samples.empty()) return;
-  const auto newest = find_last_sequence(job);
-  // The job was deleted meanwhile.
-  if (!newest) return;
-  std::int64_t sequence = *newest;
-  std::int64_t last_step = find_newest_step(job);
-  {
-    Statement insert(database_, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
-    insert.bind(1, job).bind(3, kSampleEvent);
-    for (const auto& sample : samples) {
-      if (sample.step <= last_step) continue;
-      last_step = sample.step;
-      insert.bind(2, ++sequence).bind_blob(4, sample.bytes).run();
+    for (const auto& gathered : gathered_) {
+      if (!job || gathered.first == *job) out.insert(gathered);
     }
   }
-  if (sequence == *newest) return;
-  Statement update(database_, "UPDATE jobs SET last_sequence = ?2 WHERE number = ?1");
-  update.bind(1, job).bind(2, sequence).run();
+  // Before the journal counts them: a number that somebody has seen is not used again.
+  std::erase_if(out, [this](const auto& gathered) {
+    return !synchronize_file(JobFolder(data_folder_ / name_of(gathered.first)).reports());
+  });
+  return out;
 }
 
-Journal::Gathered Journal::take_gathered(std::optional<std::int64_t> job) {
-  const MutexLock lock(gather_mutex_);
-  if (!job) return std::exchange(gathered_, {});
-  Gathered taken;
-  if (auto node = gathered_.extract(*job)) taken.insert(std::move(node));
-  return taken;
-}
-
-void Journal::give_back(Gathered&& samples) {
-  const MutexLock lock(gather_mutex_);
-  for (auto& [job, older] : samples) {
-    auto& newer = gathered_[job];
-    newer.insert(newer.begin(), std::make_move_iterator(older.begin()), std::make_move_iterator(older.end()));
+void Journal::add_samples(const Counts& counts) {
+  Statement update(database_,
+                   "UPDATE jobs SET last_sequence = last_sequence + ?2 - samples, samples = ?2 "
+                   "WHERE number = ?1 AND samples < ?2 AND ended_at IS NULL");
+  for (const auto& [job, count] : counts) {
+    std::int64_t gathered = 0;
+    {
+      const MutexLock lock(gather_mutex_);
+      if (const auto found = gathered_.find(job); found != gathered_.end()) gathered = found->second;
+    }
+    // Less if another write has added them, or the job has begun again.
+    update.bind(1, job).bind(2, std::min(count, gathered)).run();
   }
-  commit_at_ = std::min(commit_at_, std::chrono::steady_clock::now() + kBeforeNextTry);
-  sooner_.notify_all();
+}
+
+void Journal::forget_gathered(const Counts& counts) {
+  const MutexLock lock(gather_mutex_);
+  for (const auto& [job, count] : counts) {
+    const auto gathered = gathered_.find(job);
+    if (gathered != gathered_.end() && gathered->second <= count) gathered_.erase(gathered);
+  }
 }
 
 }  // namespace cellcrush::store

@@ -42,7 +42,8 @@ struct SweepJob {
   std::int64_t element_steps = 0;  ///< elements times steps of the run
 };
 
-/// Writes the journal (journal_format.md). Thread-safe. Failures throw ServiceError; a failed write changes nothing.
+/// Writes the journal (journal_format.md) of a data folder. Thread-safe. Failures throw ServiceError; a failed write
+/// changes nothing.
 class Journal {
  public:
   /// Called for a job with new durable events, on the thread that wrote them.
@@ -56,7 +57,7 @@ class Journal {
   /// `uptime` advances the service clock.
   Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit = {},
           Clocks::Source uptime = Clocks().uptime);
-  /// Commits the gathered samples.
+  /// Announces the samples that are gathered.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -111,18 +112,21 @@ class Journal {
   /// Deletes a hidden sweep without jobs.
   void end_sweep_deletion(std::int64_t sweep);
 
-  /// Makes a state change durable, after the samples gathered for the job. Throws failed_precondition if the transition
-  /// is not allowed (job_state.h). If a job FAILED and its sweep reaches max_failures, also sets the sweep's PENDING
-  /// jobs to CANCELLED and returns them.
+  /// Makes a state change durable, and the samples gathered for the job before it. Throws failed_precondition if the
+  /// transition is not allowed (job_state.h). If a job FAILED and its sweep reaches max_failures, also sets the sweep's
+  /// PENDING jobs to CANCELLED and returns them.
   std::vector<std::int64_t> change_state(std::int64_t job, const StateChange& change);
 
-  /// Calls begin_again (begin_again.h) in one transaction and drops the samples gathered for the job.
+  /// Resets a job that is PENDING, RUNNING or SUSPENDED: its samples and mesh no longer count, and an event says `why`
+  /// it restarts from step 0. A RUNNING job becomes PENDING. Sequence numbers continue; those of the samples are not
+  /// reused. Throws ServiceError: not_found, data_loss for an unreadable row, or failed_precondition for a job in
+  /// another state.
   void begin_again(std::int64_t job, const std::string& why);
 
-  /// Gathers a sample, to become durable within this time together with all others gathered by then. Never waits for
-  /// the disk. Drops a sample whose step does not exceed that of the job's newest one, so that repeated reports are
-  /// stored once.
-  void append_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within = kSoon);
+  /// The job's reports have `count` samples since it last began. They become events within this time, together with
+  /// those of other jobs: the reports are made durable, then the journal says how many samples count. Never waits for
+  /// the disk. No effect unless the count exceeds the one before.
+  void note_samples(std::int64_t job, std::int64_t count, std::chrono::milliseconds within = kSoon);
 
   /// Interval between checks for space to return to the disk.
   static constexpr std::chrono::milliseconds kUpkeepInterval{2000};
@@ -131,7 +135,7 @@ class Journal {
   static constexpr std::chrono::milliseconds kSoon{200};
   static constexpr std::chrono::milliseconds kLazyCommit{1000};
 
-  /// On return, all samples gathered before are durable, whichever thread wrote them.
+  /// On return, all samples noted before are durable, whichever thread does it.
   void commit_samples();
 
   void set_mesh(std::int64_t job, const v1::Mesh& mesh);
@@ -162,30 +166,31 @@ class Journal {
                                            const std::string& request_id, const std::string& request_hash);
   /// Adds the next jobs of a sweep, at most kCreatedAtOnce.
   void insert_jobs(CreatedSweep& created, const std::vector<SweepJob>& jobs);
+  /// A job and the number of its newest event.
+  struct StoredState {
+    v1::Job job;
+    std::int64_t last_sequence = 0;
+  };
+  /// Throws ServiceError: not_found, data_loss for an unreadable row.
+  StoredState read_state(std::int64_t job);
   void write_change(std::int64_t job, const StateChange& change);
   std::vector<std::int64_t> stop_failing_sweep(std::int64_t failed_job);
   std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::Job::State state);
   /// Deletes the rows of an ended job.
   void remove_job(std::int64_t job);
-  std::optional<std::int64_t> find_last_sequence(std::int64_t job);
-  void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
-  /// Step of the job's newest readable sample; -1 if there is none.
-  std::int64_t find_newest_step(std::int64_t job);
-
-  struct GatheredSample {
-    std::int64_t step = 0;
-    std::string bytes;
-  };
-  void insert_samples(std::int64_t job, const std::vector<GatheredSample>& samples);
 
   static constexpr auto kNothingIsDue = std::chrono::steady_clock::time_point::max();
-  using Gathered = std::map<std::int64_t, std::vector<GatheredSample>>;
-  class Taking;
   class Creation;
-  /// Takes all gathered samples, or those of one job.
-  Gathered take_gathered(std::optional<std::int64_t> job);
-  void give_back(Gathered&& samples);
+  /// Numbers of samples by job.
+  using Counts = std::map<std::int64_t, std::int64_t>;
+  /// What is gathered for all jobs, or for one, in reports that are durable.
+  Counts durable_samples(std::optional<std::int64_t> job);
+  /// Makes events of the samples, unless the job has begun again meanwhile.
+  void add_samples(const Counts& counts);
+  /// Forgets what has been added, so that only later samples are gathered.
+  void forget_gathered(const Counts& counts);
 
+  std::filesystem::path data_folder_;
   Durable on_durable_;
   Database database_;
   ServiceClock clock_;
@@ -194,9 +199,7 @@ class Journal {
   mutable Mutex creations_mutex_;
   std::set<std::int64_t> creations_ CELLCRUSH_GUARDED_BY(creations_mutex_);  ///< sweeps that create_sweep is adding
   Mutex gather_mutex_;
-  Gathered gathered_ CELLCRUSH_GUARDED_BY(gather_mutex_);  ///< samples that no thread is committing yet, by job
-  /// Number of writers that may hold samples which are not durable yet.
-  int takings_ CELLCRUSH_GUARDED_BY(gather_mutex_) = 0;
+  Counts gathered_ CELLCRUSH_GUARDED_BY(gather_mutex_);  ///< samples that are not events yet
   std::chrono::steady_clock::time_point commit_at_ CELLCRUSH_GUARDED_BY(gather_mutex_) = kNothingIsDue;
   std::condition_variable_any sooner_;  ///< commit_at_ is earlier, or the journal closes
   bool stopping_ CELLCRUSH_GUARDED_BY(gather_mutex_) = false;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "store/sample_reader.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -12,6 +13,7 @@ namespace cellcrush::store {
 struct JournalFindings {
   std::vector<std::string> problems;      ///< one or two sentences each, with the remedy
   std::vector<std::int64_t> with_result;  ///< ended jobs with a summary, and therefore a result.h5, ascending
+  std::vector<SampleRange> with_history;  ///< the last samples of other ended jobs that have some
   std::int64_t jobs = 0;
   std::int64_t sweeps = 0;
 };

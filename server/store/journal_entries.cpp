@@ -4,7 +4,7 @@
 #include "access/token_file.h"
 #include "error.h"
 #include "store/job_inserter.h"
-#include "store/job_removal.h"
+#include "store/job_rows.h"
 #include "store/job_state.h"
 #include "store/journal.h"
 #include "store/resource_name.h"

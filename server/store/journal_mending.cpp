@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "store/job_bytes.h"
+#include "store/job_rows.h"
 #include "store/job_state.h"
 #include "store/journal_schema.h"
 #include "store/queued_job.h"
@@ -38,15 +38,13 @@ std::vector<DamagedJob> find_damaged(Database& database) {
 
 // The newest state event has the same bytes as the job.
 bool restore_job(Database& database, DamagedJob& row) {
-  Statement read(database, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC LIMIT 1");
-  read.bind(1, row.number).bind(2, kStateEvent);
-  return read.step() && read_job_bytes(read.bytes(0), row.state, row.job);
+  Statement read(database, "SELECT payload FROM events WHERE job = ?1 ORDER BY sequence DESC LIMIT 1");
+  return read.bind(1, row.number).step() && read_job_bytes(read.bytes(0), row.state, row.job);
 }
 
 void write_row(Database& database, const DamagedJob& row) {
-  Statement update(database, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
-  update.bind(1, row.number).bind(2, row.job.state()).bind_blob(3, job_bytes(row.job));
-  update.bind(4, row.last_sequence).run();
+  Statement update(database, "UPDATE jobs SET state = ?2, job = ?3 WHERE number = ?1");
+  update.bind(1, row.number).bind(2, row.job.state()).bind_blob(3, job_bytes(row.job)).run();
 }
 
 void end_job(Database& database, DamagedJob& row, std::int64_t service_seconds) {
@@ -56,12 +54,7 @@ void end_job(Database& database, DamagedJob& row, std::int64_t service_seconds) 
   if (!row.job.has_create_time()) *row.job.mutable_create_time() = now;
   *row.job.mutable_end_time() = now;
   // No event follows that of a job's end.
-  if (!had_ended) {
-    Statement insert(database, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
-    insert.bind(1, row.number).bind(2, ++row.last_sequence).bind(3, kStateEvent);
-    insert.bind_blob(4, job_bytes(row.job)).run();
-  }
-  write_row(database, row);
+  had_ended ? write_row(database, row) : add_state(database, row.number, row.job, row.last_sequence + 1);
   Statement update(database, "UPDATE jobs SET ended_at = COALESCE(ended_at, ?2) WHERE number = ?1");
   update.bind(1, row.number).bind(2, service_seconds).run();
 }

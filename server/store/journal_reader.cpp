@@ -2,34 +2,60 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
 #include "error.h"
 #include "store/journal_mending.h"
-#include "store/journal_schema.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
 
-// An event's payload. False when it cannot be read.
-bool read_event(int kind, const std::string& payload, v1::JobEvent& event) {
-  if (kind != kStateEvent) return event.mutable_sample()->ParseFromString(payload);
-  return event.mutable_state()->ParseFromString(payload) && event.state().state() != v1::Job::JOB_STATE_UNSPECIFIED;
-}
-
-ServiceError unreadable_event(std::int64_t job, std::int64_t sequence) {
-  const std::string number = std::to_string(sequence);
-  return {ServiceError::Kind::data_loss,
-          "Event " + number + " of " + name_of(job) +
-              " cannot be read: the journal was damaged. To continue past it, watch with after_sequence " + number +
-              "."};
+ServiceError unreadable_event(std::int64_t job, std::int64_t sequence, const std::string& why, std::int64_t last) {
+  return {ServiceError::Kind::data_loss, "Event " + std::to_string(sequence) + " of " + name_of(job) +
+                                             " cannot be read: " + why + " To continue past it, watch with " +
+                                             "after_sequence " + std::to_string(last) + "."};
 }
 
 }  // namespace
 
-JournalReader::JournalReader(const std::filesystem::path& path) : database_(path), epoch_(read_epoch(database_)) {}
+// A sample has the next number that no state event has, counted on from the event with which the job last began again.
+struct JournalReader::Numbers {
+  std::int64_t samples = 0;
+  std::int64_t begun_again = 0;
+  bool has_ended = false;
+  std::vector<std::pair<std::int64_t, std::string>> states;  ///< sequence and payload
+
+  // How many samples have numbers up to this one.
+  [[nodiscard]] std::int64_t samples_up_to(std::int64_t sequence) const {
+    const auto states_until = std::ranges::count_if(
+        states, [&](const auto& state) { return state.first > begun_again && state.first <= sequence; });
+    return std::clamp<std::int64_t>(sequence - begun_again - states_until, 0, samples);
+  }
+
+  [[nodiscard]] std::int64_t sequence_of(std::int64_t sample) const {
+    std::int64_t out = begun_again + sample + 1;
+    for (const auto& [sequence, payload] : states) out += sequence > begun_again && sequence <= out ? 1 : 0;
+    return out;
+  }
+
+  // The state events after this one.
+  [[nodiscard]] auto states_after(std::int64_t sequence) const {
+    return std::ranges::upper_bound(states, sequence, {}, &std::pair<std::int64_t, std::string>::first);
+  }
+
+  // The last of the samples in a row with this one.
+  [[nodiscard]] std::int64_t end_of_row(std::int64_t sequence) const {
+    const auto next = states_after(sequence);
+    return next == states.end() ? sequence_of(samples - 1) : next->first - 1;
+  }
+};
+
+JournalReader::JournalReader(const std::filesystem::path& path)
+    : database_(path), epoch_(read_epoch(database_)), samples_(path.parent_path()) {}
 
 StoredJob JournalReader::read_job(const Statement& row) {
   StoredJob out;
@@ -38,12 +64,14 @@ StoredJob JournalReader::read_job(const Statement& row) {
   if (!out.job.mutable_case_()->ParseFromString(row.bytes(2))) out.job.mutable_case_()->Clear();
   out.job.set_name(name_of(out.number));
   out.last_sequence = row.integer(3);
+  out.samples = row.integer(5);
   return out;
 }
 
 std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
   const MutexLock lock(mutex_);
-  Statement read(database_, "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE number = ?1");
+  Statement read(database_,
+                 "SELECT number, job, submitted_case, last_sequence, state, samples FROM jobs WHERE number = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
   return read_job(read);
 }
@@ -61,57 +89,125 @@ std::vector<std::int64_t> JournalReader::deleted_jobs() {
   return out;
 }
 
-std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t after, int limit) {
+JournalReader::Numbers JournalReader::numbers_of(std::int64_t job) {
   const MutexLock lock(mutex_);
-  Statement read(
-      database_,
-      "SELECT sequence, kind, payload FROM events WHERE job = ?1 AND sequence > ?2 ORDER BY sequence LIMIT ?3");
-  read.bind(1, job).bind(2, after).bind(3, limit);
-  std::vector<v1::JobEvent> out;
+  Statement read(database_,
+                 "SELECT samples, begun_again, ended_at IS NOT NULL, sequence, payload FROM jobs "
+                 "JOIN events ON events.job = jobs.number WHERE jobs.number = ?1 ORDER BY sequence");
+  read.bind(1, job);
+  Numbers out;
   while (read.step()) {
+    out.samples = read.integer(0);
+    out.begun_again = read.integer(1);
+    out.has_ended = read.integer(2) != 0;
+    out.states.emplace_back(read.integer(3), read.bytes(4));
+  }
+  return out;
+}
+
+SampleReader::Found JournalReader::find_samples(const Numbers& numbers, const SampleRange& range, PageRoom room) {
+  v1::Job job;
+  if (numbers.has_ended && !job.ParseFromString(numbers.states.back().second)) job.Clear();
+  std::string why = "it is missing from the job's folder.";
+  SampleReader::Found out;
+  try {
+    out = samples_.read(range, job.summary(), room);
+  } catch (const ServiceError& error) {
+    if (error.shortage() != Shortage::none) throw;
+    out.is_cut = true;
+    why = error.what();
+  }
+  // Another worker computes those of a job that has not ended again.
+  if (!out.is_cut || !out.samples.empty() || !numbers.has_ended) return out;
+  const std::int64_t sequence = numbers.sequence_of(range.first);
+  throw unreadable_event(range.job, sequence, why, numbers.end_of_row(sequence));
+}
+
+template <typename Use>
+void JournalReader::with_numbers(std::int64_t job, const Use& use) {
+  Numbers numbers = numbers_of(job);
+  while (true) {
+    use(numbers);
+    // If the job has begun again meanwhile, there may be other samples in the place of those.
+    Numbers now = numbers_of(job);
+    if (now.begun_again == numbers.begun_again) return;
+    numbers = std::move(now);
+  }
+}
+
+std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t after, int limit) {
+  std::vector<v1::JobEvent> out;
+  with_numbers(job, [&](const Numbers& numbers) { out = read_events(job, numbers, after, limit); });
+  return out;
+}
+
+std::vector<v1::JobEvent> JournalReader::read_events(std::int64_t job, const Numbers& numbers, std::int64_t after,
+                                                     int limit) {
+  std::vector<v1::JobEvent> out;
+  SampleRange range{job, numbers.begun_again, numbers.samples_up_to(after), 0};
+  for (auto state = numbers.states_after(after); std::ssize(out) < limit;) {
+    const std::int64_t sample = range.first + range.count;
+    const bool is_state =
+        state != numbers.states.end() && (sample == numbers.samples || state->first < numbers.sequence_of(sample));
+    if (!is_state && sample == numbers.samples) break;
     v1::JobEvent& event = out.emplace_back();
-    event.set_sequence(read.integer(0));
-    if (!read_event(static_cast<int>(read.integer(1)), read.bytes(2), event)) {
-      if (out.size() == 1) throw unreadable_event(job, event.sequence());
-      // Those before it can be given.
+    if (!is_state) {
+      event.set_sequence(numbers.sequence_of(sample));
+      ++range.count;
+      continue;
+    }
+    event.set_sequence(state->first);
+    v1::Job& read = *event.mutable_state();
+    if (!read.ParseFromString(state->second) || read.state() == v1::Job::JOB_STATE_UNSPECIFIED) {
       out.pop_back();
+      if (out.empty()) throw unreadable_event(job, state->first, "the journal was damaged.", state->first);
       break;
     }
-    if (!event.has_state()) continue;
-    event.mutable_state()->set_name(name_of(job));
-    if (event.state().executor().empty()) event.mutable_state()->set_executor(kLocalExecutor);
+    read.set_name(name_of(job));
+    if (read.executor().empty()) read.set_executor(kLocalExecutor);
+    ++state;
   }
+  // Without those that cannot be read, and what follows them.
+  const bool begins_with_sample = !out.empty() && !out.front().has_state();
+  SampleReader::Found found;
+  try {
+    found = find_samples(numbers, range, {});
+  } catch (const ServiceError& error) {
+    if (begins_with_sample || error.kind() != ServiceError::Kind::data_loss) throw;
+  }
+  auto sample = found.samples.begin();
+  const auto end = std::ranges::find_if(out, [&](v1::JobEvent& event) {
+    if (event.has_state()) return false;
+    if (sample == found.samples.end()) return true;
+    *event.mutable_sample() = std::move(*sample++);
+    return false;
+  });
+  out.erase(end, out.end());
   return out;
 }
 
 StoredSamples JournalReader::samples(std::int64_t job, std::int64_t after, PageRoom room) {
-  const MutexLock lock(mutex_);
-  Statement read(
-      database_,
-      "SELECT payload, sequence FROM events WHERE job = ?1 AND sequence > ?2 AND kind = ?3 ORDER BY sequence");
-  read.bind(1, job).bind(2, after).bind(3, kSampleEvent);
   StoredSamples out;
-  while (read.step()) {
-    const std::string payload = read.bytes(0);
-    v1::Sample sample;
-    const bool sound = sample.ParseFromString(payload);
-    if (!sound && out.samples.empty()) throw unreadable_event(job, read.integer(1));
-    out.has_more = !sound || !room.take(payload.size());
-    if (out.has_more) break;
-    out.samples.push_back(std::move(sample));
-    out.last_sequence = read.integer(1);
-  }
+  with_numbers(job, [&](const Numbers& numbers) {
+    const std::int64_t first = numbers.samples_up_to(after);
+    auto found = find_samples(numbers, {job, numbers.begun_again, first, numbers.samples - first}, room);
+    const std::int64_t end = first + std::ssize(found.samples);
+    out.last_sequence = found.samples.empty() ? 0 : numbers.sequence_of(end - 1);
+    out.has_more = end < numbers.samples && (numbers.has_ended || !found.is_cut);
+    out.samples = std::move(found.samples);
+  });
   return out;
 }
 
 std::int64_t JournalReader::last_sampled_step(std::int64_t job) {
-  const MutexLock lock(mutex_);
-  Statement read(database_,
-                 "SELECT payload, sequence FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC LIMIT 1");
-  if (!read.bind(1, job).bind(2, kSampleEvent).step()) return -1;
-  v1::Sample sample;
-  if (!sample.ParseFromString(read.bytes(0))) throw unreadable_event(job, read.integer(1));
-  return sample.step();
+  const auto stored = find_job(job);
+  if (!stored || stored->samples == 0) return -1;
+  std::int64_t out = -1;
+  with_numbers(job, [&](const Numbers& numbers) {
+    const auto found = find_samples(numbers, {job, numbers.begun_again, numbers.samples - 1, 1}, {});
+    if (!found.samples.empty()) out = found.samples.back().step();
+  });
+  return out;
 }
 
 std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {

@@ -16,6 +16,7 @@
 #include "store/job_filter.h"
 #include "store/page_room.h"
 #include "store/queued_job.h"
+#include "store/sample_reader.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -25,6 +26,7 @@ struct StoredJob {
   std::int64_t number = 0;
   v1::Job job;
   std::int64_t last_sequence = 0;
+  std::int64_t samples = 0;  ///< since it last began
 };
 
 /// Consecutive samples of a job.
@@ -34,8 +36,8 @@ struct StoredSamples {
   bool has_more = false;           ///< whether more follow
 };
 
-/// Reads the journal beside its writer; sees committed data. Thread-safe. Failures throw ServiceError: data_loss for an
-/// unreadable event.
+/// Reads the journal beside its writer, and the samples that it counts in the jobs' folders; sees committed data.
+/// Thread-safe. Failures throw ServiceError: data_loss for an unreadable event.
 class JournalReader {
  public:
   /// REQUIRES: a Journal was opened on the same path.
@@ -90,15 +92,15 @@ class JournalReader {
   /// The samples after event `after`, in order. Ends before an unreadable one; throws data_loss if that is the first.
   StoredSamples samples(std::int64_t job, std::int64_t after = 0, PageRoom room = {});
 
-  /// Step of the newest sample; -1 before the first.
+  /// Step of the newest sample; -1 before the first, or while it cannot be read.
   std::int64_t last_sampled_step(std::int64_t job);
 
   /// Nothing until a worker has sent it, or if it cannot be read.
   std::optional<v1::Mesh> mesh(std::int64_t job);
 
  private:
-  /// Of a row with number, job, submitted_case, last_sequence, state. A row damaged since the journal was opened is
-  /// presented as such.
+  /// Of a row with number, job, submitted_case, last_sequence, state, samples. A row damaged since the journal was
+  /// opened is presented as such.
   static StoredJob read_job(const Statement& row);
 
   /// Numbers between these two, exclusive.
@@ -109,9 +111,19 @@ class JournalReader {
   std::vector<StoredJob> read_batch(const JobFilter& wanted, bool newest_first, const Range& range, int limit);
   std::int64_t newest_number();
 
+  struct Numbers;
+  Numbers numbers_of(std::int64_t job);
+  /// Calls use(numbers) until the samples that it has read are those of the numbers.
+  template <typename Use>
+  void with_numbers(std::int64_t job, const Use& use);
+  /// Throws ServiceError (data_loss) if the first sample of a job that has ended cannot be read.
+  SampleReader::Found find_samples(const Numbers& numbers, const SampleRange& range, PageRoom room);
+  std::vector<v1::JobEvent> read_events(std::int64_t job, const Numbers& numbers, std::int64_t after, int limit);
+
   Mutex mutex_;
   Database database_ CELLCRUSH_GUARDED_BY(mutex_);
   Epoch epoch_;
+  SampleReader samples_;
 };
 
 }  // namespace cellcrush::store

@@ -6,7 +6,7 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr std::int64_t kVersion = 6;
+constexpr std::int64_t kVersion = 7;
 
 constexpr const char* kTables = R"sql(
 CREATE TABLE jobs (
@@ -25,12 +25,13 @@ CREATE TABLE jobs (
   ended_at INTEGER,
   bytes INTEGER NOT NULL DEFAULT 0,
   measured INTEGER NOT NULL DEFAULT 0,
-  executor TEXT NOT NULL DEFAULT ''
+  executor TEXT NOT NULL DEFAULT '',
+  samples INTEGER NOT NULL DEFAULT 0,
+  begun_again INTEGER NOT NULL DEFAULT 0
 ) STRICT;
 CREATE TABLE events (
   job INTEGER NOT NULL REFERENCES jobs(number),
   sequence INTEGER NOT NULL,
-  kind INTEGER NOT NULL,
   payload BLOB NOT NULL,
   PRIMARY KEY (job, sequence)
 ) STRICT, WITHOUT ROWID;
@@ -98,7 +99,7 @@ CREATE INDEX sweeps_in_deletion ON sweeps(number) WHERE deleting = 1;
 
 // They keep the list of changes, so that no writer can forget it. The numbers are those of ChangeKind.
 constexpr const char* kTriggers = R"sql(
-CREATE TRIGGER note_state AFTER INSERT ON events WHEN new.kind = 1 BEGIN
+CREATE TRIGGER note_state AFTER INSERT ON events BEGIN
   INSERT INTO changes (kind, resource, sequence) VALUES (1, new.job, new.sequence);
 END;
 CREATE TRIGGER note_deleted_job AFTER DELETE ON jobs BEGIN
@@ -143,12 +144,13 @@ void require_known_version(Database& database) {
                          " cellcrushd, or use another data folder.");
 }
 
-std::int64_t prepare_journal(Database& database) {
+std::int64_t prepare_journal(Database& database, const std::filesystem::path& data_folder) {
   Transaction transaction(database);
   if (journal_version(database) == 0) {
     for (const char* sql : {kTables, kIndexes, kTriggers}) database.execute(sql);
     database.execute(("PRAGMA user_version = " + std::to_string(kVersion)).c_str());
   }
+  if (journal_version(database) == 6) upgrade_from_version_6(database, data_folder);
   require_known_version(database);
   ensure_epoch(database);
   transaction.commit();

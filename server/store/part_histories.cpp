@@ -1,60 +1,73 @@
 #include "store/part_histories.h"
 
-#include <array>
+#include <google/protobuf/message.h>
+
+#include <algorithm>
 #include <utility>
 
+#include "store/result_dataset.h"
 #include "store/result_layout.h"
 
 namespace cellcrush::store {
 namespace {
 
-template <double (v1::WatchedNode::*kGet)() const>
-constexpr PartColumn node_column(const char* name) {
-  return {name, [](const v1::Sample& sample, int part) { return (sample.watched(part).*kGet)(); }};
+using google::protobuf::FieldDescriptor;
+
+PartKind kind_of(const char* group, int field) { return {group, v1::Sample::descriptor()->FindFieldByNumber(field)}; }
+
+// The numbers of a part; its first field is its id.
+std::vector<const FieldDescriptor*> numbers_of(const PartKind& kind) {
+  std::vector<const FieldDescriptor*> out;
+  for (int i = 1; i < kind.field->message_type()->field_count(); ++i)
+    out.push_back(kind.field->message_type()->field(i));
+  return out;
 }
 
-template <double (v1::RigidWallSample::*kGet)() const>
-constexpr PartColumn wall_column(const char* name) {
-  return {name, [](const v1::Sample& sample, int part) { return (sample.rigid_walls(part).*kGet)(); }};
+const google::protobuf::Message& part_of(const PartKind& kind, const v1::Sample& sample, int part) {
+  return v1::Sample::GetReflection()->GetRepeatedMessage(sample, kind.field, part);
 }
 
-constexpr std::array kNodeColumns = {
-    node_column<&v1::WatchedNode::ux_mm>("ux_mm"),
-    node_column<&v1::WatchedNode::uy_mm>("uy_mm"),
-    node_column<&v1::WatchedNode::rotation_rad>("rotation_rad"),
-    node_column<&v1::WatchedNode::reaction_x_n>("reaction_x_n"),
-    node_column<&v1::WatchedNode::reaction_y_n>("reaction_y_n"),
-    node_column<&v1::WatchedNode::reaction_moment_n_mm>("reaction_moment_n_mm"),
-};
-
-constexpr std::array kWallColumns = {
-    wall_column<&v1::RigidWallSample::displacement_mm>("displacement_mm"),
-    wall_column<&v1::RigidWallSample::normal_force_n>("normal_force_n"),
-    wall_column<&v1::RigidWallSample::tangential_force_n>("tangential_force_n"),
-};
+int part_count(const PartKind& kind, const v1::Sample& sample) {
+  return v1::Sample::GetReflection()->FieldSize(sample, kind.field);
+}
 
 Hdf5Handle make_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
           "Creating the group " + name};
 }
 
+void read_part(hid_t file, const PartKind& kind, const std::string& id, hsize_t first, std::span<v1::Sample> samples) {
+  std::vector<google::protobuf::Message*> parts;
+  for (v1::Sample& sample : samples) {
+    parts.push_back(v1::Sample::GetReflection()->AddMessage(&sample, kind.field));
+    parts.back()->GetReflection()->SetString(parts.back(), kind.field->message_type()->field(0), id);
+  }
+  std::vector<double> rows(samples.size());
+  for (const FieldDescriptor* number : numbers_of(kind)) {
+    const std::string name(number->name());
+    const auto data = open_result_dataset(file, kind.group + ("/" + id), name, H5T_IEEE_F64LE, 1);
+    if (shape_of(data.id())[0] < first + rows.size()) throw damaged_result(name + " of " + id + " is too short");
+    read_rows(data.id(), H5T_NATIVE_DOUBLE, first, rows.size(), rows.data());
+    for (std::size_t i = 0; i < rows.size(); ++i) parts[i]->GetReflection()->SetDouble(parts[i], number, rows[i]);
+  }
+}
+
 }  // namespace
 
-constexpr PartKind kWatchedNodes = {"nodes", [](const v1::Sample& sample) { return sample.watched_size(); },
-                                    [](const v1::Sample& sample, int part) { return sample.watched(part).node(); },
-                                    kNodeColumns};
-constexpr PartKind kRigidWalls = {"rigid_walls", [](const v1::Sample& sample) { return sample.rigid_walls_size(); },
-                                  [](const v1::Sample& sample, int part) { return sample.rigid_walls(part).wall(); },
-                                  kWallColumns};
+PartKind watched_nodes() { return kind_of("nodes", v1::Sample::kWatchedFieldNumber); }
+PartKind rigid_walls() { return kind_of("rigid_walls", v1::Sample::kRigidWallsFieldNumber); }
 
 void PartHistories::append(hid_t file, std::span<const v1::Sample> samples) {
-  if (samples.empty() || kind_.count(samples.front()) == 0) return;
+  if (samples.empty() || part_count(kind_, samples.front()) == 0) return;
   if (written_.empty()) make_parts(file, samples.front());
+  const auto numbers = numbers_of(kind_);
   std::vector<double> rows(samples.size());
   for (std::size_t part = 0; part < written_.size(); ++part) {
-    for (std::size_t column = 0; column < kind_.columns.size(); ++column) {
-      for (std::size_t row = 0; row < samples.size(); ++row)
-        rows[row] = kind_.columns[column].get(samples[row], static_cast<int>(part));
+    for (std::size_t column = 0; column < numbers.size(); ++column) {
+      std::ranges::transform(samples, rows.begin(), [&](const v1::Sample& sample) {
+        const auto& message = part_of(kind_, sample, static_cast<int>(part));
+        return message.GetReflection()->GetDouble(message, numbers[column]);
+      });
       append_rows(written_[part].columns[column].id(), H5T_NATIVE_DOUBLE, rows.size(), rows.data());
     }
   }
@@ -62,12 +75,15 @@ void PartHistories::append(hid_t file, std::span<const v1::Sample> samples) {
 
 void PartHistories::make_parts(hid_t file, const v1::Sample& sample) {
   all_ = make_group(file, kind_.group);
-  for (int i = 0; i < kind_.count(sample); ++i) {
+  for (int i = 0; i < part_count(kind_, sample); ++i) {
+    const auto& message = part_of(kind_, sample, i);
     Part part;
-    part.group = make_group(all_.id(), kind_.id(sample, i));
-    for (const PartColumn& column : kind_.columns)
+    part.group = make_group(all_.id(), message.GetReflection()->GetString(message, message.GetDescriptor()->field(0)));
+    for (const FieldDescriptor* number : numbers_of(kind_)) {
+      const std::string name(number->name());
       part.columns.push_back(
-          make_growing_dataset(part.group.id(), column.name, H5T_IEEE_F64LE, {}, {kHistoryChunkRows}));
+          make_growing_dataset(part.group.id(), name.c_str(), H5T_IEEE_F64LE, {}, {kHistoryChunkRows}));
+    }
     written_.push_back(std::move(part));
   }
 }
@@ -80,6 +96,11 @@ void PartHistories::close() {
     part.group.close(what);
   }
   all_.close(what);
+}
+
+void read_parts(hid_t file, const v1::Frame& frame, hsize_t first, std::span<v1::Sample> samples) {
+  for (const auto& node : frame.watched_nodes()) read_part(file, watched_nodes(), node, first, samples);
+  for (const auto& wall : frame.rigid_walls()) read_part(file, rigid_walls(), wall.id(), first, samples);
 }
 
 }  // namespace cellcrush::store

@@ -4,32 +4,26 @@
 #include <string>
 #include <vector>
 
+#include "cellcrush/v1/case.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "store/hdf5.h"
 
 namespace cellcrush::store {
 
-/// A number of a part of a frame, of which a sample has several.
-struct PartColumn {
-  const char* name;
-  double (*get)(const v1::Sample& sample, int part);
-};
-
-/// Parts of a frame whose numbers samples have.
+/// Parts of a frame of which a sample has numbers. In a result, each has a group in `group`, and in it a dataset for
+/// each number of the sample's message.
 struct PartKind {
-  const char* group;  ///< of the result, with a group for each part
-  int (*count)(const v1::Sample& sample);
-  std::string (*id)(const v1::Sample& sample, int part);
-  std::span<const PartColumn> columns;
+  const char* group;
+  const google::protobuf::FieldDescriptor* field;  ///< of Sample
 };
 
-/// /nodes/{id}/{ux_mm, uy_mm, rotation_rad, reaction_x_n, reaction_y_n, reaction_moment_n_mm}: watched nodes.
-extern const PartKind kWatchedNodes;
-/// /rigid_walls/{id}/{displacement_mm, normal_force_n, tangential_force_n}.
-extern const PartKind kRigidWalls;
+/// /nodes/{id}: watched nodes.
+PartKind watched_nodes();
+/// /rigid_walls/{id}.
+PartKind rigid_walls();
 
-/// Writes the numbers of the parts of a frame to a result, a dataset for each number of each part, with one row per
-/// sample, parallel to /history. Writes nothing without such parts. Failures throw ServiceError.
+/// Writes the numbers of the parts of a frame to a result, with one row per sample, parallel to /history. Writes
+/// nothing without such parts. Failures throw ServiceError.
 class PartHistories {
  public:
   explicit PartHistories(const PartKind& kind) : kind_(kind) {}
@@ -46,9 +40,13 @@ class PartHistories {
 
   void make_parts(hid_t file, const v1::Sample& sample);
 
-  const PartKind& kind_;
+  PartKind kind_;
   Hdf5Handle all_;
   std::vector<Part> written_;
 };
+
+/// Adds the parts of a frame to samples from row `first` on of an open result. Throws ServiceError: data_loss for a
+/// dataset that is missing or differs from what was written.
+void read_parts(hid_t file, const v1::Frame& frame, hsize_t first, std::span<v1::Sample> samples);
 
 }  // namespace cellcrush::store

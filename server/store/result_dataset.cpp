@@ -56,9 +56,8 @@ bool has_room_for(hid_t file, hid_t dataset, double bytes) {
 }  // namespace
 
 ServiceError damaged_result(const std::string& what) {
-  return {
-      ServiceError::Kind::data_loss,
-      "The result is damaged: " + what + ". Submit its case again; the history and the summary are still available."};
+  return {ServiceError::Kind::data_loss,
+          "The result is damaged: " + what + ". Submit its case again; its summary is still available."};
 }
 
 Hdf5Handle open_result_dataset(hid_t file, const std::string& group, const std::string& name, hid_t type, int rank) {

@@ -25,6 +25,9 @@ struct HistoryColumn {
 /// All columns of /history, documented in result_format.md: every number of Sample and Front (sample.proto).
 const std::vector<HistoryColumn>& history_columns();
 
+/// Writes the summary of a run as attributes of its result, without attributes for absent fields. Throws ServiceError.
+void write_summary_attributes(hid_t file, const v1::Summary& summary);
+
 /// Rows per chunk of /history; the writer buffers as many.
 inline constexpr int kHistoryChunkRows = 256;
 

@@ -1,8 +1,12 @@
 #include "store/result_reader.h"
 
+#include <google/protobuf/util/json_util.h>
+
+#include <algorithm>
 #include <limits>
 
 #include "error.h"
+#include "store/part_histories.h"
 #include "store/result_dataset.h"
 #include "store/result_layout.h"
 #include "store/result_seal.h"
@@ -28,25 +32,38 @@ ResultReader::ResultReader(const std::filesystem::path& path) {
   file_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "Opening " + path.string());
 }
 
-std::vector<double> ResultReader::column(const char* group, const char* name, hid_t type) const {
+std::vector<double> ResultReader::column(const char* group, const char* name, hid_t type, hsize_t first,
+                                         hsize_t count) const {
   const Hdf5Handle data = open_result_dataset(file_.id(), group, name, type, 1);
-  std::vector<double> out(shape_of(data.id())[0]);
-  if (!out.empty()) read_rows(data.id(), H5T_NATIVE_DOUBLE, 0, out.size(), out.data());
+  const hsize_t rows = shape_of(data.id())[0];
+  std::vector<double> out(first < rows ? std::min(count, rows - first) : 0);
+  if (!out.empty()) read_rows(data.id(), H5T_NATIVE_DOUBLE, first, out.size(), out.data());
   return out;
 }
 
 std::string ResultReader::text_attribute(const char* name) const { return read_text_attribute(file_.id(), name); }
 
-std::vector<v1::Sample> ResultReader::history() const {
+std::vector<v1::Sample> ResultReader::history(std::int64_t first, std::int64_t count) const {
+  const auto from = static_cast<hsize_t>(first);
   std::vector<v1::Sample> out;
   for (const auto& layout : history_columns()) {
     const std::string path = "history/" + layout.name;
-    if (!out.empty() && H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) == 0) continue;  // of an earlier version
-    const auto values = column("history", layout.name.c_str(), layout.type());
+    const bool is_new = layout.name != "time_s" && H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) == 0;
+    if (is_new) continue;  // the file is of an earlier version
+    const auto values = column("history", layout.name.c_str(), layout.type(), from, static_cast<hsize_t>(count));
     if (out.empty()) out.resize(values.size());
     if (out.size() != values.size()) throw damaged_result("the columns of its history differ in length");
     for (std::size_t i = 0; i < values.size(); ++i) layout.set(out[i], values[i]);
   }
+  const auto has = [this](const char* group) { return H5Lexists(file_.id(), group, H5P_DEFAULT) > 0; };
+  if (out.empty() || (!has("nodes") && !has("rigid_walls"))) return out;
+  // In the order of the case, as the groups of the file have none.
+  v1::Case submitted;
+  google::protobuf::util::JsonParseOptions options;
+  options.ignore_unknown_fields = true;
+  if (!google::protobuf::util::JsonStringToMessage(text_attribute("case"), &submitted, options).ok())
+    throw damaged_result("its case cannot be read");
+  read_parts(file_.id(), submitted.lattice().frame(), from, out);
   return out;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,15 +20,18 @@ class ResultReader {
 
   /// An attribute of the file.
   [[nodiscard]] std::string text_attribute(const char* name) const;
-  /// All samples. Columns that a result of an earlier version lacks stay 0.
-  [[nodiscard]] std::vector<v1::Sample> history() const;
+  /// Samples from number `first` on, counted from 0, `count` of them if there are so many; without their warnings.
+  /// Columns that a result of an earlier version lacks stay 0.
+  [[nodiscard]] std::vector<v1::Sample> history(std::int64_t first = 0,
+                                                std::int64_t count = std::numeric_limits<std::int64_t>::max()) const;
   [[nodiscard]] std::vector<double> frame_times() const;
   [[nodiscard]] std::vector<double> frame_strains() const;
   /// Throws ServiceError (data_loss) if no frame has that index.
   [[nodiscard]] v1::FieldFrame frame(int index) const;
 
  private:
-  [[nodiscard]] std::vector<double> column(const char* group, const char* name, hid_t type) const;
+  [[nodiscard]] std::vector<double> column(const char* group, const char* name, hid_t type, hsize_t first = 0,
+                                           hsize_t count = std::numeric_limits<std::int64_t>::max()) const;
 
   Hdf5Handle file_;
 };

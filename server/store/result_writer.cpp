@@ -7,7 +7,6 @@
 
 #include "store/case_hash.h"
 #include "store/result_seal.h"
-#include "store/summary_attributes.h"
 
 namespace cellcrush::store {
 namespace {

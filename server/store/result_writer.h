@@ -47,8 +47,8 @@ class ResultWriter {
   Hdf5Handle file_;
   Hdf5Handle mesh_;
   std::vector<Hdf5Handle> history_;  ///< in the order of history_columns
-  PartHistories nodes_{kWatchedNodes};
-  PartHistories rigid_walls_{kRigidWalls};
+  PartHistories nodes_{watched_nodes()};
+  PartHistories rigid_walls_{rigid_walls()};
   Hdf5Handle frame_time_;
   Hdf5Handle frame_strain_;
   Hdf5Handle frame_position_;

@@ -1,11 +1,10 @@
-#include "store/summary_attributes.h"
-
 #include <google/protobuf/message.h>
 
 #include <string>
 #include <string_view>
 
 #include "store/hdf5.h"
+#include "store/result_layout.h"
 
 namespace cellcrush::store {
 namespace {

@@ -47,6 +47,14 @@ std::string problem_of_result(const std::filesystem::path& folder, std::int64_t 
   }
 }
 
+bool has_history(const std::filesystem::path& folder, const SampleRange& last) {
+  try {
+    return !SampleReader(folder).read(last, {}).is_cut;
+  } catch (const ServiceError&) {
+    return false;
+  }
+}
+
 bool has_job(Database& journal, std::int64_t job) {
   return Statement(journal, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
 }
@@ -62,6 +70,15 @@ void check_results(const std::filesystem::path& folder, Database& journal, const
       // Otherwise the daemon has deleted it meanwhile.
       out.problems.push_back(problem + " Restore a backup, or delete " + name_of(job) + " and submit its case again.");
     }
+  }
+}
+
+void check_histories(const std::filesystem::path& folder, Database& journal, const JournalFindings& found,
+                     const std::set<std::string>& lost, Verification& out) {
+  for (const SampleRange& last : found.with_history) {
+    const std::string name = name_of(last.job);
+    if (!lost.contains(name) && !has_history(folder, last) && has_job(journal, last.job))
+      out.problems.push_back(name + "/history is missing or damaged. Restore a backup, or delete " + name + ".");
   }
 }
 
@@ -107,6 +124,7 @@ Verification verify_folder(const std::filesystem::path& folder) {
     out.sweeps = found.sweeps;
     out.problems = std::move(found.problems);
     check_results(folder, journal, found, lost, out);
+    check_histories(folder, journal, found, lost, out);
     if (!out.is_backup) note_strangers(folder, journal, out);
   } catch (const ServiceError& error) {
     if (error.kind() != ServiceError::Kind::data_loss) throw;

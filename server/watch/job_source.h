@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "watch/hub.h"
 #include "watch/watch_cursor.h"
@@ -18,13 +19,14 @@ class JobSource {
   static constexpr bool kIsWatch = true;
 
   /// Throws the errors of WatchCursor.
-  JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, WatchCursor::Wanted wanted);
+  JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, WatchCursor::Wanted wanted)
+      : channel_(hub.open(job)), frames_(wanted.frames), cursor_(journal, hub, job, after, wanted) {}
 
   /// Calls `wake` from now on whenever there may be another message, on other threads and under locks: it must be
   /// quick.
-  void open(std::function<void()> wake);
+  void open(std::function<void()> wake) { subscription_ = channel_->subscribe(std::move(wake), frames_); }
   /// Once this returns, `wake` is not called again.
-  void close();
+  void close() { channel_->unsubscribe(subscription_); }
 
   std::optional<v1::JobEvent> next() { return cursor_.next(); }
   /// Whether the next message is available without waiting.
@@ -32,7 +34,9 @@ class JobSource {
   [[nodiscard]] bool ended() const { return cursor_.ended(); }
   [[nodiscard]] v1::JobEvent bookmark() const { return cursor_.bookmark(); }
   /// How to continue a watch that was closed, as the end of a sentence.
-  [[nodiscard]] std::string resume_advice() const;
+  [[nodiscard]] std::string resume_advice() const {
+    return "with after_sequence " + std::to_string(cursor_.sequence());
+  }
 
  private:
   std::shared_ptr<Channel> channel_;

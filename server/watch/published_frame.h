@@ -2,8 +2,10 @@
 
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "cellcrush/v1/sample.pb.h"
+#include "watch/packed_frame.h"
 
 namespace cellcrush::watch {
 
@@ -12,10 +14,15 @@ namespace cellcrush::watch {
 class PublishedFrame {
  public:
   /// `mesh` has the positions before loading; null: packed displacements are positions.
-  PublishedFrame(v1::FieldFrame frame, std::shared_ptr<const v1::Mesh> mesh);
+  PublishedFrame(v1::FieldFrame frame, std::shared_ptr<const v1::Mesh> mesh)
+      : numbers_(std::move(frame)), mesh_(std::move(mesh)) {}
 
   [[nodiscard]] int index() const { return numbers_.index(); }
-  [[nodiscard]] const v1::FieldFrame& in(v1::FieldFrame::Encoding encoding) const;
+  [[nodiscard]] const v1::FieldFrame& in(v1::FieldFrame::Encoding encoding) const {
+    if (encoding != v1::FieldFrame::PACKED) return numbers_;
+    std::call_once(once_, [this] { packed_ = pack(numbers_, mesh_.get()); });
+    return packed_;
+  }
 
  private:
   v1::FieldFrame numbers_;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "store/job_folder.h"
+#include "store/report.pb.h"
 #include "translate/results.h"
-#include "worker/report.pb.h"
 
 namespace cellcrush::worker {
 

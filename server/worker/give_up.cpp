@@ -5,7 +5,6 @@
 
 #include "shortage.h"
 #include "worker/checkpoint_file.h"
-#include "worker/job_scene.h"
 #include "worker/origin.h"
 #include "worker/run_output.h"
 
@@ -19,7 +18,7 @@ translate::RunTime known_time(const store::JobFolder& folder, const Checkpoint::
 }
 
 // Whether it was asked to leave the job; acknowledges a cancel once.
-bool must_leave(const RequestedStop& requested_stop, ReportLog& log, bool& acknowledged) {
+bool must_leave(const RequestedStop& requested_stop, store::ReportLog& log, bool& acknowledged) {
   const StopRequest request = requested_stop();
   if (request == StopRequest::cancel && !std::exchange(acknowledged, true)) {
     Report report;
@@ -31,8 +30,8 @@ bool must_leave(const RequestedStop& requested_stop, ReportLog& log, bool& ackno
 
 }  // namespace
 
-Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const RequestedStop& requested_stop,
-              Final loss) {
+Final give_up(const store::JobFolder& folder, const Order& order, store::ReportLog& log,
+              const RequestedStop& requested_stop, Final loss) {
   try {
     const auto origin = origin_of(order);
     Order as_run = order;
@@ -40,9 +39,9 @@ Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log
     // Before building the scene, which may take longer than the daemon waits for a report.
     static_cast<void>(must_leave(requested_stop, log, acknowledged));
     RunOutput output(folder, log, as_run, scene_of(order));
-    ReportLogReader reader(folder.reports());
+    store::ReportLogReader reader(folder.reports());
     Report report;
-    while (reader.read(report) == ReportLogReader::Read::message) {
+    while (reader.read(report) == store::ReportLogReader::Read::message) {
       if (must_leave(requested_stop, log, acknowledged)) {
         Final left;
         left.set_suspended_step(output.last_sampled_step());

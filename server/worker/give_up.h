@@ -1,7 +1,7 @@
 #pragma once
 
 #include "store/job_folder.h"
-#include "worker/report_log.h"
+#include "store/report_log.h"
 #include "worker/run_job.h"
 
 namespace cellcrush::worker {
@@ -10,7 +10,7 @@ namespace cellcrush::worker {
 /// with its summary. Returns `loss` alone if nothing was reported or no result can be made. A request to cancel is
 /// acknowledged, as the job already ends. A request to suspend leaves the job unchanged, with the step of its last
 /// sample; so does a shortage, unless the job was cancelled. Never throws.
-Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const RequestedStop& requested_stop,
-              Final loss);
+Final give_up(const store::JobFolder& folder, const Order& order, store::ReportLog& log,
+              const RequestedStop& requested_stop, Final loss);
 
 }  // namespace cellcrush::worker

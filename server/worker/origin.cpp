@@ -1,11 +1,28 @@
 #include "worker/origin.h"
 
+#include <stdexcept>
+
 #include "cellcrush/simd.h"
+#include "cellcrush/simulation.h"
 #include "revision.h"
 #include "store/case_hash.h"
-#include "worker/report_log.h"
+#include "store/report_log.h"
+#include "translate/case_to_spec.h"
 
 namespace cellcrush::worker {
+
+std::shared_ptr<const Scene> scene_of(const Order& order) {
+  const auto reading = translate::to_spec(order.case_());
+  auto built = build_scene(reading.spec);
+  Problems problems = reading.problems;
+  problems.insert(problems.end(), built.problems.begin(), built.problems.end());
+  // The daemon has checked the case, so this is an old job that the present version rejects.
+  if (!problems.empty()) {
+    throw std::runtime_error("this version no longer accepts the case: " + problems.front().field + ": " +
+                             problems.front().message);
+  }
+  return built.scene;
+}
 
 Checkpoint::Origin origin_of(const Order& order) {
   Checkpoint::Origin out;
@@ -16,10 +33,10 @@ Checkpoint::Origin origin_of(const Order& order) {
 }
 
 std::optional<Checkpoint::Origin> find_other_origin(const store::JobFolder& folder, const Checkpoint::Origin& origin) {
-  ReportLogReader reader(folder.reports());
+  store::ReportLogReader reader(folder.reports());
   const std::string own = origin.SerializeAsString();
   Report report;
-  while (reader.read(report) == ReportLogReader::Read::message) {
+  while (reader.read(report) == store::ReportLogReader::Read::message) {
     if (report.has_begun() && report.begun().origin().SerializeAsString() != own) return report.begun().origin();
   }
   return std::nullopt;

@@ -15,7 +15,6 @@
 #include "translate/results.h"
 #include "worker/checkpoint_file.h"
 #include "worker/give_up.h"
-#include "worker/job_scene.h"
 #include "worker/large_pages.h"
 #include "worker/origin.h"
 #include "worker/processor_time.h"
@@ -43,7 +42,7 @@ struct CannotContinue {
 // One run: the simulation, and the destination of its output.
 class Run {
  public:
-  Run(const store::JobFolder& folder, const Order& order, ReportLog& log, const RequestedStop& requested_stop)
+  Run(const store::JobFolder& folder, const Order& order, store::ReportLog& log, const RequestedStop& requested_stop)
       : folder_(folder),
         order_(order),
         log_(log),
@@ -247,7 +246,7 @@ class Run {
   Clock::time_point begin_ = Clock::now();
   const store::JobFolder& folder_;
   const Order& order_;
-  ReportLog& log_;
+  store::ReportLog& log_;
   const RequestedStop& requested_stop_;
   Checkpoint::Origin origin_;
   std::shared_ptr<const Scene> scene_;
@@ -277,7 +276,8 @@ Final left_for(const ServiceError& error, const store::JobFolder& folder, const 
   return out;
 }
 
-Final end_of(const store::JobFolder& folder, const Order& order, ReportLog& log, const RequestedStop& requested_stop) {
+Final end_of(const store::JobFolder& folder, const Order& order, store::ReportLog& log,
+             const RequestedStop& requested_stop) {
   if (order.has_given_up()) return give_up(folder, order, log, requested_stop, order.given_up());
   Final loss;
   try {
@@ -302,7 +302,7 @@ Final end_of(const store::JobFolder& folder, const Order& order, ReportLog& log,
 }  // namespace
 
 void run_job(const store::JobFolder& folder, const Order& order, const RequestedStop& requested_stop) {
-  ReportLog log(folder.reports());
+  store::ReportLog log(folder.reports());
   Report report;
   *report.mutable_final() = end_of(folder, order, log, requested_stop);
   // An incomplete result is rebuilt from the reports.

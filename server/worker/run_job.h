@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "store/job_folder.h"
-#include "worker/report.pb.h"
+#include "store/report.pb.h"
 
 namespace cellcrush::worker {
 

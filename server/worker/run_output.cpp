@@ -17,7 +17,7 @@ ProgressMeter meter_of(const SceneFacts& facts, std::int64_t first_step) {
 
 }  // namespace
 
-RunOutput::RunOutput(const store::JobFolder& folder, ReportLog& log, const Order& order,
+RunOutput::RunOutput(const store::JobFolder& folder, store::ReportLog& log, const Order& order,
                      std::shared_ptr<const Scene> scene)
     : folder_(folder),
       log_(log),
@@ -30,10 +30,10 @@ RunOutput::RunOutput(const store::JobFolder& folder, ReportLog& log, const Order
 
 bool RunOutput::restore(const Checkpoint& checkpoint) {
   meter_ = meter_of(facts_, checkpoint.step());
-  ReportLogReader reader(folder_.reports());
+  store::ReportLogReader reader(folder_.reports());
   Report report;
   while ((sample_count() < checkpoint.sample_count() || frame_count_ < checkpoint.frame_count()) &&
-         reader.read(report) == ReportLogReader::Read::message) {
+         reader.read(report) == store::ReportLogReader::Read::message) {
     const bool is_wanted =
         report.has_sample() ? sample_count() < checkpoint.sample_count() : frame_count_ < checkpoint.frame_count();
     if (is_wanted) take(report);

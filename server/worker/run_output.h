@@ -7,10 +7,10 @@
 
 #include "cellcrush/simulation.h"
 #include "store/job_folder.h"
+#include "store/report_log.h"
 #include "store/result_writer.h"
 #include "translate/results.h"
 #include "worker/progress_meter.h"
-#include "worker/report_log.h"
 
 namespace cellcrush::worker {
 
@@ -18,7 +18,8 @@ namespace cellcrush::worker {
 class RunOutput {
  public:
   /// `order` outlives this object.
-  RunOutput(const store::JobFolder& folder, ReportLog& log, const Order& order, std::shared_ptr<const Scene> scene);
+  RunOutput(const store::JobFolder& folder, store::ReportLog& log, const Order& order,
+            std::shared_ptr<const Scene> scene);
 
   /// Starts with what a run had reported before it stopped at a checkpoint. False if the reports are incomplete; the
   /// object is then unusable.
@@ -46,7 +47,7 @@ class RunOutput {
   void record(const v1::FieldFrame& frame);
 
   store::JobFolder folder_;
-  ReportLog& log_;
+  store::ReportLog& log_;
   const Order& order_;
   std::shared_ptr<const Scene> scene_;
   SceneFacts facts_;

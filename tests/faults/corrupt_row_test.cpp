@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <fstream>
 #include <iostream>
 
 #include "faults/fault_fixture.h"
@@ -10,10 +11,12 @@
 #include "server/small_case.h"
 #include "server/watch_contract.h"
 #include "store/journal_reader.h"
+#include "store/report_log.h"
 
 namespace cellcrush::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -59,19 +62,13 @@ class CorruptRowTest : public FaultFixture {
     return watched.status;
   }
 
-  // Kills the daemon while the job runs, damages its newest sample, and starts the next daemon.
-  void damage_a_running_job(std::string& job, pid_t& worker, bool kill_worker) {
-    start_daemon(arguments_);
-    auto client = this->client();
-    job = client.create(endless_case());
-    wait_for_samples(client, job, 10);
-    worker = client.worker_of(job);
-    kill_daemon();
-    if (kill_worker) kill(worker, SIGKILL);
-    const std::string number = job.substr(5);
-    damage("events", "payload",
-           "job = " + number + " AND sequence = (SELECT MAX(sequence) FROM events WHERE job = " + number + ")");
-    start_daemon(arguments_);
+  // Changes a bit of a file.
+  void flip(const std::string& name, std::uint64_t offset) const {
+    std::fstream file(data_folder() / name, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekg(static_cast<std::streamoff>(offset));
+    const int byte = file.get();
+    file.seekp(static_cast<std::streamoff>(offset));
+    file.put(static_cast<char>(byte ^ 1));
   }
 
   const std::int64_t count_ = rounds(500, 10'000);
@@ -122,7 +119,7 @@ TEST_F(CorruptRowTest, AJobOfWhichNothingCanBeReadFailsAndTheOthersGoOn) {
   EXPECT_EQ(last, 2);
 }
 
-TEST_F(CorruptRowTest, ASampleThatCannotBeReadCostsOnlyItself) {
+TEST_F(CorruptRowTest, AResultThatCannotBeReadCostsOnlyItsSamples) {
   start_daemon(arguments_);
   std::string job;
   std::string next;
@@ -133,44 +130,48 @@ TEST_F(CorruptRowTest, ASampleThatCannotBeReadCostsOnlyItself) {
     for (const auto& name : {job, next}) EXPECT_TRUE(client.wait_for_state(name, v1::Job::SUCCEEDED));
   }
   stop_daemon();
-  damage("events", "payload", "job = " + job.substr(5) + " AND sequence = 10");
+  flip(job + "/result.h5", std::filesystem::file_size(data_folder() / job / "result.h5") / 2);
   start_daemon(arguments_);
   auto client = this->client();
   EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED);
   std::int64_t last = 0;
-  EXPECT_EQ(watch_soundly(client, job, 0, last).error_code(), grpc::StatusCode::DATA_LOSS);
-  EXPECT_EQ(last, 9) << "What comes before it is given.";
-  EXPECT_TRUE(watch_soundly(client, job, 10, last).ok()) << "What comes behind it is given.";
-  EXPECT_GT(last, 20);
+  const auto status = watch_soundly(client, job, 0, last);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS);
+  EXPECT_EQ(last, 2) << "What comes before the samples is given.";
+  EXPECT_THAT(status.error_message(),
+              AllOf(HasSubstr("Event 3 of " + job + " cannot be read"), HasSubstr("watch with after_sequence 23.")));
+  EXPECT_TRUE(watch_soundly(client, job, 23, last).ok()) << "What comes behind them is given.";
+  EXPECT_EQ(last, 24);
   grpc::Status history;
-  EXPECT_EQ(client.history(job, history).size(), 7U) << "The samples before it; two events are states.";
+  EXPECT_THAT(client.history(job, history), IsEmpty());
   EXPECT_EQ(history.error_code(), grpc::StatusCode::DATA_LOSS);
-  grpc::Status downloaded;
-  EXPECT_GT(client.download(job, 0, downloaded).size(), 1000U);
   EXPECT_TRUE(watch_soundly(client, next, 0, last).ok());
   EXPECT_EQ(client.history(next).size(), 21U);
-  EXPECT_THAT(stop_daemon(), HasSubstr("Event 10 of " + job + " cannot be read"));
 }
 
-TEST_F(CorruptRowTest, AnAdoptedJobWhoseNewestSampleCannotBeReadFailsAndItsWorkerEnds) {
+TEST_F(CorruptRowTest, AReportThatCannotBeReadEndsTheJobWhichKeepsTheSamplesBefore) {
+  start_daemon(arguments_);
   std::string job;
-  pid_t worker = 0;
-  damage_a_running_job(job, worker, false);
+  {
+    auto client = this->client();
+    job = client.create(endless_case());
+    wait_for_samples(client, job, 10);
+    const pid_t worker = client.worker_of(job);
+    kill_daemon();
+    kill(worker, SIGKILL);
+  }
+  {
+    store::ReportLogReader reports(data_folder() / job / "reports");
+    v1::Sample sample;
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(reports.read_sample(sample), store::ReportLogReader::Read::message);
+    flip(job + "/reports", reports.offset() - 1);
+  }
+  start_daemon(arguments_);
   auto client = this->client();
   EXPECT_TRUE(client.wait_for_state(job, v1::Job::FAILED));
-  EXPECT_EQ(client.get(job).cause(), v1::Job::STORE_CORRUPT);
-  EXPECT_TRUE(wait_until_gone(worker, std::chrono::seconds(10)));
-  const std::string next = client.create(tiny_case());
-  EXPECT_TRUE(client.wait_for_state(next, v1::Job::SUCCEEDED));
-}
-
-TEST_F(CorruptRowTest, ALostJobWhoseNewestSampleCannotBeReadFailsAndTheDaemonStarts) {
-  std::string job;
-  pid_t worker = 0;
-  damage_a_running_job(job, worker, true);
-  auto client = this->client();
-  EXPECT_EQ(client.get(job).state(), v1::Job::FAILED);
-  EXPECT_EQ(client.get(job).cause(), v1::Job::STORE_CORRUPT);
+  grpc::Status history;
+  EXPECT_EQ(client.history(job, history).size(), 4U);
+  EXPECT_EQ(history.error_code(), grpc::StatusCode::DATA_LOSS);
   const std::string next = client.create(tiny_case());
   EXPECT_TRUE(client.wait_for_state(next, v1::Job::SUCCEEDED));
 }

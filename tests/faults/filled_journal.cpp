@@ -23,8 +23,7 @@ void fill_journal(const std::filesystem::path& data_folder, std::int64_t count, 
                    "number = 1 AND n <= ?1")
       .bind(1, count)
       .run();
-  database.execute(
-      "INSERT INTO events (job, sequence, kind, payload) SELECT number, 1, 1, job FROM jobs WHERE number > 1");
+  database.execute("INSERT INTO events (job, sequence, payload) SELECT number, 1, job FROM jobs WHERE number > 1");
   transaction.commit();
 }
 

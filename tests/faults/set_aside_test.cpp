@@ -147,8 +147,13 @@ TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
   std::size_t sample_count = 0;
   {
     auto client = this->client();
-    for (int i = 0; i < 2; ++i) ASSERT_TRUE(client.wait_for_state(client.create(small_case()), v1::Job::SUCCEEDED));
-    sample_count = client.history("jobs/2").size();
+    // Their events fill several pages.
+    auto submitted = tiny_case();
+    std::string title;
+    for (int i = 0; i < 175; ++i) title += "\U0001F41D";
+    submitted.set_title(title);
+    for (int i = 0; i < 4; ++i) ASSERT_TRUE(client.wait_for_state(client.create(submitted), v1::Job::SUCCEEDED));
+    sample_count = client.history("jobs/4").size();
   }
   stop_daemon();
   std::int64_t page = 0;
@@ -170,7 +175,7 @@ TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS) << status.error_message();
   EXPECT_THAT(status.error_message(), AllOf(HasSubstr(journal().string() + " is damaged"), HasSubstr("restore")));
   EXPECT_EQ(client.get("jobs/1").state(), v1::Job::SUCCEEDED);
-  EXPECT_EQ(client.history("jobs/2").size(), sample_count);
+  EXPECT_EQ(client.history("jobs/4").size(), sample_count);
   stop_daemon();
 }
 

@@ -9,6 +9,7 @@
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 #include "server/watch_contract.h"
+#include "store/backup.h"
 #include "store/journal_reader.h"
 #include "store/sqlite.h"
 #include "store/verification.h"
@@ -84,6 +85,15 @@ TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
   EXPECT_TRUE(numbers_of(client, data_folder(), "jobs/3") == numbers_of(client, data_folder(), "jobs/4"));
   stop_daemon();
   EXPECT_THAT(store::verify_folder(data_folder()).problems, IsEmpty());
+
+  // What it had in the journal is in its backups.
+  const auto backup = data_folder().parent_path() / "backup";
+  const auto restored = data_folder().parent_path() / "restored";
+  EXPECT_THAT(store::take_backup(data_folder(), backup).lost, IsEmpty());
+  store::restore_backup(backup, restored);
+  store::JournalReader reader(restored / "journal.sqlite");
+  EXPECT_EQ(reader.samples(1).samples.size(), 21U);
+  EXPECT_EQ(reader.samples(2).samples.size(), 17U);
 }
 
 }  // namespace

@@ -17,9 +17,9 @@
 #include "error.h"
 #include "fuzz/prepared_folder.h"
 #include "server/temporary_folder.h"
+#include "store/report_log.h"
 #include "worker/checkpoint_file.h"
 #include "worker/claim.h"
-#include "worker/report_log.h"
 
 namespace cellcrush::fuzz {
 namespace {
@@ -43,10 +43,10 @@ std::string as_checkpoint(const std::string& bytes) {
 }
 
 int count_reports(const std::filesystem::path& path) {
-  worker::ReportLogReader reader(path);
+  store::ReportLogReader reader(path);
   worker::Report report;
   int out = 0;
-  while (reader.read(report) == worker::ReportLogReader::Read::message) ++out;
+  while (reader.read(report) == store::ReportLogReader::Read::message) ++out;
   if (reader.offset() > std::filesystem::file_size(path)) std::abort();
   return out;
 }
@@ -55,7 +55,7 @@ void read_reports(const store::JobFolder& folder) {
   const int before = count_reports(folder.reports());
   worker::Report report;
   report.mutable_stopping();
-  worker::ReportLog(folder.reports()).append(report);
+  store::ReportLog(folder.reports()).append(report);
   if (count_reports(folder.reports()) != before + 1) {
     std::fprintf(stderr, "a log that was mended cannot be continued\n");
     std::abort();

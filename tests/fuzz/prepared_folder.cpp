@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "cellcrush/v1/sample.pb.h"
+#include "server/sample_writer.h"
 #include "server/small_case.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
@@ -76,10 +77,12 @@ void prepare_folder(const std::filesystem::path& root) {
     journal.create_job(job_of(testing::tiny_case()), "of job " + std::to_string(i), "hash", 9);
   change(journal, 2, v1::Job::RUNNING);
   journal.set_mesh(2, mesh_of_two());
-  for (int step = 1; step <= kSamples; ++step) journal.append_sample(2, sample_at(step));
+  testing::SampleWriter reported(root);
+  for (int step = 1; step <= kSamples; ++step) reported.add(journal, 2, sample_at(step));
   folder.make_job_folder(2);
   write_result(folder.job_folder(2).result());
   change(journal, 2, v1::Job::SUCCEEDED, true);
+  folder.clean_job_folder(2);
   change(journal, 3, v1::Job::RUNNING);
   change(journal, 3, v1::Job::FAILED);
   add_sweep(journal);

@@ -222,12 +222,12 @@ TEST_F(BackupTest, WhatIsWrongWithADataFolderIsNamedWithItsRemedyWhileTheDaemonR
   std::filesystem::create_directory(data_folder() / "jobs/99");
   {
     store::Database database(data_folder() / "journal.sqlite");
-    store::Statement(database, "UPDATE events SET payload = ?1 WHERE job = 3 AND sequence = 5")
+    store::Statement(database, "UPDATE events SET payload = ?1 WHERE job = 3 AND sequence = 2")
         .bind_blob(1, std::string(40, '\xff'))
         .run();
   }
   const auto found = store::verify_folder(data_folder());
-  EXPECT_THAT(found.problems, ElementsAre(HasSubstr("Event 5 of jobs/3"), HasSubstr("jobs/1/result.h5 is damaged"),
+  EXPECT_THAT(found.problems, ElementsAre(HasSubstr("Event 2 of jobs/3"), HasSubstr("jobs/1/result.h5 is damaged"),
                                           HasSubstr("jobs/2/result.h5")));
   for (const auto& problem : found.problems) EXPECT_THAT(problem, HasSubstr("Restore a backup"));
   EXPECT_THAT(found.notes, ElementsAre(HasSubstr("jobs/99")));

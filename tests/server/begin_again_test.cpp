@@ -16,7 +16,7 @@ class BeginAgainTest : public JournalTest {
     const auto job = create();
     change(job, v1::Job::RUNNING);
     journal_->set_mesh(job, v1::Mesh());
-    for (int step = 0; step <= 20; step += 10) journal_->append_sample(job, sample(step));
+    for (int step = 0; step <= 20; step += 10) add_sample(job, sample(step));
     journal_->commit_samples();
     return job;
   }
@@ -24,7 +24,7 @@ class BeginAgainTest : public JournalTest {
 
 TEST_F(BeginAgainTest, SamplesAndMeshGoAndTheNumbersCountOn) {
   const auto job = running();
-  journal_->append_sample(job, sample(30));  // gathered and not durable
+  add_sample(job, sample(30));  // gathered and not durable
   journal_->begin_again(job, "Because.");
   const auto stored = reader_->find_job(job);
   EXPECT_EQ(stored->job.state(), v1::Job::PENDING);
@@ -35,10 +35,11 @@ TEST_F(BeginAgainTest, SamplesAndMeshGoAndTheNumbersCountOn) {
   EXPECT_EQ(stored->job.begun_again_sequence(), 6);
   EXPECT_FALSE(reader_->mesh(job));
   EXPECT_EQ(reader_->last_sampled_step(job), -1);
+  reported_.discard(job);
   journal_->commit_samples();
   EXPECT_TRUE(reader_->samples(job).samples.empty());
   change(job, v1::Job::RUNNING);
-  journal_->append_sample(job, sample(0));
+  add_sample(job, sample(0));
   journal_->commit_samples();
   const auto events = reader_->events(job, 0, 100);
   ASSERT_EQ(events.size(), 5U);

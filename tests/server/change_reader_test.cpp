@@ -31,7 +31,7 @@ TEST_F(ChangeReaderTest, EveryChangeOfAJobOrSweepIsNotedInTheOrderOfTheCommits) 
   const auto sweep = journal_->create_sweep({}, {member, member}, "", "");
   v1::Sample sample;
   sample.set_step(1);
-  journal_->append_sample(first, sample);
+  add_sample(first, sample);
   journal_->commit_samples();
   change(first, v1::Job::FAILED);
   journal_->delete_job(first);
@@ -56,8 +56,10 @@ TEST_F(ChangeReaderTest, OldChangesAreForgottenAndThatIsKnown) {
   {
     Database database(path());
     database.execute(
-        "WITH RECURSIVE more(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM more WHERE n < 102500) "
-        "INSERT INTO changes (kind, resource, sequence) SELECT 2, n, 0 FROM more");
+        "WITH RECURSIVE more(n) AS (SELECT 1 UNION ALL SELECT n + "
+        "1 FROM more WHERE n < 102500) "
+        "INSERT INTO changes (kind, resource, sequence) SELECT 2, "
+        "n, 0 FROM more");
   }
   EXPECT_EQ(changes.last(), 102501);
   EXPECT_FALSE(changes.has_all_after(0));
@@ -70,6 +72,19 @@ TEST_F(ChangeReaderTest, AnEmptyJournalHasAllChanges) {
   ChangeReader changes(path());
   EXPECT_EQ(changes.last(), 0);
   EXPECT_TRUE(changes.has_all_after(0));
+}
+
+TEST_F(ChangeReaderTest, ChangesAreLookedForOncePerStamp) {
+  const auto job = create();
+  ChangeReader changes(path());
+  const auto last = changes.last();
+  EXPECT_FALSE(changes.has_after(last, {1, 0}));
+  change(job, v1::Job::RUNNING);
+  EXPECT_FALSE(changes.has_after(last, {1, 0})) << "Nobody has announced it.";
+  EXPECT_TRUE(changes.has_after(last, {2, 0}));
+  EXPECT_FALSE(changes.has_after(last + 1, {2, 0}));
+  change(job, v1::Job::CANCELLING);
+  EXPECT_TRUE(changes.has_after(last + 1, {2, 1})) << "Time has passed.";
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "server/temporary_folder.h"
-#include "worker/report_log.h"
+#include "store/report_log.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -12,7 +12,7 @@ TEST(FrameSeries, FramesOfReportsAreReadInAnyOrder) {
   const testing::TemporaryFolder folder;
   const store::JobFolder job(folder.path());
   {
-    worker::ReportLog log(job.reports());
+    store::ReportLog log(job.reports());
     for (int i = 0; i < 5; ++i) {
       worker::Report report;
       report.mutable_frame()->set_index(i);

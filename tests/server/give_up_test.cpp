@@ -30,9 +30,9 @@ class GiveUpTest : public ::testing::Test {
   // How many of the reports are like that.
   template <class Predicate>
   int said(const Predicate& is_meant) {
-    ReportLogReader reader(job_.reports());
+    store::ReportLogReader reader(job_.reports());
     int out = 0;
-    while (reader.read(last_) == ReportLogReader::Read::message) out += is_meant(last_);
+    while (reader.read(last_) == store::ReportLogReader::Read::message) out += is_meant(last_);
     return out;
   }
 
@@ -74,7 +74,7 @@ TEST_F(GiveUpTest, AskedToLeaveItLeavesTheJobAsItWas) {
 
 TEST_F(GiveUpTest, WhatAnotherSolverLeftIsMadeNothingOf) {
   {
-    ReportLog log(job_.reports());
+    store::ReportLog log(job_.reports());
     Report report;
     report.mutable_begun()->mutable_origin()->set_solver_revision("another");
     log.append(report);

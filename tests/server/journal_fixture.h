@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "server/sample_writer.h"
 #include "server/small_case.h"
 #include "server/temporary_folder.h"
 #include "store/journal.h"
@@ -43,6 +44,10 @@ class JournalTest : public ::testing::Test {
     journal_->change_state(job, change);
   }
 
+  void add_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within = Journal::kSoon) {
+    reported_.add(*journal_, job, sample, within);
+  }
+
   static v1::Sample sample(int step) {
     v1::Sample out;
     out.set_step(step);
@@ -50,6 +55,7 @@ class JournalTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
+  testing::SampleWriter reported_{folder_.path()};
   std::atomic<int> told_ = 0;
   std::optional<Journal> journal_;
   std::optional<JournalReader> reader_;

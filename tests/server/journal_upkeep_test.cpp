@@ -24,16 +24,12 @@ class JournalUpkeepTest : public JournalTest {
     return none ? 0 : out;
   }
 
-  // Large samples, committed in pieces as a running daemon does.
-  void fill(std::int64_t job, int samples) {
-    v1::Sample large;
-    for (int i = 0; i < 1000; ++i) large.add_watched()->set_ux_mm(i + 0.5);
-    for (int step = 1; step <= samples; ++step) {
-      large.set_step(step);
-      journal_->append_sample(job, large);
-      if (step % 100 == 0) journal_->commit_samples();
-    }
-    journal_->commit_samples();
+  std::int64_t create_with_large_mesh() {
+    const auto job = create();
+    v1::Mesh mesh;
+    mesh.mutable_position_mm()->Resize(8 * kMebibyte / sizeof(float), 0.5F);
+    journal_->set_mesh(job, mesh);
+    return job;
   }
 };
 
@@ -42,12 +38,10 @@ TEST_F(JournalUpkeepTest, AfterABurstAndItsDeletionJournalAndWalAreSmallAgain) {
   const auto kept = create();
   std::uintmax_t most = 0;
   for (int i = 0; i < 3; ++i) {
-    const auto job = create();
-    change(job, v1::Job::RUNNING);
-    fill(job, 4000);
-    change(job, v1::Job::SUCCEEDED);
+    std::vector<std::int64_t> jobs;
+    for (int k = 0; k < 10; ++k) jobs.push_back(create_with_large_mesh());
     most = std::max(most, size() + size("-wal"));
-    journal_->delete_job(job);
+    journal_->delete_ended(journal_->cancel_waiting(jobs));
     most = std::max(most, size() + size("-wal"));
   }
   for (int i = 0; i < 300 && size() + size("-wal") >= kBound; ++i)

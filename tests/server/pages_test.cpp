@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "server/daemon_fixture.h"
+#include "server/sample_writer.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 #include "store/data_folder.h"
@@ -65,7 +66,8 @@ class PagesTest : public DaemonFixture {
     v1::Job job;
     *job.mutable_case_() = small_case();
     const auto number = journal.create_job(job, "", "").job;
-    for (int i = 1; i <= count; ++i) journal.append_sample(number, full_sample(i));
+    SampleWriter reported(data_folder());
+    for (int i = 1; i <= count; ++i) reported.add(journal, number, full_sample(i));
     store::StateChange cancelled;
     cancelled.state = v1::Job::CANCELLED;
     journal.change_state(number, cancelled);

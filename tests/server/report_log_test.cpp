@@ -1,4 +1,4 @@
-#include "worker/report_log.h"
+#include "store/report_log.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,15 +12,15 @@
 #include "error.h"
 #include "server/temporary_folder.h"
 
-namespace cellcrush::worker {
+namespace cellcrush::store {
 namespace {
 
 using Read = ReportLogReader::Read;
 
 class ReportLogTest : public ::testing::Test {
  protected:
-  static Report frame_report(int index, int floats = 100) {
-    Report report;
+  static worker::Report frame_report(int index, int floats = 100) {
+    worker::Report report;
     report.mutable_frame()->set_index(index);
     report.mutable_frame()->mutable_position_mm()->Resize(floats, 1.0F);
     return report;
@@ -45,7 +45,7 @@ TEST_F(ReportLogTest, ReportsComeWholeAndInOrderWhileTheyAreWritten) {
     for (int i = 0; i < kCount; ++i) log.append(frame_report(i, 20'000));
   });
   ReportLogReader reader(path());
-  Report report;
+  worker::Report report;
   for (int next = 0; next < kCount;) {
     const Read read = reader.read(report);
     ASSERT_NE(read, Read::broken);
@@ -66,7 +66,7 @@ TEST_F(ReportLogTest, ALengthThatWasDamagedTakesNoMemory) {
   write_bytes(std::string("\0\0\0\x3F", 4) + std::string(100, 'x'));
   const auto before = most_memory();
   ReportLogReader reader(path());
-  Report report;
+  worker::Report report;
   EXPECT_EQ(reader.read(report), Read::end);
   EXPECT_LT(most_memory() - before, 100 * 1024);
 }
@@ -79,7 +79,7 @@ TEST_F(ReportLogTest, WhatAKilledWriterLeftHalfWrittenIsCutOffWhereverItWasKille
   for (std::size_t size = first.size(); size < both.size(); size += 7) {
     write_bytes(both.substr(0, size));
     ReportLogReader reader(path());
-    Report report;
+    worker::Report report;
     ASSERT_EQ(reader.read(report), Read::message);
     ASSERT_EQ(reader.read(report), Read::end) << size;
     // The reader has seen the half, and goes on behind what is written in its place.
@@ -100,7 +100,7 @@ TEST_F(ReportLogTest, AFlippedBitIsBroken) {
     std::string flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ 4);
     write_bytes(flipped);
-    Report report;
+    worker::Report report;
     EXPECT_EQ(ReportLogReader(path()).read(report), Read::broken) << at;
   }
 }
@@ -110,4 +110,4 @@ TEST_F(ReportLogTest, AnAbsentLogIsAnErrorThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace cellcrush::worker
+}  // namespace cellcrush::store

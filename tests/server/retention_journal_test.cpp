@@ -72,7 +72,7 @@ TEST_F(RetentionJournalTest, WhatAJobTakesIsMeasuredOnceItHasEnded) {
   const auto before = reader_->bytes_of_owner("");
   EXPECT_GT(before, 0);
   EXPECT_THAT(reader_->jobs_to_measure(10), IsEmpty());
-  journal_->append_sample(job, sample(1));
+  add_sample(job, sample(1));
   change(job, v1::Job::CANCELLED);
   EXPECT_THAT(reader_->jobs_to_measure(10), ElementsAre(job));
   journal_->set_measured({{job, 5'000'000}});

@@ -7,29 +7,18 @@
 #include <map>
 
 #include "error.h"
-#include "server/temporary_folder.h"
-#include "store/journal.h"
+#include "server/watch_fixture.h"
 
 namespace cellcrush::watch {
 namespace {
 
-class SweepSourceTest : public ::testing::Test {
+class SweepSourceTest : public WatchFixture {
  protected:
   SweepSource source(const std::string& token = "") { return {reader_, sweeps_, hub_, made_.sweep, token}; }
 
-  void change(std::int64_t job, v1::Job::State state) {
-    store::StateChange change;
-    change.state = state;
-    journal_.change_state(job, change);
-  }
-
   void run(std::int64_t job, int samples) {
     change(job, v1::Job::RUNNING);
-    for (int i = 0; i < samples; ++i) {
-      v1::Sample sample;
-      sample.set_step(i);
-      journal_.append_sample(job, sample);
-    }
+    add_samples(job, samples);
     change(job, v1::Job::SUCCEEDED);
   }
 
@@ -41,10 +30,6 @@ class SweepSourceTest : public ::testing::Test {
     }
   }
 
-  testing::TemporaryFolder folder_;
-  Hub hub_;
-  store::Journal journal_{folder_.path() / "journal.sqlite", [this](std::int64_t job) { hub_.announce(job); }};
-  store::JournalReader reader_{folder_.path() / "journal.sqlite"};
   store::SweepReader sweeps_{folder_.path() / "journal.sqlite"};
   store::Journal::CreatedSweep made_ = journal_.create_sweep({}, std::vector<store::SweepJob>(3), "", "");
 };
@@ -185,7 +170,8 @@ TEST(ResumeToken, ManyJobsInTheSamePlaceAreShort) {
   EXPECT_EQ(read.at(10'000).sequence, 1);
 }
 
-// The reference is a list built from scratch, whose runs are found by comparing all neighbours.
+// The reference is a list built from scratch, whose runs are found by comparing
+// all neighbours.
 TEST(ResumeToken, IsTheSameWhetherThePlacesChangedOneByOneOrAtOnce) {
   std::vector<JobPlace> places;
   for (std::int64_t i = 0; i < 50; ++i) places.push_back({i < 20 ? i : i + 3, 0, false});
@@ -208,7 +194,8 @@ TEST(ResumeToken, IsTheSameWhetherThePlacesChangedOneByOneOrAtOnce) {
 }
 
 TEST(ResumeToken, JobsThatAreNamedAgainAreRefusedAtOnce) {
-  // Each of the runs stays under the limit of their number; to go through them all would take minutes.
+  // Each of the runs stays under the limit of their number; to go through them
+  // all would take minutes.
   std::string token = "4:";
   while (token.size() < 1'000'000) token += "1+50000=e;";
   const auto start = std::chrono::steady_clock::now();

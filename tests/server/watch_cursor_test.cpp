@@ -2,33 +2,25 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+#include <vector>
+
 #include "error.h"
-#include "server/temporary_folder.h"
-#include "store/journal.h"
+#include "server/watch_fixture.h"
 #include "watch/frame_chunks.h"
 
 namespace cellcrush::watch {
 namespace {
 
-class WatchCursorTest : public ::testing::Test {
+class WatchCursorTest : public WatchFixture {
  protected:
   WatchCursor cursor(std::int64_t after = 0, bool frames = true) {
     return {reader_, hub_, job_, after, {frames, true, v1::FieldFrame::NUMBERS}};
   }
 
-  void change(v1::Job::State state) {
-    store::StateChange change;
-    change.state = state;
-    journal_.change_state(job_, change);
-  }
-
-  void add_samples(int count) {
-    for (int i = 0; i < count; ++i) {
-      v1::Sample sample;
-      sample.set_step(step_++);
-      journal_.append_sample(job_, sample);
-    }
-  }
+  void change(v1::Job::State state) { WatchFixture::change(job_, state); }
+  void add_samples(int count) { WatchFixture::add_samples(job_, count); }
 
   static v1::FieldFrame frame(int index) {
     v1::FieldFrame out;
@@ -37,12 +29,7 @@ class WatchCursorTest : public ::testing::Test {
     return out;
   }
 
-  testing::TemporaryFolder folder_;
-  Hub hub_;
-  store::Journal journal_{folder_.path() / "journal.sqlite", [this](std::int64_t job) { hub_.announce(job); }};
-  store::JournalReader reader_{folder_.path() / "journal.sqlite"};
   std::int64_t job_ = journal_.create_job({}, "", "").job;
-  std::int64_t step_ = 0;  ///< of the next sample
 };
 
 TEST_F(WatchCursorTest, ASnapshotThenEverythingInOrderThenTheEnd) {
@@ -106,12 +93,19 @@ TEST_F(WatchCursorTest, AMeshThatIsBuiltDuringTheWatchPrecedesTheSamplesAndComes
   EXPECT_TRUE(cursor.next()->has_sample());
   EXPECT_TRUE(cursor.next()->has_sample());
   journal_.begin_again(job_, "Restarted.");
+  reported_.discard(job_);
   channel->forget();
   EXPECT_TRUE(cursor.next()->has_state());
   EXPECT_FALSE(cursor.next());
   channel->publish(mesh);
   EXPECT_TRUE(cursor.next()->has_mesh());
   EXPECT_FALSE(cursor.next());
+  auto late = this->cursor();
+  std::vector<std::int64_t> numbers;
+  while (const auto event = late.next()) {
+    if (event->has_state() || event->has_sample()) numbers.push_back(event->sequence());
+  }
+  EXPECT_EQ(numbers, (std::vector<std::int64_t>{1, 2, 5})) << "The samples do not count any more.";
 }
 
 TEST_F(WatchCursorTest, AnEndedJobSendsItsMeshToALateWatchBeforeItEnds) {
@@ -216,6 +210,66 @@ TEST_F(WatchCursorTest, AJobThatIsDeletedMeanwhileIsNotFound) {
     EXPECT_EQ(error.kind(), ServiceError::Kind::not_found);
   }
   EXPECT_FALSE(cursor.ended());
+}
+
+TEST_F(WatchCursorTest, WatchersThatAreUpToDateReadTheJournalTogether) {
+  change(v1::Job::RUNNING);
+  std::vector<WatchCursor> cursors;
+  for (int i = 0; i < 200; ++i) cursors.emplace_back(reader_, hub_, job_, 2, WatchCursor::Wanted{});
+  for (auto& cursor : cursors) EXPECT_TRUE(cursor.next()->has_snapshot());
+  for (int round = 0; round < 3; ++round) {
+    add_samples(10);
+    journal_.commit_samples();
+    const auto before = hub_.recent().reads();
+    for (auto& cursor : cursors) {
+      for (int i = 0; i < 10; ++i) EXPECT_EQ(cursor.next()->sequence(), 3 + round * 10 + i);
+      EXPECT_FALSE(cursor.next());
+      EXPECT_FALSE(cursor.next());
+    }
+    EXPECT_LE(hub_.recent().reads() - before, 2) << "One finds the samples, one that nothing follows.";
+  }
+}
+
+TEST_F(WatchCursorTest, WatchersOnSeveralThreadsGetEveryEventOnceWhileTheJobRuns) {
+  constexpr int kSamples = 3000;
+  change(v1::Job::RUNNING);
+  std::atomic<int> right = 0;
+  {
+    std::vector<std::jthread> watchers;
+    for (int i = 0; i < 6; ++i) {
+      watchers.emplace_back([&, i] {
+        WatchCursor cursor(reader_, hub_, job_, i % 2, {});
+        std::int64_t last = i % 2;
+        bool in_order = true;
+        while (!cursor.ended()) {
+          const auto event = cursor.next();
+          if (event && (event->has_state() || event->has_sample())) in_order &= event->sequence() == ++last;
+          if (!event && i < 3) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        right += in_order && last == kSamples + 3;
+      });
+    }
+    for (int i = 0; i < kSamples / 30; ++i) {
+      add_samples(30);
+      journal_.commit_samples();
+    }
+    change(v1::Job::SUCCEEDED);
+  }
+  EXPECT_EQ(right, 6);
+}
+
+TEST_F(WatchCursorTest, OnlySomeJobsAreKept) {
+  const auto look = [this](std::int64_t job) {
+    return hub_.recent().after(reader_, job, 0, hub_.open(job)->stamp()).size();
+  };
+  const auto channel = hub_.open(job_);
+  EXPECT_EQ(look(job_), 1U);
+  EXPECT_EQ(look(job_), 1U);
+  EXPECT_EQ(hub_.recent().reads(), 1);
+  for (std::size_t i = 0; i < RecentEvents::kMostJobs; ++i) EXPECT_EQ(look(journal_.create_job({}, "", "").job), 1U);
+  const auto then = hub_.recent().reads();
+  EXPECT_EQ(look(job_), 1U);
+  EXPECT_EQ(hub_.recent().reads(), then + 1) << "The job used least recently was dropped.";
 }
 
 TEST(FrameChunks, AreTheFrameAgainWhenAppended) {

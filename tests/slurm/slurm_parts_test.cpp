@@ -16,7 +16,7 @@
 #include "slurm/mirror.h"
 #include "slurm/small_file.h"
 #include "slurm/task.h"
-#include "worker/report_log.h"
+#include "store/report_log.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -229,11 +229,11 @@ TEST(ReportLogReader, TakesAHoleForNothing) {
   const testing::TemporaryFolder temporary;
   const fs::path path = temporary.path() / "reports";
   std::ofstream(path, std::ios::binary) << std::string(4096, '\0');
-  worker::ReportLogReader reader(path);
+  store::ReportLogReader reader(path);
   std::string records;
   EXPECT_FALSE(reader.read_record(records));
   worker::Report report;
-  EXPECT_EQ(reader.read(report), worker::ReportLogReader::Read::end);
+  EXPECT_EQ(reader.read(report), store::ReportLogReader::Read::end);
 }
 
 class MirrorTest : public ::testing::Test {
@@ -259,7 +259,7 @@ class MirrorTest : public ::testing::Test {
 TEST_F(MirrorTest, CopiesWholeReportsOnly) {
   Mirror mirror(from_, to_, 0);
   EXPECT_FALSE(mirror.pass());
-  worker::ReportLog log(from_.reports());
+  store::ReportLog log(from_.reports());
   log.append(progress(1));
   EXPECT_TRUE(mirror.pass());
   const std::string first = content(from_.reports());
@@ -277,7 +277,7 @@ TEST_F(MirrorTest, CopiesWholeReportsOnly) {
 // What cannot be written holds up what has to come after it.
 TEST_F(MirrorTest, PutsTheResultBeforeTheReportThatAnnouncesItAndACheckpointAfterItsReports) {
   Mirror mirror(from_, to_, 0);
-  worker::ReportLog(from_.reports()).append(progress(1));
+  store::ReportLog(from_.reports()).append(progress(1));
   write_small_file(from_.checkpoint(), "checkpoint 1");
   write_small_file(from_.result(), "result");
   fs::create_directory(to_.result());
@@ -300,7 +300,7 @@ TEST_F(MirrorTest, PutsTheResultBeforeTheReportThatAnnouncesItAndACheckpointAfte
 }
 
 TEST_F(MirrorTest, RepeatsWhatFailed) {
-  worker::ReportLog(from_.reports()).append(progress(1));
+  store::ReportLog(from_.reports()).append(progress(1));
   const store::JobFolder absent(temporary_.path() / "absent");
   Mirror mirror(from_, absent, 0);
   EXPECT_THROW(mirror.pass(), ServiceError);

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "worker/report.pb.h"
+#include "store/report.pb.h"
 
-namespace cellcrush::worker {
+namespace cellcrush::store {
 
 /// A worker's reports, in a file that outlives worker and daemon. Each record holds the length of a Report and its
 /// CRC-32, four bytes each in little-endian order, and then the Report. One worker at a time writes it; others read it
@@ -21,7 +21,7 @@ class ReportLog {
   ReportLog& operator=(const ReportLog&) = delete;
 
   /// An incomplete record is removed. Throws ServiceError: storage_full or internal.
-  void append(const Report& report);
+  void append(const worker::Report& report);
 
   /// Waits until everything is on the disk. Throws ServiceError.
   void synchronize();
@@ -48,7 +48,10 @@ class ReportLogReader {
     end,      ///< no complete record is available, or not yet
     broken,   ///< the next bytes are not a record
   };
-  Read read(Report& report);
+  Read read(worker::Report& report);
+
+  /// Reads the next report with a sample. Others are skipped unread, so a damaged one may go unnoticed.
+  Read read_sample(v1::Sample& sample);
 
   /// Appends the next record to `bytes`, with its length and checksum. False if no complete and intact one is
   /// available.
@@ -67,6 +70,8 @@ class ReportLogReader {
   /// Whether the file has this many bytes after offset_.
   [[nodiscard]] bool is_so_long(std::size_t size) const;
   Read nothing_whole();
+  /// Goes on behind the record.
+  void pass(std::size_t size);
 
   int file_;
   std::uint64_t offset_ = 0;
@@ -75,4 +80,4 @@ class ReportLogReader {
   std::size_t end_ = 0;
 };
 
-}  // namespace cellcrush::worker
+}  // namespace cellcrush::store

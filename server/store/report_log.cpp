@@ -1,4 +1,4 @@
-#include "worker/report_log.h"
+#include "store/report_log.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,7 +10,7 @@
 
 #include "store/durable_file.h"
 
-namespace cellcrush::worker {
+namespace cellcrush::store {
 namespace {
 
 constexpr std::size_t kHead = 8;
@@ -35,9 +35,9 @@ std::uint32_t checksum_of(const char* bytes, std::size_t size) {
 
 ReportLog::ReportLog(const std::filesystem::path& path)
     : path_(path), file_(open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600)) {
-  if (file_ < 0) store::throw_file_error(path, "written", errno);
+  if (file_ < 0) throw_file_error(path, "written", errno);
   ReportLogReader reader(path);
-  Report report;
+  worker::Report report;
   while (reader.read(report) == ReportLogReader::Read::message) continue;
   cut(reader.offset());
 }
@@ -47,11 +47,11 @@ ReportLog::~ReportLog() {
 }
 
 void ReportLog::cut(std::uint64_t size) {
-  if (ftruncate(file_, static_cast<off_t>(size)) != 0) store::throw_file_error(path_, "written", errno);
+  if (ftruncate(file_, static_cast<off_t>(size)) != 0) throw_file_error(path_, "written", errno);
   size_ = size;
 }
 
-void ReportLog::append(const Report& report) {
+void ReportLog::append(const worker::Report& report) {
   const std::string message = report.SerializeAsString();
   std::string record;
   record.reserve(kHead + message.size());
@@ -64,7 +64,7 @@ void ReportLog::append(const Report& report) {
     if (written < 0) {
       const int error = errno;
       cut(size_);
-      store::throw_file_error(path_, "written", error);
+      throw_file_error(path_, "written", error);
     }
     done += static_cast<std::size_t>(written);
   }
@@ -72,10 +72,10 @@ void ReportLog::append(const Report& report) {
 }
 
 void ReportLog::synchronize() {
-  if (fdatasync(file_) != 0) store::throw_file_error(path_, "written", errno);
+  if (fdatasync(file_) != 0) throw_file_error(path_, "written", errno);
 }
 
-ReportLogReader::ReportLogReader(const std::filesystem::path& path) : file_(store::open_to_read(path)) {}
+ReportLogReader::ReportLogReader(const std::filesystem::path& path) : file_(open_to_read(path)) {}
 
 ReportLogReader::~ReportLogReader() { close(file_); }
 
@@ -122,13 +122,12 @@ ReportLogReader::Read ReportLogReader::next_record(std::uint32_t& size) {
   return checksum_of(record + kHead, size) == number_at(record + 4) ? Read::message : Read::broken;
 }
 
-ReportLogReader::Read ReportLogReader::read(Report& report) {
+ReportLogReader::Read ReportLogReader::read(worker::Report& report) {
   std::uint32_t size = 0;
   const Read out = next_record(size);
   if (out != Read::message) return out;
   if (!report.ParseFromArray(buffer_.data() + taken_ + kHead, static_cast<int>(size))) return Read::broken;
-  taken_ += kHead + size;
-  offset_ += kHead + size;
+  pass(size);
   return Read::message;
 }
 
@@ -139,9 +138,32 @@ bool ReportLogReader::read_record(std::string& bytes) {
     return false;
   }
   bytes.append(buffer_, taken_, kHead + size);
-  taken_ += kHead + size;
-  offset_ += kHead + size;
+  pass(size);
   return true;
 }
 
-}  // namespace cellcrush::worker
+// A record begins with the number of what it reports.
+ReportLogReader::Read ReportLogReader::read_sample(v1::Sample& sample) {
+  constexpr char kTag = (worker::Report::kSampleFieldNumber << 3U) | 2U;
+  worker::Report report;
+  while (true) {
+    if (!fill(kHead + 1)) return nothing_whole();
+    const std::uint32_t size = number_at(buffer_.data() + taken_);
+    if (size > 0 && buffer_[taken_ + kHead] != kTag) {
+      if (size > kLargest) return Read::broken;
+      if (!is_so_long(kHead + size)) return nothing_whole();
+      pass(size);
+      continue;
+    }
+    const Read out = read(report);
+    if (out == Read::message) sample = std::move(*report.mutable_sample());
+    return out;
+  }
+}
+
+void ReportLogReader::pass(std::size_t size) {
+  offset_ += kHead + size;
+  taken_ = std::min(taken_ + kHead + size, end_);
+}
+
+}  // namespace cellcrush::store
