@@ -43,7 +43,7 @@ struct Simulation::Impl {
 namespace {
 
 // Changes with what follows it in a checkpoint.
-constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720005;
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720006;
 
 /// Whether the states are of equal scenes, so far as their lists tell.
 bool fit(const State& one, const State& other) {

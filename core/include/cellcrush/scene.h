@@ -187,8 +187,6 @@ struct RigidWall {
 
   /// Positive direction of friction: the normal turned clockwise.
   [[nodiscard]] Vector2 tangent() const { return -normal_of(normal); }
-  /// A point on the face at a time, mm.
-  [[nodiscard]] Vector2 face_at(double time) const { return point + motion.value_at(time) * normal; }
   /// Travel along the normal from one time to another, mm.
   [[nodiscard]] double travel_between(double from, double to) const {
     return motion.value_at(to) - motion.value_at(from);

@@ -8,13 +8,12 @@
 #include "cellcrush/simd.h"
 #include "contact/contact_tiles.h"
 #include "motion/integrate_motion.h"
-#include "motion/plate_motion.h"
+#include "push/push.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/state_hash.h"
 #include "step/advance_step.h"
 #include "step/workspace.h"
-#include "touch/plate_forces.h"
 
 namespace cellcrush {
 namespace {
@@ -68,8 +67,7 @@ std::vector<int> move_and_note(const Scene& scene, State& state, Workspace& work
   std::vector<MovedChunk> moved(moved_chunk_count(scene));
   std::vector<int> noted(scene.particle_count());
   const LatticeBand& band = scene.bands.front();
-  const NearCounts counts = integrate_motion(scene, state, band, reach_of_plates(scene, plates.travel),
-                                             workspace.shared.workers, moved, noted);
+  const NearCounts counts = integrate_motion(scene, state, band, plates.reach, workspace.shared.workers, moved, noted);
   state.impact_travel = plates.travel;
   std::vector<int> near(noted.begin(), noted.begin() + static_cast<std::ptrdiff_t>(counts.joints));
   near.insert(near.end(), noted.begin() + band.first_inner,
