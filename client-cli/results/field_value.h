@@ -8,10 +8,8 @@
 
 namespace cellcrush::client {
 
-/// Whether two plates crush the lattice. Those around a frame are given by their speed.
-inline bool has_plates(const v1::Case& scene) {
-  return !scene.lattice().has_frame() || scene.loading().has_speed_m_per_s();
-}
+/// Whether two plates crush the lattice.
+inline bool has_plates(const v1::Case& scene) { return scene.loading().has_speed_m_per_s(); }
 
 /// The number or enum at a dotted path of a case, such as "loading.speed_m_per_s" or "lattice.frame.nodes[3].x_mm", as
 /// text; empty if it is absent.

@@ -46,29 +46,4 @@ FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int p
   return sum;
 }
 
-void press_by_half_plane(const Scene& scene, State& state, std::size_t wall, int first, int end, ContactSums& sums) {
-  const RigidWall& of = scene.rigid_walls[wall];
-  const RigidWallMotion& motion = state.rigid_wall_motion[wall];
-  const Face face = {of.point + motion.travel * of.normal,
-                     of.normal,
-                     of.tangent(),
-                     motion.speed,
-                     scene.contact.stiffness,
-                     of.friction,
-                     of.friction > 0.0 ? &state.rigid_wall_friction[wall * scene.particle_count()] : nullptr,
-                     !state.radius_growth.empty()};
-  RigidWallForce& of_wall = sums.rigid_walls[wall];
-  for (int particle = first; particle < end; ++particle) {
-    const double radius = radius_now(scene, state, particle);
-    const bool rubbed = face.friction_of != nullptr && face.friction_of[particle] != 0.0;
-    if (face.distance_of(state.position[particle]) < radius || rubbed) {
-      const FaceForce force = push_by_face(scene, state, face, particle, radius);
-      of_wall.normal.elastic += force.elastic;
-      of_wall.normal.viscous += force.viscous;
-      of_wall.tangential += force.tangential;
-      sums.walls.stored += force.stored;
-    }
-  }
-}
-
 }  // namespace cellcrush

@@ -2,7 +2,6 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/contact_sums.h"
 
 namespace cellcrush {
 
@@ -34,9 +33,5 @@ struct FaceForce {
 /// friction_force, also of the particles beside it. Faces move along their normals only, so the slip is the motion of
 /// the ball's surface. Forces of a ball that has left are 0.
 FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int particle, double radius);
-
-/// Presses one of the scene's half planes, where it stands in the state, on the particles `first` ... `end` - 1. Adds
-/// its forces to the sums too.
-void press_by_half_plane(const Scene& scene, State& state, std::size_t wall, int first, int end, ContactSums& sums);
 
 }  // namespace cellcrush

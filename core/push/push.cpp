@@ -7,10 +7,11 @@
 namespace cellcrush {
 
 extern const Pusher kPlates;
+extern const Pusher kStrikers;
 extern const Pusher kRigidWalls;
 
 std::span<const Pusher* const> pushers() {
-  static constexpr std::array kPushers = {&kPlates, &kRigidWalls};
+  static constexpr std::array kPushers = {&kPlates, &kStrikers, &kRigidWalls};
   return kPushers;
 }
 

@@ -4,12 +4,15 @@
 #include <string>
 
 #include "cellcrush/scene.h"
+#include "cellcrush/scene_spec.h"
 #include "cellcrush/state.h"
 #include "contact/contact_sums.h"
 #include "motion/integrate_motion.h"
 #include "motion/motion_works.h"
 
 namespace cellcrush {
+
+class FieldChecker;
 
 /// Motion of the impact plate over a step. It does not depend on the lattice, so it is known steps ahead.
 struct PlateStep {
@@ -33,6 +36,8 @@ struct PressedBand {
 struct Pusher {
   /// At time 0: places it, and makes room for its forces in the state.
   void (*place)(const Scene& scene, State& state);
+  /// Moves what it has of speed from time 0 to half a step before, with the forces at time 0 (E2b). Null: nothing.
+  void (*stagger)(const Scene& scene, State& state) = nullptr;
   /// Moves it over a step, from the forces at its start. Null: the state has nothing that moves before `accumulate`.
   /// Wavefronts do not call it (cut_into_bands).
   void (*move)(const Scene& scene, State& state) = nullptr;
@@ -44,6 +49,15 @@ struct Pusher {
   MotionWorks (*half_step_works)(const Scene& scene, const State& state);
   /// What is modelled, a sentence; empty if a scene has none.
   std::string (*words)(const Scene& scene);
+
+  // Of kinds of half planes (LoadsSpec::RigidWall, push/half_planes.h); null for all others.
+
+  /// Whether one is of the kind. The first kind that takes it has it.
+  bool (*takes)(const LoadsSpec::RigidWall& wall) = nullptr;
+  /// Checks the numbers that only the kind has; `path` ends with a dot.
+  void (*check)(const std::string& path, const LoadsSpec::RigidWall& wall, FieldChecker& check) = nullptr;
+  /// Fills in what the kind keeps of them.
+  void (*fill)(const LoadsSpec::RigidWall& from, RigidWall& to) = nullptr;
 };
 
 /// All kinds, in the order in which they press and in which their works are added.

@@ -1,10 +1,10 @@
-#include <algorithm>
-
-#include "fields/field_checker.h"
-#include "push/face_forces.h"
-#include "push/push.h"
+// Half planes that stand still or move as prescribed, whatever the lattice does (E9f).
+#include "push/half_planes.h"
 
 namespace cellcrush {
+
+extern const Pusher kRigidWalls;
+
 namespace {
 
 /// Where a wall is at a time, with its mean speed over the step before.
@@ -13,34 +13,10 @@ RigidWallMotion motion_at(const Scene& scene, const RigidWall& wall, double time
   return {wall.motion.value_at(time), wall.travel_between(time - step, time) / step};
 }
 
-void place_walls(const Scene& scene, State& state) {
-  const std::size_t n = scene.particle_count();
-  if (std::ranges::any_of(scene.rigid_walls, [](const RigidWall& wall) { return wall.friction > 0.0; })) {
-    state.friction_force.assign(n, Vector2::Zero());
-    state.rigid_wall_friction.assign(scene.rigid_walls.size() * n, 0.0);
-  }
-  state.rigid_wall_force.resize(scene.rigid_walls.size());
-  state.rigid_wall_impulse.resize(scene.rigid_walls.size());
-  for (const RigidWall& wall : scene.rigid_walls) {
-    state.rigid_wall_motion.push_back(motion_at(scene, wall, 0.0));
-  }
-}
-
-void move_walls(const Scene& scene, State& state) {
-  const double time = static_cast<double>(state.step + 1) * scene.schedule.time_step;
-  for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
-    state.rigid_wall_motion[wall] = motion_at(scene, scene.rigid_walls[wall], time);
-  }
-}
-
-void press_by_walls(const Scene& scene, State& state, const PlateStep& /*plates*/, const PressedBand& on,
-                    ContactSums& sums) {
-  const LatticeBand& band = on.band;
-  for (const auto& [first, end] : {std::pair(band.first_joint, band.end_joint), {band.first_inner, band.end_inner}}) {
-    for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
-      press_by_half_plane(scene, state, wall, first, end, sums);
-    }
-  }
+void put_walls(const Scene& scene, State& state, double time) {
+  visit_half_planes(scene, kRigidWalls, [&](std::size_t index, const RigidWall& wall) {
+    state.rigid_wall_motion[index] = motion_at(scene, wall, time);
+  });
 }
 
 /// The works of the newest forces over half of the ways of the walls from one time to another, s: as velocities are at
@@ -48,21 +24,39 @@ void press_by_walls(const Scene& scene, State& state, const PlateStep& /*plates*
 /// friction does no work on them.
 MotionWorks works_between(const Scene& scene, const State& state, double from, double to) {
   MotionWorks works;
-  for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
-    const double half_way = 0.5 * scene.rigid_walls[wall].travel_between(from, to);
-    works.add(face_works(state.rigid_wall_force[wall].normal, half_way));
-  }
+  visit_half_planes(scene, kRigidWalls, [&](std::size_t index, const RigidWall& wall) {
+    works.add(face_works(state.rigid_wall_force[index].normal, 0.5 * wall.travel_between(from, to)));
+  });
   return works;
+}
+
+bool takes_wall(const LoadsSpec::RigidWall& /*any*/) { return true; }
+
+void check_wall(const std::string& path, const LoadsSpec::RigidWall& wall, FieldChecker& check) {
+  for (const auto& [name, value] : wall.own) {
+    check.add(path + name, to_text(value), "is that of a rigid wall with a mass, but mass_g is missing.",
+              "Give mass_g too, or the motion of the wall as displacement_mm.");
+  }
+}
+
+void place_walls(const Scene& scene, State& state) {
+  place_half_planes(scene, state);
+  put_walls(scene, state, 0.0);
+}
+
+void move_walls(const Scene& scene, State& state) {
+  put_walls(scene, state, static_cast<double>(state.step + 1) * scene.schedule.time_step);
+}
+
+void press_by_walls(const Scene& scene, State& state, const PlateStep& /*plates*/, const PressedBand& on,
+                    ContactSums& sums) {
+  press_half_planes(scene, state, kRigidWalls, on, sums);
 }
 
 void accumulate_walls(const Scene& scene, double time, const PlateStep& /*plates*/, State& state) {
   const double step = scene.schedule.time_step;
   works_between(scene, state, time - step, time + step).accumulate(state.ledger);
-  for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
-    const RigidWallForce& force = state.rigid_wall_force[wall];
-    state.rigid_wall_impulse[wall].normal += step * force.normal.total();
-    state.rigid_wall_impulse[wall].tangential += step * force.tangential;
-  }
+  visit_half_planes(scene, kRigidWalls, [&](std::size_t index, const RigidWall&) { add_impulse(scene, state, index); });
 }
 
 MotionWorks half_step_works_of_walls(const Scene& scene, const State& state) {
@@ -70,16 +64,13 @@ MotionWorks half_step_works_of_walls(const Scene& scene, const State& state) {
 }
 
 std::string words_of_walls(const Scene& scene) {
-  const std::size_t count = scene.rigid_walls.size();
-  if (count == 0) {
-    return "";
-  }
-  const auto moving =
-      std::ranges::count_if(scene.rigid_walls, [](const RigidWall& wall) { return wall.motion.points.size() > 1; });
-  const double friction = std::ranges::max(scene.rigid_walls, {}, &RigidWall::friction).friction;
-  return "Rigid walls: " + std::to_string(count) + (count == 1 ? " half plane, " : " half planes, ") +
-         std::to_string(moving) + " of them moving, unilateral, not meshed, " +
-         (friction > 0.0 ? "Coulomb friction, coefficient up to " + to_text(friction) + "." : "frictionless.");
+  const std::string count = count_words(scene, kRigidWalls);
+  int moving = 0;
+  visit_half_planes(scene, kRigidWalls,
+                    [&](std::size_t, const RigidWall& wall) { moving += wall.motion.points.size() > 1 ? 1 : 0; });
+  return count.empty() ? ""
+                       : "Rigid walls: " + count + ", " + std::to_string(moving) + " of them moving, " +
+                             friction_words(scene, kRigidWalls);
 }
 
 }  // namespace
@@ -89,6 +80,8 @@ extern const Pusher kRigidWalls = {.place = place_walls,
                                    .press = press_by_walls,
                                    .accumulate = accumulate_walls,
                                    .half_step_works = half_step_works_of_walls,
-                                   .words = words_of_walls};
+                                   .words = words_of_walls,
+                                   .takes = takes_wall,
+                                   .check = check_wall};
 
 }  // namespace cellcrush

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "contact/topology/initial_overlap.h"
-#include "scene/check_spec.h"
 #include "lattice/lattice.h"
+#include "scene/check_spec.h"
 
 namespace cellcrush {
 namespace {
@@ -17,7 +17,7 @@ std::string place_text(const Vector2& place) { return "(" + to_text(place.x()) +
 
 std::string field_of_beam(int beam) { return "lattice.frame.beams[" + std::to_string(beam) + "]"; }
 
-Problems name_beams(const FrameLattice& frame, int elements_per_wall, const std::vector<InitialOverlap>& overlaps) {
+Problems name_beams(const FrameWalls& frame, int elements_per_wall, const std::vector<InitialOverlap>& overlaps) {
   std::vector<int> beam;  // of each element
   for (std::size_t i = 0; i < frame.beams.size(); ++i) {
     beam.insert(beam.end(), frame.beams[i].elements.value_or(elements_per_wall), static_cast<int>(i));
@@ -41,7 +41,7 @@ Problems name_beams(const FrameLattice& frame, int elements_per_wall, const std:
 Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
   constexpr std::size_t kMostOverlaps = 20;  // enough to see what is wrong
   const InitialOverlaps overlaps = find_initial_overlaps(scene, kMostOverlaps);
-  const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
+  const auto* frame = std::get_if<FrameWalls>(&spec.lattice);
   const std::string field = frame != nullptr ? "lattice.frame.beams" : path_of_lattice(spec) + "wall_thickness_mm";
   if (overlaps.too_dense && overlaps.found.empty()) {
     return {{field, "",

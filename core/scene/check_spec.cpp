@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lattice/lattice.h"
+#include "push/half_planes.h"
 #include "scene/mesh_part.h"
 
 namespace cellcrush {
@@ -69,7 +70,7 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     const double side = check_regular(spec, *regular_lattice_of(spec), check);
     if (kind->check != nullptr) kind->check(spec, side, check);
     check_imperfection(spec, side, check);
-  } else if (std::holds_alternative<FrameLattice>(spec.lattice)) {
+  } else if (std::holds_alternative<FrameWalls>(spec.lattice)) {
     check_frame(spec, check);
     check_no_imperfection(spec.imperfection, check);
   } else {
@@ -98,12 +99,29 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
   }
 }
 
-void check_loading(const LoadingSpec& loading, FieldChecker& check) {
+void check_plates(const LoadingSpec& loading, FieldChecker& check) {
   check.within_limits("loading.speed_m_per_s", loading.speed_m_per_s);
   const bool end = check.within_limits("loading.end_strain", loading.end_strain);
   const double latest = end ? loading.end_strain : FieldChecker::greatest_of("loading.end_strain");
   check.in_range("loading.ramp_strain", loading.ramp_strain, {.low = 0.0, .high = latest, .high_open = true},
                  " (end_strain)");
+}
+
+/// A run has plates or an end time. A lattice of equal cells without both is taken for one between plates.
+void check_loading(const SceneSpec& spec, FieldChecker& check) {
+  const LoadingSpec& loading = spec.loading;
+  if (has_plates(spec) || (!loading.end_time_s && regular_lattice_of(spec) != nullptr)) {
+    check_plates(loading, check);
+  } else if (!loading.end_time_s) {
+    check.within_limits("loading.end_time_s", {});
+  }
+  if (loading.end_time_s) {
+    check.within_limits("loading.end_time_s", loading.end_time_s);
+  }
+  check.within_limits("loading.end_at_rest", loading.end_at_rest, " (0: it does not end at rest)");
+  check.within_limits("loading.gravity_x_m_per_s2", spec.loads.gravity_x_m_per_s2);
+  check.within_limits("loading.gravity_y_m_per_s2", spec.loads.gravity_y_m_per_s2);
+  check_half_planes(spec.loads, check);
 }
 
 void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
@@ -131,7 +149,7 @@ double count_elements(const SceneSpec& spec) {
     return kind_of(spec)->walls_per_cell * *lattice->columns * *lattice->rows * elements_per_wall;
   }
   double elements = 0.0;
-  for (const FrameLattice::Beam& beam : std::get<FrameLattice>(spec.lattice).beams) {
+  for (const FrameWalls::Beam& beam : std::get<FrameWalls>(spec.lattice).beams) {
     elements += std::max(1, beam.elements.value_or(elements_per_wall));
   }
   return elements;
@@ -149,9 +167,7 @@ Problems check_spec(const SceneSpec& spec) {
   check.within_limits("contact.damping_ratio", spec.contact.damping_ratio);
   check.within_limits("contact.impact_speed_m_per_s", spec.contact.impact_speed_m_per_s, " (0: as the case tells)");
   check.within_limits("plates.friction", spec.plates.friction);
-  if (has_plates(spec)) {
-    check_loading(spec.loading, check);
-  }
+  check_loading(spec, check);
   check_numerics(spec.numerics, check);
   check.within_limits("output.sample_count", spec.output.sample_count);
   check.within_limits("output.frame_count", spec.output.frame_count);

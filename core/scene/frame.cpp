@@ -4,34 +4,31 @@
 
 #include "scene/initial_velocity.h"
 #include "scene/pins.h"
-#include "scene/units.h"
 
 namespace cellcrush {
 namespace {
 
-constexpr double kTonnePerGram = 1e-6;
-
-Component component_of(FrameLattice::Component component) {
+Component component_of(LoadsSpec::Component component) {
   switch (component) {
-    case FrameLattice::Component::x: return Component::x;
-    case FrameLattice::Component::y: return Component::y;
-    case FrameLattice::Component::rotation: break;
+    case LoadsSpec::Component::x: return Component::x;
+    case LoadsSpec::Component::y: return Component::y;
+    case LoadsSpec::Component::rotation: break;
   }
   return Component::rotation;
 }
 
-void attach_holds(const FrameLattice& frame, Scene& scene) {
-  if (frame.supports.empty() && frame.motions.empty()) {
+void attach_holds(const FrameWalls& frame, const LoadsSpec& loads, Scene& scene) {
+  if (frame.supports.empty() && loads.motions.empty()) {
     return;
   }
   scene.supports.assign(scene.particle_count(), {});
-  for (const FrameLattice::Support& support : frame.supports) {
+  for (const FrameWalls::Support& support : frame.supports) {
     Support& held = scene.supports[support.node];
     held.x.held |= support.fix_x;
     held.y.held |= support.fix_y;
     held.rotation.held |= support.fix_rotation;
   }
-  for (const FrameLattice::NodalMotion& motion : frame.motions) {
+  for (const LoadsSpec::NodalMotion& motion : loads.motions) {
     Support& held = scene.supports[motion.node];
     const Component component = component_of(motion.component);
     Hold& hold = component == Component::x ? held.x : component == Component::y ? held.y : held.rotation;
@@ -46,11 +43,11 @@ const WallBlock& block_of(const Walls& walls, int beam) {
                        [&](const WallBlock& block) { return beam < block.first_wall + block.walls; });
 }
 
-void attach_loads(const FrameLattice& frame, Scene& scene) {
-  for (const FrameLattice::NodalLoad& load : frame.loads) {
+void attach_loads(const LoadsSpec& loads, Scene& scene) {
+  for (const LoadsSpec::NodalLoad& load : loads.loads) {
     scene.loads.push_back({load.node, component_of(load.component), {load.points}});
   }
-  for (const FrameLattice::DistributedLoad& load : frame.distributed_loads) {
+  for (const LoadsSpec::DistributedLoad& load : loads.distributed_loads) {
     const WallBlock& block = block_of(scene.walls, load.beam);
     const double length = scene.walls.undeformed_length[load.beam];
     for (int j = 0; j < block.elements; ++j) {
@@ -63,28 +60,17 @@ void attach_loads(const FrameLattice& frame, Scene& scene) {
       }
     }
   }
-  scene.gravity = Vector2(frame.gravity_x_m_per_s2, frame.gravity_y_m_per_s2) * kMmPerM;
-}
-
-void attach_rigid_walls(const FrameLattice& frame, Scene& scene) {
-  for (const FrameLattice::RigidWall& wall : frame.rigid_walls) {
-    const FrameLattice::TimeFunction still = {{0.0, 0.0}};
-    scene.rigid_walls.push_back({Vector2(wall.x_mm, wall.y_mm),
-                                 Vector2(wall.normal_x, wall.normal_y).stableNormalized(),
-                                 wall.friction,
-                                 {wall.points.empty() ? still : wall.points}});
-  }
 }
 
 }  // namespace
 
-Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
+Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall) {
   Layout layout;
-  for (const FrameLattice::Node& node : frame.nodes) {
+  for (const FrameWalls::Node& node : frame.nodes) {
     layout.joints.emplace_back(node.x_mm, node.y_mm);
   }
   int own_materials = 0;
-  for (const FrameLattice::Beam& beam : frame.beams) {
+  for (const FrameWalls::Beam& beam : frame.beams) {
     const int material = beam.material ? ++own_materials : 0;
     layout.walls.push_back(
         {beam.start, beam.end, beam.thickness_mm, beam.elements.value_or(elements_per_wall), material});
@@ -93,7 +79,7 @@ Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
   return layout;
 }
 
-void attach_to_frame(const FrameLattice& frame, Scene& scene) {
+void attach_to_frame(const FrameWalls& frame, const LoadsSpec& loads, Scene& scene) {
   const std::size_t count = scene.particle_count();
   scene.mass.assign(count, 0.0);
   scene.inertia.assign(count, 0.0);
@@ -101,11 +87,10 @@ void attach_to_frame(const FrameLattice& frame, Scene& scene) {
     scene.mass[i] = frame.nodes[i].attached_mass_g * kTonnePerGram;
     scene.inertia[i] = frame.nodes[i].attached_inertia_g_mm2 * kTonnePerGram;
   }
-  attach_holds(frame, scene);
+  attach_holds(frame, loads, scene);
   group_pinned_ends(frame, scene);
-  attach_loads(frame, scene);
-  attach_initial_velocities(frame, scene);
-  attach_rigid_walls(frame, scene);
+  attach_loads(loads, scene);
+  attach_initial_velocities(frame, loads.initial_velocities, scene);
   scene.watched = frame.watched_nodes;
 }
 

@@ -3,8 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include "scene/units.h"
-
 namespace cellcrush {
 namespace {
 
@@ -17,7 +15,7 @@ double turn_of_chord(const Scene& scene, int wall) {
 }
 
 /// Moves the joints of pinned ends as their nodes, and turns them as the chords of their beams.
-void move_pinned_ends(const FrameLattice& frame, std::vector<bool>& named, Scene& scene) {
+void move_pinned_ends(const FrameWalls& frame, std::vector<bool>& named, Scene& scene) {
   for (std::size_t pin = 0; pin < scene.pins.count(); ++pin) {
     const int node = scene.pins.joints_of(pin).front();
     for (const int joint : scene.pins.joints_of(pin)) {
@@ -59,14 +57,15 @@ void move_inside(const WallBlock& block, int w, Scene& scene) {
 
 }  // namespace
 
-void attach_initial_velocities(const FrameLattice& frame, Scene& scene) {
-  if (frame.initial_velocities.empty()) {
+void attach_initial_velocities(const FrameWalls& frame, const std::vector<LoadsSpec::InitialVelocity>& velocities,
+                               Scene& scene) {
+  if (velocities.empty()) {
     return;
   }
   scene.initial_velocity.assign(scene.particle_count(), Vector2::Zero());
   scene.initial_spin.assign(scene.particle_count(), 0.0);
   std::vector<bool> named(static_cast<std::size_t>(scene.joint_count), false);
-  for (const FrameLattice::InitialVelocity& velocity : frame.initial_velocities) {
+  for (const LoadsSpec::InitialVelocity& velocity : velocities) {
     scene.initial_velocity[velocity.node] = Vector2(velocity.x_m_per_s, velocity.y_m_per_s) * kMmPerM;
     scene.initial_spin[velocity.node] = velocity.rotation_rad_per_s;
     named[velocity.node] = true;

@@ -15,6 +15,7 @@ namespace cellcrush {
 /// inside, so that a mass at its end can strike it.
 /// Pinned ends turn as the chord of their beam, Omega.
 /// REQUIRES: the mesh of the scene is that of the frame; its pins are grouped.
-void attach_initial_velocities(const FrameLattice& frame, Scene& scene);
+void attach_initial_velocities(const FrameWalls& frame, const std::vector<LoadsSpec::InitialVelocity>& velocities,
+                               Scene& scene);
 
 }  // namespace cellcrush

@@ -7,9 +7,9 @@ namespace {
 
 /// Calls visit(beam, whether it is its start, node) for all pinned ends, in the order of their joints.
 template <class Visit>
-void visit_pinned_ends(const FrameLattice& frame, const Visit& visit) {
+void visit_pinned_ends(const FrameWalls& frame, const Visit& visit) {
   for (std::size_t b = 0; b < frame.beams.size(); ++b) {
-    const FrameLattice::Beam& beam = frame.beams[b];
+    const FrameWalls::Beam& beam = frame.beams[b];
     if (beam.pin_start) {
       visit(b, true, beam.start);
     }
@@ -21,7 +21,7 @@ void visit_pinned_ends(const FrameLattice& frame, const Visit& visit) {
 
 }  // namespace
 
-void add_pinned_ends(const FrameLattice& frame, Layout& layout) {
+void add_pinned_ends(const FrameWalls& frame, Layout& layout) {
   visit_pinned_ends(frame, [&](std::size_t beam, bool is_start, int node) {
     LayoutWall& wall = layout.walls[beam];
     (is_start ? wall.start : wall.end) = static_cast<int>(layout.joints.size());
@@ -29,7 +29,7 @@ void add_pinned_ends(const FrameLattice& frame, Layout& layout) {
   });
 }
 
-void group_pinned_ends(const FrameLattice& frame, Scene& scene) {
+void group_pinned_ends(const FrameWalls& frame, Scene& scene) {
   std::vector<std::vector<int>> joints_of(frame.nodes.size());
   auto joint = static_cast<int>(frame.nodes.size());
   visit_pinned_ends(frame, [&](std::size_t, bool, int node) { joints_of[node].push_back(joint++); });

@@ -12,11 +12,11 @@ namespace cellcrush {
 
 /// Adds the joints of pinned ends after those of the nodes, in the order of the beams, and attaches the ends to them.
 /// REQUIRES: the layout has the nodes and the beams of the frame, in their order.
-void add_pinned_ends(const FrameLattice& frame, Layout& layout);
+void add_pinned_ends(const FrameWalls& frame, Layout& layout);
 
 /// Fills the pins of the scene, and holds all joints of a pin in x and y as its node is held.
 /// REQUIRES: the mesh of the scene is that of the layout; the nodes' supports are attached.
-void group_pinned_ends(const FrameLattice& frame, Scene& scene);
+void group_pinned_ends(const FrameWalls& frame, Scene& scene);
 
 /// Gives all joints of a pin equal shares of its mass. REQUIRES: masses of elements are lumped.
 void share_pin_masses(Scene& scene);

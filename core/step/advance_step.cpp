@@ -43,6 +43,11 @@ State make_initial_state(const Scene& scene) {
   execute_stages(std::span(kStages).subspan(1), step, StageScope(nullptr));  // the forces, without motion
   put_contact_sums(record.contacts, state);
   stagger_velocities(scene, state);
+  for (const Pusher* pusher : pushers()) {
+    if (pusher->stagger != nullptr) {
+      pusher->stagger(scene, state);
+    }
+  }
   open_ledger(scene, state);
   return state;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "translate/loads_places.h"
 #include "translate/problems.h"
 
 namespace cellcrush::translate {
@@ -50,7 +51,7 @@ void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   const google::protobuf::Reflection& reflection = *in.GetReflection();
   const auto* kind = reflection.GetOneofFieldDescriptor(in, in.GetDescriptor()->FindOneofByName("kind"));
   if (in.has_frame()) {
-    spec.lattice = to_spec(in.frame(), problems);
+    spec.lattice = to_spec(in.frame(), spec.loads, problems);
   } else if (kind != nullptr) {
     spec.lattice = read_regular(reflection.GetMessage(in, kind), std::string(kind->name()));
   }
@@ -116,6 +117,7 @@ void read_loading(const v1::Loading& in, LoadingSpec& out, Problems& problems) {
   if (in.has_speed_m_per_s()) out.speed_m_per_s = in.speed_m_per_s();
   if (in.has_end_strain()) out.end_strain = in.end_strain();
   if (in.has_ramp_strain()) out.ramp_strain = in.ramp_strain();
+  if (in.has_end_at_rest()) out.end_at_rest = in.end_at_rest();
 }
 
 void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems) {
@@ -169,6 +171,7 @@ CaseReading to_spec(const v1::Case& in) {
   read_section(in.section(), spec.section, out.problems);
   read_contact(in, spec, out.problems);
   read_loading(in.loading(), spec.loading, out.problems);
+  read_loads(in, spec, out.problems);
   read_numerics(in.numerics(), spec.numerics, out.problems);
   if (in.output().has_sample_count()) spec.output.sample_count = in.output().sample_count();
   if (in.output().has_frame_count()) spec.output.frame_count = in.output().frame_count();

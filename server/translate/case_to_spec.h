@@ -18,8 +18,8 @@ struct CaseReading {
 /// a counterpart in the spec.
 CaseReading to_spec(const v1::Case& in);
 
-/// Converts the frame; appends problems.
-FrameLattice to_spec(const v1::Frame& in, Problems& problems);
+/// Converts the walls of a frame, and the loads on its nodes and beams; appends problems.
+FrameWalls to_spec(const v1::Frame& in, LoadsSpec& loads, Problems& problems);
 
 /// A material; the paths of its fields start with `path`.
 MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems);

@@ -28,7 +28,7 @@ double frequency(double stiffening) {
 SceneSpec spec_of(FrameLattice frame, double periods, double stiffening) {
   frame.end_time_s = periods * 2.0 * std::numbers::pi / frequency(stiffening);
   SceneSpec spec;
-  spec.lattice = std::move(frame);
+  put_frame(frame, spec);
   spec.depth_mm = 1.0;
   spec.material.youngs_modulus_mpa = stiffening * PlasticFrame::kModulus;
   spec.material.yield_stress_mpa = PlasticFrame::kYieldStress;

@@ -40,7 +40,7 @@ SceneSpec CrushedWall::spec(int elements, const SectionSpec& section) {
   frame.watched_nodes = {1};
   frame.end_time_s = end;
   SceneSpec spec;
-  spec.lattice = std::move(frame);
+  put_frame(frame, spec);
   spec.depth_mm = 1.0;
   spec.material.youngs_modulus_mpa = kModulus;
   spec.material.yield_stress_mpa = kYieldStress;

@@ -10,6 +10,12 @@
 
 namespace cellcrush::scenes {
 
+void put_frame(const FrameLattice& frame, SceneSpec& spec) {
+  spec.lattice = static_cast<const FrameWalls&>(frame);
+  spec.loads = frame;
+  spec.loading.end_time_s = frame.end_time_s;
+}
+
 std::shared_ptr<Scene> build(const SceneSpec& spec) {
   const SceneResult result = build_scene(spec);
   for (const Problem& problem : result.problems) {
@@ -25,7 +31,7 @@ FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements) {
 SceneSpec elastic_frame(FrameLattice frame) {
   frame.end_time_s = frame.end_time_s.value_or(1.0);
   SceneSpec spec;
-  spec.lattice = std::move(frame);
+  put_frame(frame, spec);
   spec.depth_mm = 1.0;
   spec.material.youngs_modulus_mpa = 70000.0;
   spec.material.yield_stress_mpa = 1e9;
@@ -47,7 +53,7 @@ SceneSpec Cantilever::spec(int elements, FrameLattice::Component component, doub
   frame.loads = {{1, component, {{0.0, 0.0}, {rise_time, value}}}};
   frame.end_time_s = end_time;
   SceneSpec spec;
-  spec.lattice = frame;
+  put_frame(frame, spec);
   spec.depth_mm = 1.0;
   spec.material.youngs_modulus_mpa = 200000.0;
   spec.material.yield_stress_mpa = 1e9;

@@ -1,13 +1,24 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 
-namespace cellcrush::scenes {
+namespace cellcrush {
+
+/// A frame with what acts on it and its end, in one list.
+struct FrameLattice : FrameWalls, LoadsSpec {
+  std::optional<double> end_time_s = std::nullopt;
+};
+
+namespace scenes {
 
 inline constexpr double kDensity = 2700.0;  ///< kg/m^3, of aluminium
+
+/// Gives a spec the walls, loads and end of a frame.
+void put_frame(const FrameLattice& frame, SceneSpec& spec);
 
 /// A scene whose spec has no problems; fails the test with their texts when it has.
 std::shared_ptr<Scene> build(const SceneSpec& spec);
@@ -37,4 +48,5 @@ SceneSpec hexagon_specimen(int columns, int rows);
 /// Small velocities in all directions for every particle, the same ones each time: what no symmetry hides from.
 void stir(Scene& scene, double speed);
 
-}  // namespace cellcrush::scenes
+}  // namespace scenes
+}  // namespace cellcrush

@@ -40,7 +40,7 @@ SceneSpec portal(const FrameLattice::NodalLoad& dead, int moved_node, Component 
   frame.watched_nodes = {moved_node, dead.node};
   frame.end_time_s = end;
   SceneSpec spec;
-  spec.lattice = std::move(frame);
+  put_frame(frame, spec);
   spec.depth_mm = 1.0;
   spec.material.youngs_modulus_mpa = PortalFrame::kModulus;
   spec.material.yield_stress_mpa = PortalFrame::kYieldStress;

@@ -177,14 +177,15 @@ TEST(Translate, UnknownEnumNumbersAndALongTitleAreProblems) {
 TEST(Translate, AFramesNodesAreFoundByName) {
   const auto reading = translate::to_spec(frame_case());
   EXPECT_THAT(reading.problems, IsEmpty());
-  const auto& frame = std::get<FrameLattice>(reading.spec.lattice);
+  const auto& frame = std::get<FrameWalls>(reading.spec.lattice);
   EXPECT_EQ(frame.beams.at(0).end, 1);
-  EXPECT_EQ(frame.loads.at(0).node, 1);
-  EXPECT_EQ(frame.loads.at(0).component, FrameLattice::Component::y);
-  EXPECT_EQ(frame.loads.at(0).points.at(0), std::make_pair(0.001, 5.0));
+  const auto& load = reading.spec.loads.loads.at(0);
+  EXPECT_EQ(load.node, 1);
+  EXPECT_EQ(load.component, LoadsSpec::Component::y);
+  EXPECT_EQ(load.points.at(0), std::make_pair(0.001, 5.0));
   const auto again = translate::to_spec(translate::to_case(reading.spec));
   EXPECT_THAT(again.problems, IsEmpty());
-  EXPECT_EQ(std::get<FrameLattice>(again.spec.lattice).beams.at(0).end, 1);
+  EXPECT_EQ(std::get<FrameWalls>(again.spec.lattice).beams.at(0).end, 1);
 }
 
 TEST(Translate, AFramesWrongNamesAreProblemsWithTheirPaths) {
@@ -223,17 +224,18 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
   *wall.mutable_displacement_mm()->add_points() = point;
   const auto reading = translate::to_spec(given);
   EXPECT_THAT(reading.problems, IsEmpty());
-  const auto& spec = std::get<FrameLattice>(reading.spec.lattice);
-  EXPECT_EQ(spec.motions.at(0).points.at(0), std::make_pair(0.5, 2.0));
-  EXPECT_EQ(spec.distributed_loads.at(0).y_points.size(), 1U);
-  EXPECT_TRUE(spec.distributed_loads.at(0).x_points.empty());
-  EXPECT_EQ(spec.gravity_y_m_per_s2, -9.81);
+  const LoadsSpec& loads = reading.spec.loads;
+  const auto& spec = std::get<FrameWalls>(reading.spec.lattice);
+  EXPECT_EQ(loads.motions.at(0).points.at(0), std::make_pair(0.5, 2.0));
+  EXPECT_EQ(loads.distributed_loads.at(0).y_points.size(), 1U);
+  EXPECT_TRUE(loads.distributed_loads.at(0).x_points.empty());
+  EXPECT_EQ(loads.gravity_y_m_per_s2, -9.81);
   EXPECT_EQ(spec.watched_nodes, std::vector<int>{1});
   EXPECT_EQ(spec.beams.at(0).material->density_kg_per_m3, 1.0);
   EXPECT_FALSE(spec.beams.at(0).pin_start);
   EXPECT_TRUE(spec.beams.at(0).pin_end);
-  const FrameLattice::RigidWall floor = {1.0, -2.0, 0.0, 3.0, 0.25, {{0.5, 2.0}}};
-  EXPECT_EQ(spec.rigid_walls, std::vector{floor});
+  const LoadsSpec::RigidWall floor = {1.0, -2.0, 0.0, 3.0, 0.25, {{0.5, 2.0}}};
+  EXPECT_EQ(loads.rigid_walls, std::vector{floor});
   const v1::Case once = translate::to_case(reading.spec);
   EXPECT_TRUE(MessageDifferencer::Equals(once, translate::to_case(translate::to_spec(once).spec)));
 }

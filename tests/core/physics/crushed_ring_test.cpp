@@ -96,14 +96,14 @@ TEST(CrushedRing, BetweenRigidWallsBearsTheRisingLoadOfDeRuntzAndHodge) {
 // Rounding leaves energies of 1e-20 mJ, whose balance says nothing.
 TEST(CrushedRing, IsAtRestUntilAWallReachesIt) {
   SceneSpec spec = Ring::spec(12, 0.5, 1.0);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   for (FrameLattice::Node& node : frame.nodes) {
     node.x_mm = std::round(1e6 * node.x_mm) / 1e6;
     node.y_mm = std::round(1e6 * node.y_mm) / 1e6;
   }
   frame.supports.clear();
-  frame.rigid_walls[0].y_mm -= 2.0;
-  frame.rigid_walls[1].y_mm += 2.0;
+  spec.loads.rigid_walls[0].y_mm -= 2.0;
+  spec.loads.rigid_walls[1].y_mm += 2.0;
   const std::vector<Sample> samples = scenes::run_frame(spec);
   EXPECT_GT(samples.back().step, 100);
   for (const Sample& sample : samples) {

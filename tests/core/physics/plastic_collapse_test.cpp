@@ -86,9 +86,8 @@ TEST(Truss, OfThreeBarsYieldsFirstAndCollapsesAtTheLoadsOfPragerAndHodge) {
   const double unit = 3000.0 / Truss::frequency();
   const double yield_way = Truss::kHeight * Truss::kYieldStress / Truss::kModulus;
   SceneSpec spec = Truss::spec({{0.0, 0.0}, {unit, 0.0}});
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  frame.loads.clear();
-  frame.motions = {{0, FrameLattice::Component::y, {{0.0, 0.0}, {unit, -4.0 * yield_way}}}};
+  spec.loads.loads.clear();
+  spec.loads.motions = {{0, FrameLattice::Component::y, {{0.0, 0.0}, {unit, -4.0 * yield_way}}}};
   const auto scene = scenes::build(spec);
   Simulation simulation(scene);
   double first_yield = 0.0;

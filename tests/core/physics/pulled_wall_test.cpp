@@ -39,9 +39,8 @@ SceneSpec pulled_wall(int elements, double elongation, double steps, double hard
   spec.material.hardening_modulus_mpa = hardening;
   spec.numerics.mass_damping_per_s = 1e5;
   const double end = steps * scenes::build(spec)->schedule.time_step;
-  auto& pulled = std::get<FrameLattice>(spec.lattice);
-  pulled.motions = {{1, Component::x, {{0.0, 0.0}, {end, elongation}}}};
-  pulled.end_time_s = end;
+  spec.loads.motions = {{1, Component::x, {{0.0, 0.0}, {end, elongation}}}};
+  spec.loading.end_time_s = end;
   return spec;
 }
 
@@ -99,11 +98,11 @@ double residual_of_cycle(const SectionSpec& section, int elements, double strain
   spec.material.yield_stress_mpa = 1e6;
   spec.numerics.mass_damping_per_s = 2e5;
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  const double end = *frame.end_time_s;
+  auto& frame = std::get<FrameWalls>(spec.lattice);
+  const double end = *spec.loading.end_time_s;
   const double stretch = strain * Wall::kSide;
   frame.supports[1].fix_rotation = false;
-  frame.motions = {
+  spec.loads.motions = {
       {1, Component::x, {{0.0, 0.0}, {end / 4, stretch}, {end / 2, stretch}, {3 * end / 4, 0.0}}},
       {1, Component::rotation, {{0.0, 0.0}, {end / 4, 0.0}, {end / 2, 0.5}, {3 * end / 4, 0.5}, {end, 0.0}}}};
   Simulation simulation(scenes::build(spec));

@@ -20,7 +20,7 @@ using Component = FrameLattice::Component;
 TEST(Reactions, OfACantileversRootBalanceItsLoad) {
   const double load = Cantilever::kStiffness / (Cantilever::kLength * Cantilever::kLength);  // P L^2 / EI = 1
   SceneSpec spec = Cantilever::spec(8, Component::y, load, 0.2, 1.0);
-  std::get<FrameLattice>(spec.lattice).watched_nodes = {0, 1};
+  std::get<FrameWalls>(spec.lattice).watched_nodes = {0, 1};
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   const std::vector<Sample> samples = scenes::run_frame(spec);
   const WatchedNode& root = samples.back().watched[0];
@@ -37,10 +37,10 @@ TEST(Reactions, OfACantileversRootBalanceItsLoad) {
 
 TEST(Reactions, OfABeamOnTwoPinsAreHalfOfItsLoadWithoutMoments) {
   SceneSpec spec = Cantilever::spec(8, Component::y, 0.0, 0.2, 1.0);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   constexpr double kLoad = 1e-5;  // N/mm
   frame.supports = {{0, true, true, false}, {1, false, true, false}};
-  frame.distributed_loads = {{0, {}, {{0.0, 0.0}, {0.2, -kLoad}}}};
+  spec.loads.distributed_loads = {{0, {}, {{0.0, 0.0}, {0.2, -kLoad}}}};
   frame.watched_nodes = {0, 1};
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   const std::vector<Sample> samples = scenes::run_frame(spec);

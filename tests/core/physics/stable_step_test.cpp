@@ -46,7 +46,7 @@ std::shared_ptr<Scene> free_beam(int elements, double length, double thickness, 
   frame.beams = {scenes::beam(0, 1, thickness, elements)};
   frame.end_time_s = 1.0;
   SceneSpec spec;
-  spec.lattice = frame;
+  scenes::put_frame(frame, spec);
   spec.depth_mm = 4.0;
   spec.material.youngs_modulus_mpa = 69000.0;
   spec.material.yield_stress_mpa = 76.0;

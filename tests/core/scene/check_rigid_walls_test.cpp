@@ -13,21 +13,20 @@ namespace cellcrush {
 namespace {
 
 using testing::HasSubstr;
-using Wall = FrameLattice::RigidWall;
+using Wall = LoadsSpec::RigidWall;
 
 /// The problems of a bar along x, 1 mm thick, from 0 to 100, that has a wall.
 Problems problems_of(const Wall& wall, bool pinned = false) {
   SceneSpec spec = scenes::FallingBar::spec(2);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  frame.rigid_walls = {wall};
-  frame.beams[0].pin_start = pinned;
+  spec.loads.rigid_walls = {wall};
+  std::get<FrameWalls>(spec.lattice).beams[0].pin_start = pinned;
   return build_scene(spec).problems;
 }
 
 void expect_problem(const Wall& wall, const std::string& field, const std::string& value, const std::string& message) {
   const Problems problems = problems_of(wall);
   ASSERT_EQ(problems.size(), 1) << field;
-  EXPECT_EQ(problems[0].field, "lattice.frame.rigid_walls[0]" + field);
+  EXPECT_EQ(problems[0].field, "loading.rigid_walls[0]" + field);
   EXPECT_EQ(problems[0].value, value);
   EXPECT_THAT(problems[0].message, HasSubstr(message));
   EXPECT_FALSE(problems[0].remedy.empty());
@@ -59,7 +58,7 @@ TEST(CheckRigidWalls, RefusesAFrameThatStandsInOne) {
 TEST(CheckRigidWalls, RefusesPinnedEnds) {
   const Problems problems = problems_of({-10.0, 0.0, 1.0, 0.0, 0.0, {}}, true);
   ASSERT_EQ(problems.size(), 1);
-  EXPECT_EQ(problems[0].field, "lattice.frame.rigid_walls");
+  EXPECT_EQ(problems[0].field, "loading.rigid_walls");
   EXPECT_THAT(problems[0].message, HasSubstr("pinned"));
 }
 

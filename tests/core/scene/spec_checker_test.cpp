@@ -132,7 +132,7 @@ TEST(SpecChecker, SaysOfAFrameThatOverlapsWhatBuildingItsSceneSays) {
     for (const double end_time : {1e-4, 2e-4, 1e9}) {
       frame.self_contact = self_contact;
       frame.end_time_s = end_time;
-      spec.lattice = frame;
+      scenes::put_frame(frame, spec);
       expect_same_verdict(checker, spec);
     }
   }
