@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "contact/thickening.h"
 #include "push/face_forces.h"
 #include "push/push.h"
@@ -92,6 +94,10 @@ extern const Pusher kPlates = {.place = place_plates,
                                .accumulate = accumulate_plates,
                                .half_step_works = half_step_works_of_plates,
                                .words = words_of_plates};
+
+double Plates::speed_at(double time) const {
+  return ramp_time == 0.0 || time >= ramp_time ? speed : speed * std::max(time, 0.0) / ramp_time;
+}
 
 PlateStep plate_step_of(const Scene& scene, double time, double travel) {
   const double step = scene.schedule.time_step;

@@ -27,4 +27,8 @@ bool has_pins(const FrameWalls& frame);
 /// order.
 void check_frame(const SceneSpec& spec, FieldChecker& check);
 
+/// Problems of walls that overlap before loading: contact would throw them apart in the first step. Names the beams of
+/// a frame, or the thickness of a lattice, and the position. REQUIRES: the mesh of the spec, as for the search.
+Problems check_overlap(const SceneSpec& spec, const Scene& scene);
+
 }  // namespace cellcrush
