@@ -1,8 +1,7 @@
 #include <algorithm>
 
 #include "contact/thickening.h"
-#include "push/face_forces.h"
-#include "push/push.h"
+#include "push/half_planes.h"
 
 namespace cellcrush {
 namespace {
@@ -70,7 +69,7 @@ void press_by_plates(const Scene& scene, State& state, const PlateStep& motion, 
   }
 }
 
-void accumulate_plates(const Scene& scene, double /*time*/, const PlateStep& plates, State& state) {
+void accumulate_plates(const Scene& scene, const PlateStep& plates, State& state) {
   const double step = scene.schedule.time_step;
   face_works(state.impact_force, plates.displacement).accumulate(state.ledger);
   state.impact_impulse += step * state.impact_force.total();
@@ -83,8 +82,10 @@ MotionWorks half_step_works_of_plates(const Scene& scene, const State& state) {
   return face_works(state.impact_force, half * scene.plates.speed_at(state.time - half));
 }
 
-std::string words_of_plates(const Scene& scene) {
-  return scene.plates.present ? "Plates: rigid, unilateral, not meshed, " + friction_words(scene.plates.friction) : "";
+void describe_plates(const Scene& scene, std::vector<std::string>& lines) {
+  if (scene.plates.present) {
+    lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_words(scene.plates.friction));
+  }
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ extern const Pusher kPlates = {.place = place_plates,
                                .press = press_by_plates,
                                .accumulate = accumulate_plates,
                                .half_step_works = half_step_works_of_plates,
-                               .words = words_of_plates};
+                               .describe = describe_plates};
 
 double Plates::speed_at(double time) const {
   return ramp_time == 0.0 || time >= ramp_time ? speed : speed * std::max(time, 0.0) / ramp_time;

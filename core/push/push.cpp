@@ -1,18 +1,54 @@
 #include "push/push.h"
 
+#include <algorithm>
 #include <array>
 
-#include "fields/field_checker.h"
+#include "contact/contact_tiles.h"
+#include "contact/thickening.h"
+#include "contact/touch/force_laws.h"
 
 namespace cellcrush {
 
 extern const Pusher kPlates;
-extern const Pusher kStrikers;
-extern const Pusher kRigidWalls;
+extern const Pusher kHalfPlanes;
 
-std::span<const Pusher* const> pushers() {
-  static constexpr std::array kPushers = {&kPlates, &kStrikers, &kRigidWalls};
-  return kPushers;
+namespace {
+
+/// Friction on a particle whose centre is `distance` mm from the face, at most `limit` N.
+double rub(const Scene& scene, State& state, const Face& face, int particle, double distance, double limit) {
+  const double side = cross(face.tangent, face.normal);  // of a turn that moves the ball's surface along the tangent
+  const RubbedSurface surface = {elements_at(scene, particle), distance};
+  const double speed = face.tangent.dot(state.velocity[particle]) + side * speed_by_turning(scene, state, surface);
+  const double stiffness = face.stiffness / std::max(1.0, stiffening(state, surface));
+  double& friction = face.friction_of[particle];
+  friction = evaluate_friction(friction, stiffness, scene.schedule.time_step * speed, limit);
+  state.friction_force[particle] += friction * face.tangent;
+  add_couple(scene, state, surface, side * friction);
+  return friction;
+}
+
+}  // namespace
+
+FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int particle, double radius) {
+  const double distance = face.distance_of(state.position[particle]);
+  const double depth = radius - distance;
+  FaceForce sum;
+  if (depth > 0.0) {
+    const double rate = face.speed - face.normal.dot(state.velocity[particle]);
+    const NormalForce force =
+        evaluate_normal_force(face.stiffness, scene.contact.damping_ratio, scene.inverse_mass[particle], depth, rate);
+    sum = {force.elastic, force.viscous, 0.0, 0.5 * force.elastic * depth};
+    if (face.grows && state.radius_growth[particle] > 0.0) {
+      push_elements_apart(scene, state, particle, force.elastic);
+    }
+    state.contact_force[particle].elastic += force.elastic * face.normal;
+    state.contact_force[particle].viscous += force.viscous * face.normal;
+    mark_contact_tile(state, particle);
+  }
+  if (face.friction_of != nullptr && (depth > 0.0 || face.friction_of[particle] != 0.0)) {
+    sum.tangential = rub(scene, state, face, particle, distance, face.friction * (sum.elastic + sum.viscous));
+  }
+  return sum;
 }
 
 MotionWorks face_works(const PlateForce& force, double displacement) {
@@ -21,8 +57,9 @@ MotionWorks face_works(const PlateForce& force, double displacement) {
           .external = force.total() * displacement};
 }
 
-std::string friction_words(double coefficient) {
-  return coefficient > 0.0 ? "Coulomb friction, coefficient " + to_text(coefficient) + "." : "frictionless.";
+std::span<const Pusher* const> pushers() {
+  static constexpr std::array kPushers = {&kPlates, &kHalfPlanes};
+  return kPushers;
 }
 
 }  // namespace cellcrush

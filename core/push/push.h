@@ -4,15 +4,12 @@
 #include <string>
 
 #include "cellcrush/scene.h"
-#include "cellcrush/scene_spec.h"
 #include "cellcrush/state.h"
 #include "contact/contact_sums.h"
 #include "motion/integrate_motion.h"
 #include "motion/motion_works.h"
 
 namespace cellcrush {
-
-class FieldChecker;
 
 /// Motion of the impact plate over a step. It does not depend on the lattice, so it is known steps ahead.
 struct PlateStep {
@@ -30,9 +27,9 @@ struct PressedBand {
   std::span<const int> near_inner;
 };
 
-/// One kind of what presses on the walls from outside (E9c, E9f): rigid half planes that only push. A kind is one file
-/// of this folder, which has its motion, its forces and its works. Functions act on all of a scene that is of the kind,
-/// and do nothing where there is none.
+/// What presses on the walls from outside by rigid faces that only push (E9c, E9f): its motion, its forces and its
+/// works. The functions act on all of a scene that is of the kind, and do nothing where there is none. Half planes of
+/// every kind are one pusher (push/half_planes.h).
 struct Pusher {
   /// At time 0: places it, and makes room for its forces in the state.
   void (*place)(const Scene& scene, State& state);
@@ -43,30 +40,48 @@ struct Pusher {
   void (*move)(const Scene& scene, State& state) = nullptr;
   /// Adds its forces on the particles of a band at the end of the step to contact_force, friction_force and the sums.
   void (*press)(const Scene& scene, State& state, const PlateStep& plates, const PressedBand& on, ContactSums& sums);
-  /// Accumulates the works and impulses of its forces at `time`, s, over the step from there on.
-  void (*accumulate)(const Scene& scene, double time, const PlateStep& plates, State& state);
+  /// Accumulates the works and impulses of the forces at the start of the step over the step.
+  void (*accumulate)(const Scene& scene, const PlateStep& plates, State& state);
   /// The works of its newest forces over the half step up to the time of the state, and twice its kinetic energy.
   MotionWorks (*half_step_works)(const Scene& scene, const State& state);
-  /// What is modelled, a sentence; empty if a scene has none.
-  std::string (*words)(const Scene& scene);
-
-  // Of kinds of half planes (LoadsSpec::RigidWall, push/half_planes.h); null for all others.
-
-  /// Whether one is of the kind. The first kind that takes it has it.
-  bool (*takes)(const LoadsSpec::RigidWall& wall) = nullptr;
-  /// Checks the numbers that only the kind has; `path` ends with a dot.
-  void (*check)(const std::string& path, const LoadsSpec::RigidWall& wall, FieldChecker& check) = nullptr;
-  /// Fills in what the kind keeps of them.
-  void (*fill)(const LoadsSpec::RigidWall& from, RigidWall& to) = nullptr;
+  /// Adds what is modelled, in sentences.
+  void (*describe)(const Scene& scene, std::vector<std::string>& lines);
 };
 
-/// All kinds, in the order in which they press and in which their works are added.
+/// All of them, in the order in which they press and in which their works are added.
 std::span<const Pusher* const> pushers();
+
+/// The face of a rigid half plane at the current time.
+struct Face {
+  Vector2 point;        ///< on the face, mm
+  Vector2 normal;       ///< unit, out of the half plane
+  Vector2 tangent;      ///< unit, perpendicular to the normal: positive direction of friction
+  double speed;         ///< along the normal, mm/s, half a step before
+  double stiffness;     ///< k, N/mm, of one particle
+  double friction;      ///< Coulomb's coefficient
+  double* friction_of;  ///< friction of each particle along the tangent, N; null without friction
+  bool grows;           ///< balls may have grown (E5f)
+
+  /// Of the centre of a ball, mm.
+  [[nodiscard]] double distance_of(const Vector2& place) const { return normal.dot(place - point); }
+};
+
+/// What a face does to one particle.
+struct FaceForce {
+  double elastic = 0.0;     ///< N along the normal
+  double viscous = 0.0;     ///< N along the normal
+  double tangential = 0.0;  ///< N along the tangent
+  double stored = 0.0;      ///< N mm, stored energy
+};
+
+/// Pushes a particle whose ball of `radius` mm overlaps the face, by the penalty law of the walls (E9c), and adds the
+/// forces to contact_force. Friction acts along the tangent on the surface of the ball (E9d, E9e); it is added to
+/// friction_force, also of the particles beside it. Faces move along their normals only, so the slip is the motion of
+/// the ball's surface. Forces of a ball that has left are 0.
+FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int particle, double radius);
 
 /// The works of the force of a face over its mean displacement, mm (E10). What it exerts on particles is among the
 /// contact forces.
 MotionWorks face_works(const PlateForce& force, double displacement);
-
-std::string friction_words(double coefficient);
 
 }  // namespace cellcrush

@@ -112,10 +112,10 @@ void check_plates(const LoadingSpec& loading, FieldChecker& check) {
                  " (end_strain)");
 }
 
-/// A run has plates or an end time. A lattice of equal cells without both is taken for one between plates.
+/// A run has plates or an end time. Of what has neither, a frame lacks the time, and all else the plates.
 void check_loading(const SceneSpec& spec, FieldChecker& check) {
   const LoadingSpec& loading = spec.loading;
-  if (has_plates(spec) || (!loading.end_time_s && regular_lattice_of(spec) != nullptr)) {
+  if (has_plates(spec) || (!loading.end_time_s && !std::holds_alternative<FrameWalls>(spec.lattice))) {
     check_plates(loading, check);
   } else if (!loading.end_time_s) {
     check.within_limits("loading.end_time_s", {});

@@ -1,11 +1,9 @@
-#include <utility>
-
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "law/laws.h"
 #include "measure/theory.h"
-#include "push/push.h"
+#include "push/half_planes.h"
 #include "scene/check_spec.h"
 #include "scene/time_step.h"
 #include "section/rule_factors.h"
@@ -96,9 +94,7 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
                                                                  : "the plane and in depth alike (plane stress).") +
                 " Walls that are stretched keep their area and do not neck.");
   for (const Pusher* pusher : pushers()) {
-    if (std::string words = pusher->words(scene); !words.empty()) {
-      lines.push_back(std::move(words));
-    }
+    pusher->describe(scene, lines);
   }
   if (scene.pins.count() > 0) {
     const std::size_t ends = scene.pins.joint.size() - scene.pins.count();

@@ -21,7 +21,7 @@ void accumulate(const Scene& scene, const StepRecord& record, State& state) {
     chunk.works.accumulate(state.ledger);
   }
   for (const Pusher* pusher : pushers()) {
-    pusher->accumulate(scene, record.time, record.plates, state);
+    pusher->accumulate(scene, record.plates, state);
   }
   for (const double work : record.plastic_work) {
     state.ledger.plastic += work;

@@ -178,12 +178,12 @@ struct Plates {
   [[nodiscard]] double speed_at(double time) const;
 };
 
-struct Pusher;
+struct HalfPlaneKind;
 
 /// A rigid wall: a half plane that pushes on the balls of all particles (E9f). It moves along its normal, as its kind
 /// says.
 struct RigidWall {
-  const Pusher* kind = nullptr;
+  const HalfPlaneKind* kind = nullptr;
   Vector2 point;          ///< on its face at a displacement of 0, mm
   Vector2 normal;         ///< unit, out of the wall
   double friction = 0.0;  ///< Coulomb's coefficient

@@ -54,6 +54,7 @@ struct RigidWallForce {
 struct RigidWallMotion {
   double travel = 0.0;  ///< mm
   double speed = 0.0;   ///< mm/s, half a step before `time`
+  double way = 0.0;     ///< mm, of the work of the forces before: half a step before and half a step after them
 };
 
 /// Impulse of a rigid wall on a frame since the start, N s.
