@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/pins.h"
+#include "scene/frame.h"
 
 namespace cellcrush {
 namespace {

@@ -10,7 +10,6 @@
 #include "contact/contact_tiles.h"
 #include "motion/integrate_motion.h"
 #include "motion/loads.h"
-#include "motion/pin_forces.h"
 #include "motion/rigid_motion.h"
 #include "push/push.h"
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "cellcrush/problem.h"
 #include "cellcrush/scene_spec.h"
 #include "cellcrush/v1/case.pb.h"
@@ -20,6 +23,9 @@ CaseReading to_spec(const v1::Case& in);
 
 /// Converts the walls of a frame, and the loads on its nodes and beams; appends problems.
 FrameWalls to_spec(const v1::Frame& in, LoadsSpec& loads, Problems& problems);
+
+/// Those of a loading; appends problems.
+std::vector<LoadsSpec::RigidWall> read_rigid_walls(const v1::Loading& in, Problems& problems);
 
 /// A material; the paths of its fields start with `path`.
 MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems);

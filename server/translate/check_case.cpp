@@ -82,12 +82,10 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
     restore_names(submitted.lattice().frame(),
                   *out.response.mutable_completed_case()->mutable_lattice()->mutable_frame());
   }
-  const RigidWalls& walls = rigid_walls_of(submitted);
-  auto& completed = *out.response.mutable_completed_case();
-  RigidWalls& same = submitted.lattice().has_frame()
-                         ? *completed.mutable_lattice()->mutable_frame()->mutable_rigid_walls()
-                         : *completed.mutable_loading()->mutable_rigid_walls();
-  for (int i = 0; i < walls.size(); ++i) same[i].set_id(walls[i].id());
+  v1::Case& completed = *out.response.mutable_completed_case();
+  auto& walls = completed.lattice().has_frame() ? *completed.mutable_lattice()->mutable_frame()->mutable_rigid_walls()
+                                                : *completed.mutable_loading()->mutable_rigid_walls();
+  for (int i = 0; i < walls.size(); ++i) walls[i].set_id(rigid_walls_of(submitted)[i].id());
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;
   return out;

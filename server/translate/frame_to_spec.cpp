@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "translate/case_to_spec.h"
-#include "translate/loads_places.h"
 #include "translate/problems.h"
 
 namespace cellcrush::translate {
@@ -213,13 +212,13 @@ LoadsSpec::RigidWall to_spec(const v1::Frame::RigidWall& in, const std::string& 
 
 }  // namespace
 
-std::vector<LoadsSpec::RigidWall> read_rigid_walls(const RigidWalls& in, const std::string& path, Problems& problems) {
+std::vector<LoadsSpec::RigidWall> read_rigid_walls(const v1::Loading& in, Problems& problems) {
   std::unordered_map<std::string, int> positions;
   std::vector<LoadsSpec::RigidWall> out;
-  for (int i = 0; i < in.size(); ++i) {
-    const std::string at = path + "[" + std::to_string(i) + "]";
-    read_id(at + ".id", "rigid wall", in[i].id(), i, positions, problems);
-    out.push_back(to_spec(in[i], at, problems));
+  for (int i = 0; i < in.rigid_walls_size(); ++i) {
+    const std::string path = "loading.rigid_walls[" + std::to_string(i) + "]";
+    read_id(path + ".id", "rigid wall", in.rigid_walls(i).id(), i, positions, problems);
+    out.push_back(to_spec(in.rigid_walls(i), path, problems));
   }
   return out;
 }

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cellcrush/problem.h"
-#include "cellcrush/scene_spec.h"
 #include "cellcrush/v1/case.pb.h"
 
 namespace cellcrush::translate {
@@ -12,21 +8,16 @@ namespace cellcrush::translate {
 // Gravity, rigid walls and the end time have a place in `loading`. A frame may have them at a place of its own instead,
 // lattice.frame, where they stood first. The solver knows them as those of `loading`.
 
-using RigidWalls = google::protobuf::RepeatedPtrField<v1::Frame::RigidWall>;
+/// Moves them into the loading; what is given at both places is a problem.
+void move_to_loading(v1::Case& scene, Problems& problems);
 
-/// Those of a case, wherever they stand.
-const RigidWalls& rigid_walls_of(const v1::Case& scene);
-
-/// Reads what has two places into the spec; what is given at both is a problem.
-void read_loads(const v1::Case& in, SceneSpec& spec, Problems& problems);
-
-/// Writes it to the place of a frame, if the lattice is one, or into the loading.
-void write_loads(const SceneSpec& spec, v1::Case& out);
+/// Moves them to the place of the frame, if the lattice is one.
+void move_to_frame(v1::Case& scene);
 
 /// Names what a frame lacks, or has at its place, by the paths of the frame.
 void name_as_given(const v1::Case& submitted, Problems& problems);
 
-/// Converts rigid walls at a path; appends problems.
-std::vector<LoadsSpec::RigidWall> read_rigid_walls(const RigidWalls& in, const std::string& path, Problems& problems);
+/// The rigid walls of a case, wherever they stand.
+const google::protobuf::RepeatedPtrField<v1::Frame::RigidWall>& rigid_walls_of(const v1::Case& scene);
 
 }  // namespace cellcrush::translate

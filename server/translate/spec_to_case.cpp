@@ -43,6 +43,14 @@ void write_material(const MaterialSpec& in, v1::Material& out) {
   out.set_poissons_ratio(in.poissons_ratio);
 }
 
+void write_function(const LoadsSpec::TimeFunction& in, v1::Frame::TimeFunction& out) {
+  for (const auto& [time, value] : in) {
+    auto& point = *out.add_points();
+    point.set_time_s(time);
+    point.set_value(value);
+  }
+}
+
 void write_frame(const FrameWalls& in, v1::Frame& out) {
   for (std::size_t i = 0; i < in.nodes.size(); ++i) {
     auto& node = *out.add_nodes();
@@ -127,6 +135,30 @@ void write_plates(const LoadingSpec& in, v1::Loading& out) {
   out.set_ramp_strain(in.ramp_strain);
 }
 
+void write_loads(const SceneSpec& spec, v1::Case& out) {
+  const bool listed = out.lattice().has_frame();
+  v1::Loading& loading = *out.mutable_loading();
+  if (spec.loading.end_time_s) loading.set_end_time_s(*spec.loading.end_time_s);
+  if (spec.loading.end_at_rest > 0.0) loading.set_end_at_rest(spec.loading.end_at_rest);
+  if (listed || spec.loads.gravity_x_m_per_s2 != 0.0) loading.set_gravity_x_m_per_s2(spec.loads.gravity_x_m_per_s2);
+  if (listed || spec.loads.gravity_y_m_per_s2 != 0.0) loading.set_gravity_y_m_per_s2(spec.loads.gravity_y_m_per_s2);
+  for (std::size_t i = 0; i < spec.loads.rigid_walls.size(); ++i) {
+    const LoadsSpec::RigidWall& wall = spec.loads.rigid_walls[i];
+    v1::Frame::RigidWall& added = *loading.add_rigid_walls();
+    added.set_id(std::to_string(i));
+    added.set_x_mm(wall.x_mm);
+    added.set_y_mm(wall.y_mm);
+    added.set_normal_x(wall.normal_x);
+    added.set_normal_y(wall.normal_y);
+    added.set_friction(wall.friction);
+    if (!wall.points.empty()) write_function(wall.points, *added.mutable_displacement_mm());
+    for (const auto& [name, value] : wall.own)
+      added.GetReflection()->SetDouble(&added, added.GetDescriptor()->FindFieldByName(name), value);
+  }
+  move_to_frame(out);
+  if (loading.ByteSizeLong() == 0) out.clear_loading();
+}
+
 void write_section(const SectionSpec& in, v1::Section& out) {
   // Left unset where the formulation decides: changing a preset's formulation then also changes its points.
   if (in.axial_points) out.set_axial_points(*in.axial_points);
@@ -151,14 +183,6 @@ void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
 }
 
 }  // namespace
-
-void write_function(const LoadsSpec::TimeFunction& in, v1::Frame::TimeFunction& out) {
-  for (const auto& [time, value] : in) {
-    auto& point = *out.add_points();
-    point.set_time_s(time);
-    point.set_value(value);
-  }
-}
 
 v1::Numerics::Fidelity to_proto(NumericsSpec::Fidelity fidelity) {
   switch (fidelity) {
@@ -187,7 +211,6 @@ v1::Case to_case(const SceneSpec& spec) {
   out.mutable_plates()->set_friction(spec.plates.friction);
   const bool has_plates = spec.loading.speed_m_per_s.has_value();
   if (has_plates || !spec.loading.end_time_s) write_plates(spec.loading, *out.mutable_loading());
-  if (spec.loading.end_at_rest > 0.0) out.mutable_loading()->set_end_at_rest(spec.loading.end_at_rest);
   write_loads(spec, out);
   write_numerics(spec.numerics, *out.mutable_numerics());
   out.mutable_output()->set_sample_count(spec.output.sample_count);

@@ -8,8 +8,6 @@ namespace cellcrush::translate {
 /// The case of a spec, with every field that the spec sets. Nodes of a frame are named by index: "0", "1", ...
 v1::Case to_case(const SceneSpec& spec);
 
-void write_function(const LoadsSpec::TimeFunction& in, v1::Frame::TimeFunction& out);
-
 v1::Numerics::Fidelity to_proto(NumericsSpec::Fidelity fidelity);
 
 }  // namespace cellcrush::translate
