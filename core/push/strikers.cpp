@@ -1,5 +1,5 @@
-// Half planes with a mass, which only the lattice and gravity slow down or speed up (E9g), by the central differences of
-// the particles (E2).
+// Half planes with a mass, which only the lattice and gravity slow down or speed up (E9g), by the central differences
+// of the particles (E2).
 #include "push/half_planes.h"
 
 namespace cellcrush {

@@ -10,8 +10,8 @@
 namespace cellcrush {
 
 /// Judges whether a lattice, with the masses that strike it, has come to rest: its kinetic energy has stayed below a
-/// fraction of the greatest one since the start (loading.end_at_rest) for a hundredth of the longest run. It looks every
-/// so many steps, whatever samples and checkpoints are taken.
+/// fraction of the greatest one since the start (loading.end_at_rest) for a hundredth of the longest run. It looks
+/// every so many steps, whatever samples and checkpoints are taken.
 struct RestWatch {
   double greatest = 0.0;  ///< kinetic energy, N mm
   std::int64_t calm = 0;  ///< looks in a row at which the energy was below the fraction

@@ -113,13 +113,13 @@ SceneSpec struck_hexagons(double mass_g, double speed_m_per_s) {
 }
 
 SceneSpec stopped_mass() {
-  SceneSpec spec = struck_hexagons(1.0, 5.0);
-  spec.loads.rigid_walls[0].own["mass_g"] = 20.0 * mass_in_grams(spec);
+  SceneSpec spec = struck_hexagons(1.0, 15.0);
+  spec.loads.rigid_walls[0].own["mass_g"] = 2.0 * mass_in_grams(spec);
   spec.loads.rigid_walls.push_back({0.0, -0.5001 * *cells_of(spec).wall_thickness_mm, 0.0, 1.0});
   spec.loads.gravity_y_m_per_s2 = -1000.0;
   spec.numerics.mass_damping_per_s = 2e4;
   spec.loading.end_time_s = 0.02;
-  spec.loading.end_at_rest = 1e-4;
+  spec.loading.end_at_rest = 1e-8;
   return spec;
 }
 

@@ -54,7 +54,7 @@ double mass_in_grams(const SceneSpec& spec);
 /// A free lattice of hexagons that a mass runs into from above.
 SceneSpec struck_hexagons(double mass_g, double speed_m_per_s);
 
-/// A mass, 20 times that of the hexagons on the ground which it runs into, comes to rest on them under gravity.
+/// A mass, twice that of the hexagons on the ground which it runs into, comes to rest on them under gravity.
 SceneSpec stopped_mass();
 
 }  // namespace cellcrush::scenes

@@ -44,7 +44,7 @@ struct PlateForce {
   [[nodiscard]] double total() const { return elastic + viscous; }
 };
 
-/// Force of a rigid wall on a frame (E9f).
+/// Force of a rigid wall on the lattice (E9f).
 struct RigidWallForce {
   PlateForce normal;        ///< along its normal
   double tangential = 0.0;  ///< N, friction along its tangent, the normal turned clockwise
@@ -57,7 +57,7 @@ struct RigidWallMotion {
   double way = 0.0;     ///< mm, of the work of the forces before: half a step before and half a step after them
 };
 
-/// Impulse of a rigid wall on a frame since the start, N s.
+/// Impulse of a rigid wall on the lattice since the start, N s.
 struct RigidWallImpulse {
   double normal = 0.0;
   double tangential = 0.0;
@@ -158,8 +158,8 @@ template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
          reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
-         length, inverse_length, thickening, thickening_slope, radius_growth, fibres, single_fibres, wall_force, wall_moment,
-         internal_force, internal_moment, load_force, load_moment, contacts, crossing_step, contact_force,
+         length, inverse_length, thickening, thickening_slope, radius_growth, fibres, single_fibres, wall_force,
+         wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step, contact_force,
          friction_force, impact_friction, support_friction, impact_force, support_force, rigid_wall_friction,
          rigid_wall_force, contact_totals, fastest_step, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };

@@ -48,7 +48,7 @@ struct StruckBar {
 // St. Venant: the bar is a dashpot, so the mass slows down by exp(-t / T), T = M / (rho A c).
 TEST(Striker, IsSlowedDownByABarAsByADashpot) {
   double worst = 0.0;
-  for (const Sample& sample : scenes::run_frame(StruckBar::spec(80))) {
+  for (const Sample& sample : scenes::run_frame(StruckBar::spec(320))) {
     const double exact =
         1e3 * StruckBar::kSpeed * StruckBar::decay_time() * (1.0 - std::exp(-sample.time / StruckBar::decay_time()));
     worst = std::max(worst, std::abs(sample.rigid_walls.at(0).displacement - exact));
@@ -76,6 +76,7 @@ TEST(Striker, KeepsMomentumAndEnergyWhateverItsMass) {
   double residual = 0.0;
   for (const double share : {0.02, 0.3, 5.0}) {
     SceneSpec spec = scenes::struck_hexagons(1.0, 10.0);
+    spec.material.yield_stress_mpa = 1e9;
     const double lattice = scenes::mass_in_grams(spec);
     spec.loads.rigid_walls[0].own["mass_g"] = share * lattice;
     spec.loads.gravity_y_m_per_s2 = -100.0;
@@ -119,7 +120,7 @@ TEST(EndAtRest, ComesWhenTheGroundBearsLatticeAndMass) {
   for (const double of_particle : scene->mass) mass += of_particle;
   const double weight = -mass * scene->gravity.y();
   EXPECT_NEAR(simulation.state().rigid_wall_force.at(1).normal.total() / weight, 1.0, 0.05);
-  EXPECT_GT(simulation.state().rigid_wall_motion.at(0).travel, 0.05);
+  EXPECT_GT(simulation.state().rigid_wall_motion.at(0).travel, 0.02);
   simulation.advance(100);
   EXPECT_TRUE(simulation.has_ended());
 }
