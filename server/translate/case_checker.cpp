@@ -16,7 +16,7 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted) {
   Verdict out;
   for (auto& problem : find_long_lists(submitted)) out.problems.push_back(std::move(problem));
   if (!out.problems.empty()) return out;
-  const auto reading = to_spec(submitted);
+  auto reading = to_spec(submitted);
   auto verdict = specs_->check(reading.spec);
   name_as_given(submitted, verdict.problems);
   for (const Problems* problems : {&reading.problems, &verdict.problems}) {

@@ -55,7 +55,7 @@ Built build(const v1::Case& submitted, google::protobuf::RepeatedPtrField<v1::Pr
             const std::function<void()>& between_stages) {
   found = find_long_lists(submitted);
   if (!found.empty()) return {};
-  const auto reading = to_spec(submitted);
+  auto reading = to_spec(submitted);
   between_stages();
   auto built = build_scene(reading.spec, between_stages);
   name_as_given(submitted, built.problems);

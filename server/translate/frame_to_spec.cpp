@@ -193,7 +193,7 @@ FrameWalls to_spec(const v1::Frame& in, LoadsSpec& loads, Problems& problems) {
 
 namespace {
 
-LoadsSpec::RigidWall to_spec(const v1::Frame::RigidWall& in, const std::string& path, Problems& problems) {
+LoadsSpec::RigidWall read_rigid_wall(const v1::Frame::RigidWall& in, const std::string& path, Problems& problems) {
   if (!in.has_x_mm()) problems.push_back(missing(path + ".x_mm"));
   if (!in.has_y_mm()) problems.push_back(missing(path + ".y_mm"));
   LoadsSpec::RigidWall out = {in.x_mm(), in.y_mm(), in.normal_x(), in.normal_y(), in.friction()};
@@ -218,7 +218,7 @@ std::vector<LoadsSpec::RigidWall> read_rigid_walls(const v1::Loading& in, Proble
   for (int i = 0; i < in.rigid_walls_size(); ++i) {
     const std::string path = "loading.rigid_walls[" + std::to_string(i) + "]";
     read_id(path + ".id", "rigid wall", in.rigid_walls(i).id(), i, positions, problems);
-    out.push_back(to_spec(in.rigid_walls(i), path, problems));
+    out.push_back(read_rigid_wall(in.rigid_walls(i), path, problems));
   }
   return out;
 }
