@@ -7,6 +7,7 @@
 #include "scenes/rigid_walls.h"
 #include "server/daemon_fixture.h"
 #include "store/hdf5.h"
+#include "store/result_reader.h"
 #include "translate/spec_to_case.h"
 
 namespace cellcrush::testing {
@@ -93,6 +94,8 @@ TEST_F(TextbookJobs, AMassThatComesToRestOnHexagonsEndsTheRun) {
   EXPECT_LT(samples.back().energies.kinetic, 1e-3 * samples.front().energies.kinetic);
   expect_column("/rigid_walls/0/displacement_mm", samples,
                 [](auto& sample) { return sample.rigid_walls.at(0).displacement; });
+  const auto read = store::ResultReader(data_folder() / job_ / "result.h5").history();
+  EXPECT_EQ(read.back().rigid_walls(1).normal_force_n(), samples.back().rigid_walls.at(1).normal_force);
 }
 
 }  // namespace
