@@ -12,9 +12,8 @@
 #include "beam/element_place.h"
 #include "motion/motion_works-inl.h"
 #include "motion/particle_motion-inl.h"
-#include "motion/plate_motion.h"
 #include "motion/rigid_motion.h"
-#include "motion/rigid_wall_motion.h"
+#include "push/push.h"
 #include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -138,11 +137,11 @@ namespace {
 /// The works of the newest forces over the half step up to the time of the state, and twice the kinetic energy at that
 /// time.
 MotionWorks works_of_half_step(const Scene& scene, const State& state) {
-  const double half = 0.5 * scene.schedule.time_step;
   MotionWorks works = half_step_works_of_rigid_bodies(scene, state);
   works.add(HWY_DYNAMIC_DISPATCH(works_of_particles)(scene, state));
-  works.add(plate_works(state.impact_force, half * scene.plates.speed_at(state.time - half)));
-  works.add(rigid_wall_works(scene, state, state.time - scene.schedule.time_step, state.time));
+  for (const Pusher* pusher : pushers()) {
+    works.add(pusher->half_step_works(scene, state));
+  }
   return works;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
@@ -73,6 +74,17 @@ bool FieldChecker::in_range(const std::string& field, std::optional<double> valu
 bool FieldChecker::within_limits(const std::string& field, std::optional<double> value, const std::string& note) {
   const FieldLimits& limits = limits_of(field);
   return in_range(field, value, limits.range, std::string(limits.unit) + note);
+}
+
+void FieldChecker::is_function_of_time(const std::string& field, const std::vector<std::pair<double, double>>& points) {
+  const bool finite = std::ranges::all_of(
+      points, [](const auto& point) { return std::isfinite(point.first) && std::isfinite(point.second); });
+  const auto descent =
+      std::ranges::adjacent_find(points, std::greater_equal(), [](const auto& point) { return point.first; });
+  if (points.empty() || !finite || descent != points.end()) {
+    add(field + ".points", "", "do not define a function of time.",
+        "Give at least one point, with finite values and ascending times.");
+  }
 }
 
 void FieldChecker::add(const std::string& field, const std::string& value, const std::string& message,

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cellcrush/scene_spec.h"
 
@@ -29,6 +30,9 @@ class FieldChecker {
 
   /// The upper limit of a field in field_limits.inc.
   static double greatest_of(const std::string& field);
+
+  /// Requires points with finite values and ascending times, in `field`.points.
+  void is_function_of_time(const std::string& field, const std::vector<std::pair<double, double>>& points);
 
   void add(const std::string& field, const std::string& value, const std::string& message, const std::string& remedy);
 

@@ -116,7 +116,7 @@ void Sampler::measure_watched(const Scene& scene, const State& state, Sample& sa
 void Sampler::measure_rigid_walls(const Scene& scene, const State& state, Sample& sample) {
   const double interval = state.time - last_time_;
   for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
-    RigidWallSample of_wall = {scene.rigid_walls[wall].motion.value_at(state.time), 0.0, 0.0};
+    RigidWallSample of_wall = {state.rigid_wall_motion[wall].travel, 0.0, 0.0};
     if (interval > 0.0) {
       const RigidWallImpulse now = state.rigid_wall_impulse[wall];
       const RigidWallImpulse before = std::exchange(last_wall_impulse_[wall], now);

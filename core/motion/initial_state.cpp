@@ -1,7 +1,5 @@
 #include "motion/initial_state.h"
 
-#include <algorithm>
-
 #include "motion/particle_motion-inl.h"
 #include "motion/rigid_motion.h"
 
@@ -66,20 +64,9 @@ State place_particles(const Scene& scene) {
   state.internal_force.assign(n, Vector2::Zero());
   state.internal_moment.assign(n, 0.0);
   state.contact_force.assign(n, ContactForce());
-  const bool wall_rubs =
-      std::ranges::any_of(scene.rigid_walls, [](const RigidWall& wall) { return wall.friction > 0.0; });
-  if (scene.contact.friction > 0.0 || scene.plates.friction > 0.0 || wall_rubs) {
+  if (scene.contact.friction > 0.0) {
     state.friction_force.assign(n, Vector2::Zero());
   }
-  if (scene.plates.friction > 0.0) {
-    state.impact_friction.assign(n, 0.0);
-    state.support_friction.assign(n, 0.0);
-  }
-  if (wall_rubs) {
-    state.rigid_wall_friction.assign(scene.rigid_walls.size() * n, 0.0);
-  }
-  state.rigid_wall_force.resize(scene.rigid_walls.size());
-  state.rigid_wall_impulse.resize(scene.rigid_walls.size());
   if (scene.is_loaded()) {
     state.load_force.assign(n, Vector2::Zero());
     state.load_moment.assign(n, 0.0);

@@ -18,7 +18,7 @@ namespace cellcrush::HWY_NAMESPACE {
 
 /// Records the particles that may touch a plate at their new positions, and those with friction at a plate.
 struct NearPlatesNotes {
-  const PlateReach reach;
+  const NearRange reach;
   const bool along_x;
   const double* const impact_friction;  ///< null without friction
   const double* const support_friction;
@@ -96,7 +96,7 @@ MotionWorks move_chunk(const ParticleArrays<State>& arrays, const StepFactors& s
 
 /// Moves the chunks first_chunk ... end_chunk of particles from `first` to `end`, and clears the contact forces that
 /// moved them while these are in the cache.
-void move_chunks(const Scene& scene, State& state, const PlateReach& reach, std::size_t first, std::size_t end,
+void move_chunks(const Scene& scene, State& state, const NearRange& reach, std::size_t first, std::size_t end,
                  std::size_t first_chunk, std::size_t end_chunk, MovedChunk* moved, int* near_plates) {
   const StepFactors step = step_factors_of(scene);
   const ParticleArrays<State> arrays(scene, state);
@@ -167,7 +167,7 @@ std::size_t moved_chunk_count(const Scene& scene) {
 /// Every chunk's works are numbers of their own, so that the sums do not depend on who computes them. Joints and
 /// particles inside walls are dealt out each by themselves, as the joints' sums and the walls are, so that a thread
 /// finds in its cache what it has written.
-NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand& band, const PlateReach& reach,
+NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand& band, const NearRange& reach,
                             Workers& workers, std::vector<MovedChunk>& moved, std::vector<int>& near_plates) {
   const Group joints = joints_of(scene, band);
   const Group inner = inner_of(scene, band);

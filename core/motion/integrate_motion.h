@@ -1,15 +1,21 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "motion/motion_works.h"
 #include "parallel/workers.h"
-#include "touch/plate_forces.h"
 
 namespace cellcrush {
+
+/// Positions along the crush outside which particles are noted, mm. By default none is.
+struct NearRange {
+  double below = -std::numeric_limits<double>::infinity();  ///< below it a ball may reach the impact plate
+  double above = std::numeric_limits<double>::infinity();   ///< above it a ball may reach the support plate
+};
 
 /// Particles that are moved together, kParticlesMovedTogether at most, joints or particles inside walls.
 struct MovedChunk {
@@ -32,7 +38,7 @@ struct NearCounts {
 /// positions and rotations to the next time. Clears the contact forces that moved the band's particles. Overwrites the
 /// band's chunks among all of `moved`, and its part of the list `near_plates` by the particles that may be near a plate
 /// then, whose `reach` is that at the step's end.
-NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand& band, const PlateReach& reach,
+NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand& band, const NearRange& reach,
                             Workers& workers, std::vector<MovedChunk>& moved, std::vector<int>& near_plates);
 
 }  // namespace cellcrush

@@ -27,7 +27,34 @@ void add_element_load(const Scene& scene, State& state, const ElementLoad& load)
   state.load_moment[element.end] -= moment;
 }
 
+template <class Forces>
+void share(const Pins& pins, Forces& forces) {
+  for (std::size_t pin = 0; pin < pins.count(); ++pin) {
+    Vector2 sum = Vector2::Zero();
+    for (const int joint : pins.joints_of(pin)) {
+      sum += forces[joint];
+    }
+    const Vector2 each = sum / static_cast<double>(pins.joints_of(pin).size());
+    for (const int joint : pins.joints_of(pin)) {
+      forces[joint] = each;
+    }
+  }
+}
+
 }  // namespace
+
+double TimeFunction::value_at(double time) const {
+  const auto after = std::ranges::upper_bound(points, time, {}, &std::pair<double, double>::first);
+  if (after == points.begin()) {
+    return points.front().second;
+  }
+  if (after == points.end()) {
+    return points.back().second;
+  }
+  const auto& [t0, v0] = *(after - 1);
+  const auto& [t1, v1] = *after;
+  return v0 + (v1 - v0) * (time - t0) / (t1 - t0);
+}
 
 void evaluate_loads(const Scene& scene, State& state) {
   if (!scene.is_loaded()) {
@@ -42,6 +69,13 @@ void evaluate_loads(const Scene& scene, State& state) {
   }
   for (const ElementLoad& load : scene.element_loads) {
     add_element_load(scene, state, load);
+  }
+}
+
+void share_pin_forces(const Scene& scene, State& state) {
+  share(scene.pins, state.internal_force);
+  if (!state.load_force.empty()) {
+    share(scene.pins, state.load_force);
   }
 }
 

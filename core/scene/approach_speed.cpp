@@ -84,6 +84,7 @@ double speed_of_given_velocities(const Scene& scene) {
   }
   for (const RigidWall& wall : scene.rigid_walls) {
     velocities.emplace_back(0.0, 0.0);
+    velocities.emplace_back(wall.speed * wall.normal);
     const auto& points = wall.motion.points;
     for (std::size_t k = 1; k < points.size(); ++k) {
       const double speed = (points[k].second - points[k - 1].second) / (points[k].first - points[k - 1].first);
@@ -127,11 +128,12 @@ double speed_of_fall(const Scene& scene) {
 }
 
 /// Greatest speed along the normal of a rigid wall with which a particle that falls freely from rest comes to it where
-/// it is farthest away, mm/s.
+/// it is farthest away, or with which it falls on the particle if it has a mass, mm/s.
 double speed_of_fall_on_walls(const Scene& scene) {
   double square = 0.0;
   for (const RigidWall& wall : scene.rigid_walls) {
-    const double towards = std::max(0.0, -scene.gravity.dot(wall.normal));
+    const double fall = -scene.gravity.dot(wall.normal);
+    const double towards = wall.mass > 0.0 ? std::abs(fall) : std::max(0.0, fall);
     const auto lowest = std::ranges::min(wall.motion.points, {}, [](const auto& point) { return point.second; });
     for (const Vector2& place : scene.position) {
       square = std::max(square, 2.0 * towards * (wall.normal.dot(place - wall.point) - lowest.second));

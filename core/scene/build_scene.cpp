@@ -7,7 +7,6 @@
 #include "contact/topology/wall_paths.h"
 #include "lattice/lattice.h"
 #include "scene/check_spec.h"
-#include "scene/fibre_precision.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
 

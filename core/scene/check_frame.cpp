@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <cmath>
-#include <functional>
 
-#include "scene/check_rigid_walls.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 
@@ -11,14 +8,15 @@ namespace {
 
 class FrameChecker {
  public:
-  FrameChecker(const FrameLattice& frame, FieldChecker& check) : frame_(frame), check_(check) {}
+  FrameChecker(const SceneSpec& spec, FieldChecker& check)
+      : frame_(std::get<FrameWalls>(spec.lattice)), loads_(spec.loads), check_(check) {}
 
   void check_nodes() {
     if (frame_.nodes.size() < 2) {
       check_.add("lattice.frame.nodes", std::to_string(frame_.nodes.size()), "are too few.",
                  "Give at least two nodes.");
     }
-    visit("nodes", frame_.nodes, [&](const std::string& path, const FrameLattice::Node& node) {
+    visit("nodes", frame_.nodes, [&](const std::string& path, const FrameWalls::Node& node) {
       check_.within_limits(path + ".x_mm", node.x_mm);
       check_.within_limits(path + ".y_mm", node.y_mm);
       check_.within_limits(path + ".attached_mass_g", node.attached_mass_g);
@@ -35,7 +33,7 @@ class FrameChecker {
                  "Set lattice.frame.self_contact to false, or pin_start and pin_end of all beams.");
     }
     std::vector<bool> joined(frame_.nodes.size(), false);
-    visit("beams", frame_.beams, [&](const std::string& path, const FrameLattice::Beam& beam) {
+    visit("beams", frame_.beams, [&](const std::string& path, const FrameWalls::Beam& beam) {
       const bool ends = node_exists(path + ".start", beam.start) && node_exists(path + ".end", beam.end);
       check_.within_limits(path + ".thickness_mm", beam.thickness_mm);
       if (beam.elements) {
@@ -68,11 +66,11 @@ class FrameChecker {
   }
 
   void check_supports() {
-    visit("supports", frame_.supports, [&](const std::string& path, const FrameLattice::Support& support) {
+    visit("supports", frame_.supports, [&](const std::string& path, const FrameWalls::Support& support) {
       node_exists(path + ".node", support.node);
     });
-    visit("initial_velocities", frame_.initial_velocities,
-          [&](const std::string& path, const FrameLattice::InitialVelocity& velocity) {
+    visit("initial_velocities", loads_.initial_velocities,
+          [&](const std::string& path, const LoadsSpec::InitialVelocity& velocity) {
             node_exists(path + ".node", velocity.node);
             check_.within_limits(path + ".x_m_per_s", velocity.x_m_per_s);
             check_.within_limits(path + ".y_m_per_s", velocity.y_m_per_s);
@@ -82,40 +80,39 @@ class FrameChecker {
   }
 
   void check_loads() {
-    visit("loads", frame_.loads, [&](const std::string& path, const FrameLattice::NodalLoad& load) {
-      check_function_of_time(path + ".force_n_or_n_mm", load.points, check_);
-      if (node_exists(path + ".node", load.node) && load.component == FrameLattice::Component::rotation) {
+    visit("loads", loads_.loads, [&](const std::string& path, const LoadsSpec::NodalLoad& load) {
+      check_.is_function_of_time(path + ".force_n_or_n_mm", load.points);
+      if (node_exists(path + ".node", load.node) && load.component == LoadsSpec::Component::rotation) {
         check_turns(path + ".component", load.node);
       }
     });
-    visit("distributed_loads", frame_.distributed_loads,
-          [&](const std::string& path, const FrameLattice::DistributedLoad& load) {
+    visit("distributed_loads", loads_.distributed_loads,
+          [&](const std::string& path, const LoadsSpec::DistributedLoad& load) {
             if (load.beam < 0 || load.beam >= static_cast<int>(frame_.beams.size())) {
               check_.add(path + ".beam", std::to_string(load.beam), "is not a beam of the frame.",
                          "Give an index into lattice.frame.beams, counting from 0.");
             }
             if (!load.x_points.empty() || load.y_points.empty()) {
-              check_function_of_time(path + ".x_n_per_mm", load.x_points, check_);
+              check_.is_function_of_time(path + ".x_n_per_mm", load.x_points);
             }
             if (!load.y_points.empty()) {
-              check_function_of_time(path + ".y_n_per_mm", load.y_points, check_);
+              check_.is_function_of_time(path + ".y_n_per_mm", load.y_points);
             }
           });
-    check_.within_limits("lattice.frame.gravity_x_m_per_s2", frame_.gravity_x_m_per_s2);
-    check_.within_limits("lattice.frame.gravity_y_m_per_s2", frame_.gravity_y_m_per_s2);
   }
 
-  /// Between plates, the end strain ends the run without an end time.
-  void check_plates(const SceneSpec& spec) {
+  void check_pushers(const SceneSpec& spec) {
     const bool present = has_plates(spec);
-    if (!present || frame_.end_time_s) {
-      check_.within_limits("lattice.frame.end_time_s", frame_.end_time_s);
-    }
     if (present && has_pins(frame_)) {
       check_.add("loading.speed_m_per_s", "", "puts plates at a frame with pinned ends, which cannot be computed.",
                  "Remove loading, or pin_start and pin_end of all beams.");
     }
-    const auto along = crush_axis_of(spec) == 0 ? &FrameLattice::Node::x_mm : &FrameLattice::Node::y_mm;
+    if (!loads_.rigid_walls.empty() && has_pins(frame_)) {
+      check_.add("loading.rigid_walls", std::to_string(loads_.rigid_walls.size()),
+                 "cannot be computed in a frame with pinned ends.",
+                 "Remove the rigid walls, or pin_start and pin_end of all beams.");
+    }
+    const auto along = crush_axis_of(spec) == 0 ? &FrameWalls::Node::x_mm : &FrameWalls::Node::y_mm;
     if (present && !frame_.nodes.empty()) {
       const auto [low, high] = std::ranges::minmax_element(frame_.nodes, {}, along);
       if (!((*high).*along > (*low).*along)) {
@@ -126,11 +123,11 @@ class FrameChecker {
   }
 
   void check_motions() {
-    visit("motions", frame_.motions, [&](const std::string& path, const FrameLattice::NodalMotion& motion) {
-      check_function_of_time(path + ".displacement_mm_or_rad", motion.points, check_);
+    visit("motions", loads_.motions, [&](const std::string& path, const LoadsSpec::NodalMotion& motion) {
+      check_.is_function_of_time(path + ".displacement_mm_or_rad", motion.points);
       if (node_exists(path + ".node", motion.node)) {
         check_single_motion(path + ".component", motion);
-        if (motion.component == FrameLattice::Component::rotation) {
+        if (motion.component == LoadsSpec::Component::rotation) {
           check_turns(path + ".component", motion.node);
         }
       }
@@ -155,17 +152,17 @@ class FrameChecker {
   }
 
   /// A motion of a node is given only once, and is not held by a support as well.
-  void check_single_motion(const std::string& field, const FrameLattice::NodalMotion& motion) {
-    const auto first = std::ranges::find_if(frame_.motions, [&](const FrameLattice::NodalMotion& other) {
+  void check_single_motion(const std::string& field, const LoadsSpec::NodalMotion& motion) {
+    const auto first = std::ranges::find_if(loads_.motions, [&](const LoadsSpec::NodalMotion& other) {
       return other.node == motion.node && other.component == motion.component;
     });
     if (&*first != &motion) {
       check_.add(field, "", "of this node already has another motion.", "Give one motion per node and component.");
     }
-    const bool held = std::ranges::any_of(frame_.supports, [&](const FrameLattice::Support& support) {
-      return support.node == motion.node && (motion.component == FrameLattice::Component::x   ? support.fix_x
-                                             : motion.component == FrameLattice::Component::y ? support.fix_y
-                                                                                              : support.fix_rotation);
+    const bool held = std::ranges::any_of(frame_.supports, [&](const FrameWalls::Support& support) {
+      return support.node == motion.node && (motion.component == LoadsSpec::Component::x   ? support.fix_x
+                                             : motion.component == LoadsSpec::Component::y ? support.fix_y
+                                                                                           : support.fix_rotation);
     });
     if (held) {
       check_.add(field, "", "of this node is held by a support.", "Release it in the support, or remove the motion.");
@@ -180,44 +177,32 @@ class FrameChecker {
     return false;
   }
 
-  [[nodiscard]] bool has_no_length(const FrameLattice::Beam& beam) const {
-    const FrameLattice::Node& start = frame_.nodes[beam.start];
-    const FrameLattice::Node& end = frame_.nodes[beam.end];
+  [[nodiscard]] bool has_no_length(const FrameWalls::Beam& beam) const {
+    const FrameWalls::Node& start = frame_.nodes[beam.start];
+    const FrameWalls::Node& end = frame_.nodes[beam.end];
     return end.x_mm - start.x_mm == 0.0 && end.y_mm - start.y_mm == 0.0;
   }
 
-  const FrameLattice& frame_;
+  const FrameWalls& frame_;
+  const LoadsSpec& loads_;
   std::vector<bool> welded_ = std::vector<bool>(frame_.nodes.size(), false);  ///< nodes to which a beam is not pinned
   FieldChecker& check_;
 };
 
 }  // namespace
 
-bool has_pins(const FrameLattice& frame) {
-  return std::ranges::any_of(frame.beams,
-                             [](const FrameLattice::Beam& beam) { return beam.pin_start || beam.pin_end; });
-}
-
-void check_function_of_time(const std::string& field, const FrameLattice::TimeFunction& points, FieldChecker& check) {
-  const bool finite = std::ranges::all_of(
-      points, [](const auto& point) { return std::isfinite(point.first) && std::isfinite(point.second); });
-  const auto descent =
-      std::ranges::adjacent_find(points, std::greater_equal(), [](auto& point) { return point.first; });
-  if (points.empty() || !finite || descent != points.end()) {
-    check.add(field + ".points", "", "do not define a function of time.",
-              "Give at least one point, with finite values and ascending times.");
-  }
+bool has_pins(const FrameWalls& frame) {
+  return std::ranges::any_of(frame.beams, [](const FrameWalls::Beam& beam) { return beam.pin_start || beam.pin_end; });
 }
 
 void check_frame(const SceneSpec& spec, FieldChecker& check) {
-  FrameChecker checker(std::get<FrameLattice>(spec.lattice), check);
+  FrameChecker checker(spec, check);
   checker.check_nodes();
   checker.check_beams(count_elements(spec));
   checker.check_supports();
   checker.check_loads();
-  checker.check_plates(spec);
+  checker.check_pushers(spec);
   checker.check_motions();
-  check_rigid_walls(std::get<FrameLattice>(spec.lattice), check);
 }
 
 }  // namespace cellcrush

@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "contact/topology/initial_overlap.h"
 #include "lattice/lattice.h"
+#include "push/half_planes.h"
 #include "scene/mesh_part.h"
 
 namespace cellcrush {
@@ -69,7 +75,7 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     const double side = check_regular(spec, *regular_lattice_of(spec), check);
     if (kind->check != nullptr) kind->check(spec, side, check);
     check_imperfection(spec, side, check);
-  } else if (std::holds_alternative<FrameLattice>(spec.lattice)) {
+  } else if (std::holds_alternative<FrameWalls>(spec.lattice)) {
     check_frame(spec, check);
     check_no_imperfection(spec.imperfection, check);
   } else {
@@ -98,12 +104,29 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
   }
 }
 
-void check_loading(const LoadingSpec& loading, FieldChecker& check) {
+void check_plates(const LoadingSpec& loading, FieldChecker& check) {
   check.within_limits("loading.speed_m_per_s", loading.speed_m_per_s);
   const bool end = check.within_limits("loading.end_strain", loading.end_strain);
   const double latest = end ? loading.end_strain : FieldChecker::greatest_of("loading.end_strain");
   check.in_range("loading.ramp_strain", loading.ramp_strain, {.low = 0.0, .high = latest, .high_open = true},
                  " (end_strain)");
+}
+
+/// A run has plates or an end time. Of what has neither, a frame lacks the time, and all else the plates.
+void check_loading(const SceneSpec& spec, FieldChecker& check) {
+  const LoadingSpec& loading = spec.loading;
+  if (has_plates(spec) || (!loading.end_time_s && !std::holds_alternative<FrameWalls>(spec.lattice))) {
+    check_plates(loading, check);
+  } else if (!loading.end_time_s) {
+    check.within_limits("loading.end_time_s", {});
+  }
+  if (loading.end_time_s) {
+    check.within_limits("loading.end_time_s", loading.end_time_s);
+  }
+  check.within_limits("loading.end_at_rest", loading.end_at_rest, " (0: it does not end at rest)");
+  check.within_limits("loading.gravity_x_m_per_s2", spec.loads.gravity_x_m_per_s2);
+  check.within_limits("loading.gravity_y_m_per_s2", spec.loads.gravity_y_m_per_s2);
+  check_half_planes(spec.loads, check);
 }
 
 void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
@@ -112,6 +135,29 @@ void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
   check.within_limits("numerics.mass_scaling", numerics.mass_scaling, " (1: real masses)");
   check.within_limits("numerics.rotary_scaling", numerics.rotary_scaling, " (1: real inertias)");
   check.within_limits("numerics.threads", numerics.threads);
+}
+
+std::string place_text(const Vector2& place) { return "(" + to_text(place.x()) + ", " + to_text(place.y()) + ") mm"; }
+
+std::string field_of_beam(int beam) { return "lattice.frame.beams[" + std::to_string(beam) + "]"; }
+
+Problems name_beams(const FrameWalls& frame, int elements_per_wall, const std::vector<InitialOverlap>& overlaps) {
+  std::vector<int> beam;  // of each element
+  for (std::size_t i = 0; i < frame.beams.size(); ++i) {
+    beam.insert(beam.end(), frame.beams[i].elements.value_or(elements_per_wall), static_cast<int>(i));
+  }
+  std::set<std::pair<int, int>> named;
+  Problems problems;
+  for (const InitialOverlap& overlap : overlaps) {
+    const auto [one, other] = std::minmax(beam[overlap.first], beam[overlap.second]);
+    if (named.emplace(one, other).second) {
+      problems.push_back({field_of_beam(other), "",
+                          "overlaps " + field_of_beam(one) + " before loading, at " + place_text(overlap.place) + ".",
+                          "Move their nodes apart, connect the beams at a node, make them thinner, or set "
+                          "lattice.frame.self_contact to false."});
+    }
+  }
+  return problems;
 }
 
 }  // namespace
@@ -132,7 +178,7 @@ double count_elements(const SceneSpec& spec) {
     return kind_of(spec)->walls_per_cell * *lattice->columns * *lattice->rows * elements_per_wall;
   }
   double elements = 0.0;
-  for (const FrameLattice::Beam& beam : std::get<FrameLattice>(spec.lattice).beams) {
+  for (const FrameWalls::Beam& beam : std::get<FrameWalls>(spec.lattice).beams) {
     elements += std::max(1, beam.elements.value_or(elements_per_wall));
   }
   return elements;
@@ -150,13 +196,31 @@ Problems check_spec(const SceneSpec& spec) {
   check.within_limits("contact.damping_ratio", spec.contact.damping_ratio);
   check.within_limits("contact.impact_speed_m_per_s", spec.contact.impact_speed_m_per_s, " (0: as the case tells)");
   check.within_limits("plates.friction", spec.plates.friction);
-  if (has_plates(spec)) {
-    check_loading(spec.loading, check);
-  }
+  check_loading(spec, check);
   check_numerics(spec.numerics, check);
   check.within_limits("output.sample_count", spec.output.sample_count);
   check.within_limits("output.frame_count", spec.output.frame_count);
   return check.take();
+}
+
+Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
+  constexpr std::size_t kMostOverlaps = 20;  // enough to see what is wrong
+  const InitialOverlaps overlaps = find_initial_overlaps(scene, kMostOverlaps);
+  const auto* frame = std::get_if<FrameWalls>(&spec.lattice);
+  const std::string field = frame != nullptr ? "lattice.frame.beams" : path_of_lattice(spec) + "wall_thickness_mm";
+  if (overlaps.too_dense && overlaps.found.empty()) {
+    return {{field, "",
+             "are too thick or too tangled for contact: each particle has hundreds of elements within reach.",
+             "Use thinner walls or longer elements."}};
+  }
+  if (frame != nullptr) {
+    return name_beams(*frame, *spec.elements_per_wall, overlaps.found);
+  }
+  if (overlaps.found.empty()) {
+    return {};
+  }
+  return {{field, "", "makes walls overlap before loading, first at " + place_text(overlaps.found.front().place) + ".",
+           "Use thinner walls, or a smaller lattice.imperfection.amplitude_mm or bow_mm."}};
 }
 
 }  // namespace cellcrush

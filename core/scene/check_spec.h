@@ -20,13 +20,15 @@ double count_elements(const SceneSpec& spec);
 /// Checks a material; `path` ends with a dot.
 void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check);
 
-/// Requires points with finite values and ascending times.
-void check_function_of_time(const std::string& field, const FrameLattice::TimeFunction& points, FieldChecker& check);
-
 /// Whether an end of a beam is pinned.
-bool has_pins(const FrameLattice& frame);
+bool has_pins(const FrameWalls& frame);
 
-/// Checks the frame of a spec: nodes that exist, beams of some length, loads with times in order.
+/// Checks the frame of a spec and the loads on its nodes and beams: nodes that exist, beams of some length, times in
+/// order.
 void check_frame(const SceneSpec& spec, FieldChecker& check);
+
+/// Problems of walls that overlap before loading: contact would throw them apart in the first step. Names the beams of
+/// a frame, or the thickness of a lattice, and the position. REQUIRES: the mesh of the spec, as for the search.
+Problems check_overlap(const SceneSpec& spec, const Scene& scene);
 
 }  // namespace cellcrush

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "cellcrush/tuning.h"
-#include "scene/units.h"
 
 namespace cellcrush {
 namespace {
@@ -48,6 +47,15 @@ ContactLaw contact_law_of(const SceneSpec& spec, const MeshMeasures& mesh) {
 double contact_step_of(const ContactLaw& law, double mass) {
   const double ratio = std::numbers::sqrt2 * law.damping_ratio;
   return (std::sqrt(1.0 + ratio * ratio) - ratio) * std::sqrt(mass / law.stiffness);
+}
+
+double striker_step_of(const ContactLaw& law, double mass, double share) {
+  if (share <= 2.0) {
+    return contact_step_of(law, mass);
+  }
+  const double square = share * share / (share - 1.0);  // (omega / sqrt(k / m))^2
+  const double damping = law.damping_ratio * std::sqrt(square);
+  return 2.0 * (std::sqrt(1.0 + damping * damping) - damping) / std::sqrt(square * law.stiffness / mass);
 }
 
 }  // namespace cellcrush

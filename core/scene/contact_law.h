@@ -23,4 +23,12 @@ ContactLaw contact_law_of(const SceneSpec& spec, const MeshMeasures& mesh);
 ///   omega dt <= 2 (sqrt(1 + 2 z^2) - sqrt(2) z).
 double contact_step_of(const ContactLaw& law, double mass);
 
+/// The same where N such particles touch a rigid wall of mass m_w, and a row of particles is behind each. With r =
+/// N m / m_w (`share`), the wall swings against all of them in a mode that fades along the rows, by the factor r - 1
+/// from particle to particle, if r > 2 (E12b):
+///   omega^2 = (k / m) r^2 / (r - 1).
+/// A heavier wall leaves the stiffest mode to the rows. A contact with the wall has the damping c = 2 z sqrt(k m), so
+/// the mode has z omega sqrt(m / k).
+double striker_step_of(const ContactLaw& law, double mass, double share);
+
 }  // namespace cellcrush

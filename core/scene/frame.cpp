@@ -1,37 +1,86 @@
 #include "scene/frame.h"
 
 #include <algorithm>
-
-#include "scene/initial_velocity.h"
-#include "scene/pins.h"
-#include "scene/units.h"
+#include <utility>
+#include <vector>
 
 namespace cellcrush {
 namespace {
 
-constexpr double kTonnePerGram = 1e-6;
+// Pinned ends of a frame's beams (E16). A pinned end is a joint of its own at the place of its node, so that it has a
+// rotation of its own. The joints of a pin have the node's translation in common: all of them have equal shares of the
+// mass and of the force of the whole pin, and so move by the same numbers (motion/loads.h).
 
-Component component_of(FrameLattice::Component component) {
+/// Calls visit(beam, whether it is its start, node) for all pinned ends, in the order of their joints.
+template <class Visit>
+void visit_pinned_ends(const FrameWalls& frame, const Visit& visit) {
+  for (std::size_t b = 0; b < frame.beams.size(); ++b) {
+    const FrameWalls::Beam& beam = frame.beams[b];
+    if (beam.pin_start) {
+      visit(b, true, beam.start);
+    }
+    if (beam.pin_end) {
+      visit(b, false, beam.end);
+    }
+  }
+}
+
+/// Adds the joints of pinned ends after those of the nodes, in the order of the beams, and attaches the ends to them.
+/// REQUIRES: the layout has the nodes and the beams of the frame, in their order.
+void add_pinned_ends(const FrameWalls& frame, Layout& layout) {
+  visit_pinned_ends(frame, [&](std::size_t beam, bool is_start, int node) {
+    LayoutWall& wall = layout.walls[beam];
+    (is_start ? wall.start : wall.end) = static_cast<int>(layout.joints.size());
+    layout.joints.push_back(Vector2(layout.joints[node]));
+  });
+}
+
+/// Fills the pins of the scene, and holds all joints of a pin in x and y as its node is held.
+/// REQUIRES: the mesh of the scene is that of the layout; the nodes' supports are attached.
+void group_pinned_ends(const FrameWalls& frame, Scene& scene) {
+  std::vector<std::vector<int>> joints_of(frame.nodes.size());
+  auto joint = static_cast<int>(frame.nodes.size());
+  visit_pinned_ends(frame, [&](std::size_t, bool, int node) { joints_of[node].push_back(joint++); });
+  if (joint == static_cast<int>(frame.nodes.size())) {
+    return;
+  }
+  scene.pins.offset = {0};
+  for (std::size_t node = 0; node < joints_of.size(); ++node) {
+    if (joints_of[node].empty()) {
+      continue;
+    }
+    scene.pins.joint.push_back(static_cast<int>(node));
+    for (const int pinned : joints_of[node]) {
+      scene.pins.joint.push_back(pinned);
+      if (!scene.supports.empty()) {
+        scene.supports[pinned] = {scene.supports[node].x, scene.supports[node].y, {}};
+      }
+    }
+    scene.pins.offset.push_back(static_cast<int>(scene.pins.joint.size()));
+  }
+}
+
+Component component_of(LoadsSpec::Component component) {
   switch (component) {
-    case FrameLattice::Component::x: return Component::x;
-    case FrameLattice::Component::y: return Component::y;
-    case FrameLattice::Component::rotation: break;
+    case LoadsSpec::Component::x: return Component::x;
+    case LoadsSpec::Component::y: return Component::y;
+    case LoadsSpec::Component::rotation: break;
   }
   return Component::rotation;
 }
 
-void attach_holds(const FrameLattice& frame, Scene& scene) {
-  if (frame.supports.empty() && frame.motions.empty()) {
+void attach_holds(const FrameWalls& frame, const LoadsSpec& loads, Scene& scene) {
+  if (frame.supports.empty() && loads.motions.empty()) {
     return;
   }
   scene.supports.assign(scene.particle_count(), {});
-  for (const FrameLattice::Support& support : frame.supports) {
+  for (const FrameWalls::Support& support : frame.supports) {
     Support& held = scene.supports[support.node];
     held.x.held |= support.fix_x;
     held.y.held |= support.fix_y;
     held.rotation.held |= support.fix_rotation;
   }
-  for (const FrameLattice::NodalMotion& motion : frame.motions) {
+  for (const LoadsSpec::NodalMotion& motion : loads.motions) {
     Support& held = scene.supports[motion.node];
     const Component component = component_of(motion.component);
     Hold& hold = component == Component::x ? held.x : component == Component::y ? held.y : held.rotation;
@@ -46,11 +95,11 @@ const WallBlock& block_of(const Walls& walls, int beam) {
                        [&](const WallBlock& block) { return beam < block.first_wall + block.walls; });
 }
 
-void attach_loads(const FrameLattice& frame, Scene& scene) {
-  for (const FrameLattice::NodalLoad& load : frame.loads) {
+void attach_loads(const LoadsSpec& loads, Scene& scene) {
+  for (const LoadsSpec::NodalLoad& load : loads.loads) {
     scene.loads.push_back({load.node, component_of(load.component), {load.points}});
   }
-  for (const FrameLattice::DistributedLoad& load : frame.distributed_loads) {
+  for (const LoadsSpec::DistributedLoad& load : loads.distributed_loads) {
     const WallBlock& block = block_of(scene.walls, load.beam);
     const double length = scene.walls.undeformed_length[load.beam];
     for (int j = 0; j < block.elements; ++j) {
@@ -63,28 +112,100 @@ void attach_loads(const FrameLattice& frame, Scene& scene) {
       }
     }
   }
-  scene.gravity = Vector2(frame.gravity_x_m_per_s2, frame.gravity_y_m_per_s2) * kMmPerM;
 }
 
-void attach_rigid_walls(const FrameLattice& frame, Scene& scene) {
-  for (const FrameLattice::RigidWall& wall : frame.rigid_walls) {
-    const FrameLattice::TimeFunction still = {{0.0, 0.0}};
-    scene.rigid_walls.push_back({Vector2(wall.x_mm, wall.y_mm),
-                                 Vector2(wall.normal_x, wall.normal_y).stableNormalized(),
-                                 wall.friction,
-                                 {wall.points.empty() ? still : wall.points}});
+/// Rate at which the chord of a wall turns, rad/s.
+double turn_of_chord(const Scene& scene, int wall) {
+  const int start = scene.walls.start[wall];
+  const int end = scene.walls.end[wall];
+  const Vector2 span = scene.position[end] - scene.position[start];
+  return normal_of(span).dot(scene.initial_velocity[end] - scene.initial_velocity[start]) / span.squaredNorm();
+}
+
+/// Moves the joints of pinned ends as their nodes, and turns them as the chords of their beams.
+void move_pinned_ends(const FrameWalls& frame, std::vector<bool>& named, Scene& scene) {
+  for (std::size_t pin = 0; pin < scene.pins.count(); ++pin) {
+    const int node = scene.pins.joints_of(pin).front();
+    for (const int joint : scene.pins.joints_of(pin)) {
+      scene.initial_velocity[joint] = Vector2(scene.initial_velocity[node]);
+      named[joint] = named[node];
+    }
+  }
+  for (std::size_t wall = 0; wall < frame.beams.size(); ++wall) {
+    const int start = scene.walls.start[wall];
+    const int end = scene.walls.end[wall];
+    for (const auto& [joint, is_pinned] :
+         {std::pair(start, frame.beams[wall].pin_start), std::pair(end, frame.beams[wall].pin_end)}) {
+      if (is_pinned && named[start] && named[end]) {
+        scene.initial_spin[joint] = turn_of_chord(scene, static_cast<int>(wall));
+      }
+    }
+  }
+}
+
+/// Gives velocities to the particles inside wall `w` of a block (E14b).
+void move_inside(const WallBlock& block, int w, Scene& scene) {
+  const int start = scene.walls.start[block.first_wall + w];
+  const int end = scene.walls.end[block.first_wall + w];
+  const Vector2 span = scene.position[end] - scene.position[start];
+  const Vector2 across = normal_of(span);  // n L
+  const Vector2& from = scene.initial_velocity[start];
+  const Vector2& to = scene.initial_velocity[end];
+  const double turn = turn_of_chord(scene, block.first_wall + w);
+  const double at_start = scene.initial_spin[start] - turn;
+  const double at_end = scene.initial_spin[end] - turn;
+  for (int j = 0; j + 1 < block.elements; ++j) {
+    const double s = static_cast<double>(j + 1) / block.elements;
+    const double r = 1.0 - s;
+    const int i = block.first_inner + j * block.walls + w;
+    scene.initial_velocity[i] = r * from + s * to + across * (s * r * (r * at_start - s * at_end));
+    scene.initial_spin[i] = turn + r * (1.0 - 3.0 * s) * at_start + s * (3.0 * s - 2.0) * at_end;
+  }
+}
+
+/// Fills initial_velocity and initial_spin of the scene. Nodes have what the frame gives them; all others are at rest.
+/// Inside a beam whose two nodes are both named, velocities are those of a beam element between them (E14b). V_1, V_2
+/// and omega_1, omega_2 are the velocities and spins of its nodes, L its length, n its normal and s the place along it:
+///   Omega    = n . (V_2 - V_1) / L
+///   v(s)     = (1 - s) V_1 + s V_2 + n L [s (1 - s)^2 (omega_1 - Omega) - s^2 (1 - s) (omega_2 - Omega)]
+///   omega(s) = Omega + (1 - 4 s + 3 s^2) (omega_1 - Omega) + (3 s^2 - 2 s) (omega_2 - Omega).
+/// A rigid motion of its nodes is thus a rigid motion of the beam. A beam with a node that is not named is at rest
+/// inside, so that a mass at its end can strike it.
+/// Pinned ends turn as the chord of their beam, Omega.
+/// REQUIRES: the mesh of the scene is that of the frame; its pins are grouped.
+void attach_initial_velocities(const FrameWalls& frame, const std::vector<LoadsSpec::InitialVelocity>& velocities,
+                               Scene& scene) {
+  if (velocities.empty()) {
+    return;
+  }
+  scene.initial_velocity.assign(scene.particle_count(), Vector2::Zero());
+  scene.initial_spin.assign(scene.particle_count(), 0.0);
+  std::vector<bool> named(static_cast<std::size_t>(scene.joint_count), false);
+  for (const LoadsSpec::InitialVelocity& velocity : velocities) {
+    scene.initial_velocity[velocity.node] = Vector2(velocity.x_m_per_s, velocity.y_m_per_s) * kMmPerM;
+    scene.initial_spin[velocity.node] = velocity.rotation_rad_per_s;
+    named[velocity.node] = true;
+  }
+  move_pinned_ends(frame, named, scene);
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (int w = 0; w < block.walls; ++w) {
+      const int wall = block.first_wall + w;
+      if (named[scene.walls.start[wall]] && named[scene.walls.end[wall]]) {
+        move_inside(block, w, scene);
+      }
+    }
   }
 }
 
 }  // namespace
 
-Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
+Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall) {
   Layout layout;
-  for (const FrameLattice::Node& node : frame.nodes) {
+  for (const FrameWalls::Node& node : frame.nodes) {
     layout.joints.emplace_back(node.x_mm, node.y_mm);
   }
   int own_materials = 0;
-  for (const FrameLattice::Beam& beam : frame.beams) {
+  for (const FrameWalls::Beam& beam : frame.beams) {
     const int material = beam.material ? ++own_materials : 0;
     layout.walls.push_back(
         {beam.start, beam.end, beam.thickness_mm, beam.elements.value_or(elements_per_wall), material});
@@ -93,7 +214,7 @@ Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
   return layout;
 }
 
-void attach_to_frame(const FrameLattice& frame, Scene& scene) {
+void attach_to_frame(const FrameWalls& frame, const LoadsSpec& loads, Scene& scene) {
   const std::size_t count = scene.particle_count();
   scene.mass.assign(count, 0.0);
   scene.inertia.assign(count, 0.0);
@@ -101,12 +222,23 @@ void attach_to_frame(const FrameLattice& frame, Scene& scene) {
     scene.mass[i] = frame.nodes[i].attached_mass_g * kTonnePerGram;
     scene.inertia[i] = frame.nodes[i].attached_inertia_g_mm2 * kTonnePerGram;
   }
-  attach_holds(frame, scene);
+  attach_holds(frame, loads, scene);
   group_pinned_ends(frame, scene);
-  attach_loads(frame, scene);
-  attach_initial_velocities(frame, scene);
-  attach_rigid_walls(frame, scene);
+  attach_loads(loads, scene);
+  attach_initial_velocities(frame, loads.initial_velocities, scene);
   scene.watched = frame.watched_nodes;
+}
+
+void share_pin_masses(Scene& scene) {
+  for (std::size_t pin = 0; pin < scene.pins.count(); ++pin) {
+    double mass = 0.0;
+    for (const int joint : scene.pins.joints_of(pin)) {
+      mass += scene.mass[joint];
+    }
+    for (const int joint : scene.pins.joints_of(pin)) {
+      scene.mass[joint] = mass / static_cast<double>(scene.pins.joints_of(pin).size());
+    }
+  }
 }
 
 }  // namespace cellcrush

@@ -6,13 +6,16 @@
 
 namespace cellcrush {
 
-/// Joints and walls of an explicit frame; joint i is node i, and the joints of pinned ends follow (scene/pins.h). Walls
+/// Joints and walls of an explicit frame; joint i is node i, and the joints of pinned ends follow (E16). Walls
 /// have material 0. Beams with a material of their own have 1, 2, ... in the order of the beams. REQUIRES: a checked
 /// frame.
-Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall);
+Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall);
 
-/// Adds the attached masses, supports, pins, motions, loads, gravity, initial velocities, rigid walls and watched nodes
-/// of a frame to the scene. REQUIRES: the mesh of the scene is that of the frame; lump_masses has not run yet.
-void attach_to_frame(const FrameLattice& frame, Scene& scene);
+/// Adds the attached masses, supports, pins and watched nodes of a frame, and what acts on its nodes and beams, to the
+/// scene. REQUIRES: the mesh of the scene is that of the frame; lump_masses has not run yet.
+void attach_to_frame(const FrameWalls& frame, const LoadsSpec& loads, Scene& scene);
+
+/// Gives all joints of a pin equal shares of its mass. REQUIRES: masses of elements are lumped.
+void share_pin_masses(Scene& scene);
 
 }  // namespace cellcrush

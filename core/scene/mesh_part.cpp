@@ -5,10 +5,10 @@
 
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
+#include "push/half_planes.h"
 #include "scene/approach_speed.h"
-#include "scene/check_overlap.h"
+#include "scene/check_spec.h"
 #include "scene/frame.h"
-#include "scene/masses.h"
 #include "scene/mesh.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
@@ -20,8 +20,8 @@ constexpr double kTonnePerMm3PerKgPerM3 = 1e-12;
 
 std::vector<Material> materials_of(const SceneSpec& spec) {
   std::vector<Material> materials = {material_of(spec.material)};
-  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    for (const FrameLattice::Beam& beam : frame->beams) {
+  if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
+    for (const FrameWalls::Beam& beam : frame->beams) {
       if (beam.material) {
         materials.push_back(material_of(*beam.material));
       }
@@ -45,7 +45,7 @@ bool allows_single_fibres(const Scene& scene) {
 
 /// Lays out the lattice, and computes its measures if it is a regular one.
 Layout lay_out(const SceneSpec& spec, Scene& scene) {
-  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+  if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
     return lay_out_frame(*frame, *spec.elements_per_wall);
   }
   const LatticeKind& kind = *kind_of(spec);
@@ -82,18 +82,9 @@ Material material_of(const MaterialSpec& spec) {
 
 int crush_axis_of(const SceneSpec& spec) { return spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1; }
 
-bool has_plates(const SceneSpec& spec) {
-  return spec.loading.speed_m_per_s.has_value() || !std::holds_alternative<FrameLattice>(spec.lattice);
-}
+bool has_plates(const SceneSpec& spec) { return spec.loading.speed_m_per_s.has_value(); }
 
-bool is_driven_by_plates_alone(const SceneSpec& spec) {
-  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    return has_plates(spec) && frame->loads.empty() && frame->motions.empty() && frame->distributed_loads.empty() &&
-           frame->initial_velocities.empty() && frame->rigid_walls.empty() && frame->gravity_x_m_per_s2 == 0.0 &&
-           frame->gravity_y_m_per_s2 == 0.0;
-  }
-  return true;
-}
+bool is_driven_by_plates_alone(const SceneSpec& spec) { return has_plates(spec) && spec.loads == LoadsSpec(); }
 
 SceneSpec mesh_part_of(const SceneSpec& spec) {
   SceneSpec part = spec;
@@ -107,9 +98,6 @@ SceneSpec mesh_part_of(const SceneSpec& spec) {
   part.numerics.rotary_scaling = spec.numerics.rotary_scaling;
   part.numerics.fibre_precision = spec.numerics.fibre_precision;
   part.output = {};
-  if (auto* frame = std::get_if<FrameLattice>(&part.lattice)) {
-    frame->end_time_s.reset();
-  }
   return part;
 }
 
@@ -125,9 +113,11 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
   Layout layout = lay_out(part, *scene);
   scene->rigid.offset = put_rigid_bodies_first(layout);
   divide_walls(layout, *scene);
-  if (const auto* frame = std::get_if<FrameLattice>(&part.lattice)) {
-    attach_to_frame(*frame, *scene);
+  if (const auto* frame = std::get_if<FrameWalls>(&part.lattice)) {
+    attach_to_frame(*frame, part.loads, *scene);
   }
+  scene->gravity = Vector2(part.loads.gravity_x_m_per_s2, part.loads.gravity_y_m_per_s2) * kMmPerM;
+  attach_half_planes(part.loads, *scene);
   scene->mass_scaling = {part.numerics.mass_scaling, part.numerics.rotary_scaling};
   lump_masses(*scene);
   lump_rigid_bodies(*scene);
@@ -161,8 +151,14 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   measures.thinnest_wall = std::ranges::min(scene.elements, {}, &Element::thickness).thickness;
   measures.approach_speed = approach_speed_of(scene);
   measures.material = scene.materials.front();
-  const auto* frame = std::get_if<FrameLattice>(&part.lattice);
+  const auto* frame = std::get_if<FrameWalls>(&part.lattice);
   measures.rigid_walls = !scene.rigid_walls.empty();
+  for (const RigidWall& wall : scene.rigid_walls) {
+    if (wall.mass > 0.0) {
+      const double pressed = static_cast<double>(scene.particle_count()) * measures.lightest_mass;
+      measures.pressed_share = std::max(measures.pressed_share, pressed / wall.mass);
+    }
+  }
   measures.contact = frame == nullptr || frame->self_contact;
   return measures;
 }
@@ -172,6 +168,9 @@ MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
   if (measures.contact) {
     measures.overlaps = check_overlap(part, scene);
   }
+  const auto* frame = std::get_if<FrameWalls>(&part.lattice);
+  const Problems sunk = find_walls_in_half_planes(scene, frame == nullptr ? 0 : frame->nodes.size());
+  measures.overlaps.insert(measures.overlaps.end(), sunk.begin(), sunk.end());
   return measures;
 }
 

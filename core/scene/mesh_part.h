@@ -17,13 +17,13 @@ Material material_of(const MaterialSpec& spec);
 /// 0: crushed along x, 1: along y.
 int crush_axis_of(const SceneSpec& spec);
 
-/// Whether the walls stand between two plates: where a speed is given, and around every regular lattice.
+/// Whether the walls stand between two plates.
 bool has_plates(const SceneSpec& spec);
 
 /// Whether the plates alone move the walls, so that nothing approaches faster than they do.
 bool is_driven_by_plates_alone(const SceneSpec& spec);
 
-/// The spec with defaults in all fields on which its mesh does not depend: speed, strains, contact and plates, steps,
+/// The spec with defaults in all fields on which its mesh does not depend: speed, ends, contact and plates, steps,
 /// output. Specs that are equal in this part have the same mesh.
 SceneSpec mesh_part_of(const SceneSpec& spec);
 
@@ -41,8 +41,10 @@ struct MeshMeasures {
   double approach_speed = 0.0;  ///< mm/s, of what loads, motions and rigid walls move (E9a)
   Material material;            ///< of the lattice
   bool contact = false;         ///< whether walls touch each other
-  bool rigid_walls = false;     ///< whether a frame has rigid walls
-  Problems overlaps;            ///< walls that overlap before loading
+  bool rigid_walls = false;     ///< whether there are rigid walls
+  /// Mass of as many particles as there are, each the lightest, over that of the lightest rigid wall with a mass.
+  double pressed_share = 0.0;
+  Problems overlaps;  ///< walls that overlap, or stand in a rigid wall, before loading
 };
 
 /// Measures a mesh, and searches for walls that overlap. REQUIRES: `scene` is the mesh of the part.

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "lattice/lattice.h"
 #include "scene/check_spec.h"
 #include "scene/contact_law.h"
 #include "scene/time_step.h"
-#include "scene/units.h"
 
 namespace cellcrush {
 namespace {
@@ -28,9 +28,7 @@ Plates plates_of(const SceneSpec& spec, const MeshMeasures& mesh, double stiffne
 
 /// The time of end_strain, or end_time_s where that comes first or there are no plates.
 double end_time_of(const SceneSpec& spec, const MeshMeasures& mesh, const Plates& plates) {
-  const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const double given = frame != nullptr ? frame->end_time_s.value_or(kNever) : kNever;
+  const double given = spec.loading.end_time_s.value_or(std::numeric_limits<double>::infinity());
   if (!plates.present) {
     return given;
   }
@@ -45,6 +43,7 @@ Schedule schedule_of(const SceneSpec& spec, const TimeStep& step, double end_tim
   const auto interval = [&](int count) { return std::max<std::int64_t>(1, schedule.step_count / count); };
   schedule.sample_interval = interval(spec.output.sample_count);
   schedule.frame_interval = interval(spec.output.frame_count);
+  schedule.end_at_rest = spec.loading.end_at_rest;
   return schedule;
 }
 
@@ -70,9 +69,14 @@ void check_step_count(const SceneSpec& spec, double count, Problems& problems) {
   } else if (has_plates(spec)) {
     problems.push_back({"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Use a higher speed."});
   } else {
-    const double end = *std::get<FrameLattice>(spec.lattice).end_time_s;
-    problems.push_back({"lattice.frame.end_time_s", to_text(end), message, "Use an earlier end time."});
+    problems.push_back({"loading.end_time_s", to_text(*spec.loading.end_time_s), message, "Use an earlier end time."});
   }
+}
+
+/// Largest strain of a wall's fibres over the nominal strain, while the lattice is elastic.
+double bending_share(const SceneSpec& spec, double thickness) {
+  const RegularLattice* lattice = regular_lattice_of(spec);
+  return lattice == nullptr ? 1.0 : std::min(1.0, 3.0 * thickness / *lattice->side_mm);
 }
 
 }  // namespace
@@ -98,10 +102,23 @@ RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& prob
 }
 
 bool prevents_meshing(const Problems& problems) {
-  constexpr std::array kPaths = {"lattice", "material", "depth_mm", "elements_per_wall", "section"};
+  constexpr std::array kPaths = {"lattice", "material",        "depth_mm",           "elements_per_wall",
+                                 "section", "loading.gravity", "loading.rigid_walls"};
   return std::ranges::any_of(problems, [&](const Problem& problem) {
     return std::ranges::any_of(kPaths, [&](const char* path) { return problem.field.starts_with(path); });
   });
+}
+
+double steps_to_yield(const SceneSpec& spec, const MeshMeasures& mesh, const RunPlan& plan) {
+  if (!plan.plates.present) {
+    return static_cast<double>(plan.schedule.step_count);
+  }
+  const double strain =
+      mesh.material.yield_stress / mesh.material.youngs_modulus / bending_share(spec, mesh.thinnest_wall);
+  // In the ramp, the strain grows with the square of time, to half of what the full speed gives in the same time.
+  const double ramp = spec.loading.ramp_strain;
+  const double strain_at_full_speed = strain < ramp ? 2.0 * std::sqrt(strain * ramp) : strain + ramp;
+  return strain_at_full_speed * mesh.length / (plan.plates.speed * plan.schedule.time_step);
 }
 
 }  // namespace cellcrush

@@ -79,6 +79,10 @@ TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const Con
     hold_to(kTravelPerStep * mesh.thinnest_wall / impact_speed_of(spec, mesh), StepBound::approach);
     const double lightest = mesh.lightest_mass;
     hold_to(kStepFraction * contact_step_of(contact, lightest), StepBound::contacts);
+    if (mesh.pressed_share > 2.0) {  // the squares of the frequencies of elements and contacts add at most
+      const double of_contacts = striker_step_of(contact, lightest, mesh.pressed_share);
+      hold_to(kStepFraction / std::hypot(1.0 / mesh.steps.stable, 1.0 / of_contacts), StepBound::contacts);
+    }
     if (has_walls_along_crush(spec)) {
       const double phase = phase_of_stacks(mesh.material, plates.speed, *spec.elements_per_wall);
       hold_to(phase * std::sqrt(lightest / contact.stiffness), StepBound::stacked_walls);

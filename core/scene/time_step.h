@@ -54,7 +54,8 @@ struct TimeStep {
 ///  - the time in which the plate moves by 0.08 of the thinnest wall (walls approach each other by up to 1.7 times as
 ///    much in a step, and a new contact can be as deep); the same of the beams of a frame that approach each other
 ///    or a rigid wall,
-///  - 0.9 of the bound of a row of the lightest particles between contacts (E12, scene/contact_law.h),
+///  - 0.9 of the bound of a row of the lightest particles between contacts (E12, scene/contact_law.h), also with a
+///    light rigid wall that swings against them (E12b),
 ///  - for squares and triangles, the step for which omega dt of the lightest particle on its contact is 0.3 rad times
 ///    n V / (1.44 sqrt(sigma_y / rho)), with n elements per wall; at most 0.3 rad and at least an eighth of it.
 ///

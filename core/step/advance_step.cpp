@@ -26,10 +26,14 @@ StepInProgress begin_step(const Scene& scene, State& state, Workspace& workspace
 
 State make_initial_state(const Scene& scene) {
   State state = place_particles(scene);
+  for (const Pusher* pusher : pushers()) {
+    pusher->place(scene, state);
+  }
   Workspace workspace;
   StepInProgress step = begin_step(scene, state, workspace);
   StepRecord& record = step.record;
-  record.plate = {0.0, scene.plates.speed_at(-0.5 * scene.schedule.time_step)};
+  record.plates.travel = 0.0;
+  record.plates.speed = scene.plates.speed_at(-0.5 * scene.schedule.time_step);
   std::iota(workspace.near_plates.begin(), workspace.near_plates.end(), 0);
   for (std::size_t band = 0; band < scene.bands.size(); ++band) {
     const LatticeBand& of = scene.bands[band];
@@ -39,6 +43,11 @@ State make_initial_state(const Scene& scene) {
   execute_stages(std::span(kStages).subspan(1), step, StageScope(nullptr));  // the forces, without motion
   put_contact_sums(record.contacts, state);
   stagger_velocities(scene, state);
+  for (const Pusher* pusher : pushers()) {
+    if (pusher->stagger != nullptr) {
+      pusher->stagger(scene, state);
+    }
+  }
   open_ledger(scene, state);
   return state;
 }

@@ -1,9 +1,8 @@
-#include <algorithm>
-
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "measure/theory.h"
+#include "push/half_planes.h"
 #include "scene/check_spec.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
@@ -36,20 +35,6 @@ std::string fibres_text(const Scene& scene) {
          (scene.section.force_based && !facts.may_be_single_in_force_based
               ? ", as hardening requires in force-based elements."
               : ".");
-}
-
-std::string friction_text(double friction) {
-  return friction > 0.0 ? "Coulomb friction, coefficient " + to_text(friction) + "." : "frictionless.";
-}
-
-std::string rigid_walls_text(const Scene& scene) {
-  const std::size_t count = scene.rigid_walls.size();
-  const auto moving =
-      std::ranges::count_if(scene.rigid_walls, [](const RigidWall& wall) { return wall.motion.points.size() > 1; });
-  const double friction = std::ranges::max(scene.rigid_walls, {}, &RigidWall::friction).friction;
-  return "Rigid walls: " + std::to_string(count) + (count == 1 ? " half plane, " : " half planes, ") +
-         std::to_string(moving) + " of them moving, unilateral, not meshed, " +
-         (friction > 0.0 ? "Coulomb friction, coefficient up to " + to_text(friction) + "." : "frictionless.");
 }
 
 std::string search_text(const Scene& scene) {
@@ -95,7 +80,7 @@ std::string step_text(const Scene& scene) {
 std::vector<std::string> what_is_modelled(const Scene& scene) {
   std::vector<std::string> lines = {walls_text(scene), fibres_text(scene)};
   if (scene.contact.present) {
-    lines.push_back("Contact between walls: penalty, ball to capsule, " + friction_text(scene.contact.friction));
+    lines.push_back("Contact between walls: penalty, ball to capsule, " + friction_words(scene.contact.friction));
     lines.push_back("Contacts are searched " + search_text(scene));
   } else {
     lines.emplace_back("Contact between walls: none, as requested (lattice.frame.self_contact).");
@@ -107,11 +92,8 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
                 std::string(scene.materials.front().plane_strain ? "the plane (plane strain)."
                                                                  : "the plane and in depth alike (plane stress).") +
                 " Walls that are stretched keep their area and do not neck.");
-  if (scene.plates.present) {
-    lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
-  }
-  if (!scene.rigid_walls.empty()) {
-    lines.push_back(rigid_walls_text(scene));
+  for (const Pusher* pusher : pushers()) {
+    pusher->describe(scene, lines);
   }
   if (scene.pins.count() > 0) {
     const std::size_t ends = scene.pins.joint.size() - scene.pins.count();

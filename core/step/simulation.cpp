@@ -10,6 +10,7 @@
 #include "measure/sampler.h"
 #include "step/advance_step.h"
 #include "step/check_run.h"
+#include "step/rest_watch.h"
 
 namespace cellcrush {
 
@@ -26,6 +27,20 @@ struct Simulation::Impl {
     }
   }
 
+  /// Advances to a step, or to rest.
+  void advance_to(std::int64_t end, StageObserver* observer) {
+    const std::int64_t interval = scene->schedule.end_at_rest > 0.0 ? RestWatch::interval(scene->schedule) : end;
+    while (state.step < end && !rest.is_at_rest()) {
+      const std::int64_t next = std::min(end, (state.step / interval + 1) * interval);
+      advance_steps(*scene, state, workspace, next - state.step, observer);
+      if (scene->schedule.end_at_rest > 0.0 && state.step % interval == 0) {
+        rest.look(*scene, state);
+      }
+    }
+  }
+
+  [[nodiscard]] bool has_ended() const { return state.step >= scene->schedule.step_count || rest.is_at_rest(); }
+
   /// Frames kept over a run in case it fails: often enough to see it come, seldom enough to take less than a hundredth
   /// of the time.
   static constexpr std::int64_t kFramesKept = 100;
@@ -34,6 +49,7 @@ struct Simulation::Impl {
   State state;
   Workspace workspace;
   Sampler sampler;
+  RestWatch rest;
   RunStatus status;
   FieldFrame last_good;
   std::int64_t last_good_step = 0;
@@ -42,7 +58,7 @@ struct Simulation::Impl {
 namespace {
 
 // Changes with what follows it in a checkpoint.
-constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720005;
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720006;
 
 /// Whether the states are of equal scenes, so far as their lists tell.
 bool fit(const State& one, const State& other) {
@@ -64,11 +80,11 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::advance(std::int64_t steps, StageObserver* observer) {
   const std::int64_t last = std::min(impl_->state.step + steps, impl_->scene->schedule.step_count);
-  if (impl_->status.kind == RunStatus::Kind::running && impl_->state.step < last) {
-    advance_steps(*impl_->scene, impl_->state, impl_->workspace, last - impl_->state.step, observer);
-  }
-  if (impl_->status.kind == RunStatus::Kind::running && impl_->state.step >= impl_->scene->schedule.step_count) {
-    impl_->status.kind = RunStatus::Kind::finished;
+  if (impl_->status.kind == RunStatus::Kind::running) {
+    impl_->advance_to(last, observer);
+    if (impl_->has_ended()) {
+      impl_->status.kind = RunStatus::Kind::finished;
+    }
   }
 }
 
@@ -102,6 +118,7 @@ std::string Simulation::checkpoint() const {
   writer.put(impl_->last_good.position);
   writer.put(impl_->last_good.plastic_fraction);
   writer.put(impl_->last_good_step);
+  writer.put(impl_->rest);
   return out;
 }
 
@@ -113,6 +130,7 @@ bool Simulation::restore(std::string_view checkpoint) {
   Sampler sampler(*impl_->scene);
   FieldFrame last_good;
   std::int64_t last_good_step = 0;
+  RestWatch rest;
   reader.take(format);
   if (format != kCheckpointFormat) {
     return false;
@@ -124,6 +142,7 @@ bool Simulation::restore(std::string_view checkpoint) {
   reader.take(last_good.position);
   reader.take(last_good.plastic_fraction);
   reader.take(last_good_step);
+  reader.take(rest);
   if (!reader.sound() || !reader.at_end() || !fit(state, impl_->state)) {
     return false;
   }
@@ -131,10 +150,12 @@ bool Simulation::restore(std::string_view checkpoint) {
   impl_->sampler = std::move(sampler);
   impl_->last_good = std::move(last_good);
   impl_->last_good_step = last_good_step;
+  impl_->rest = rest;
   impl_->status = {};
   return true;
 }
 
+bool Simulation::has_ended() const { return impl_->has_ended(); }
 RunStatus Simulation::status() const { return impl_->status; }
 std::int64_t Simulation::step() const { return impl_->state.step; }
 double Simulation::time() const { return impl_->state.time; }

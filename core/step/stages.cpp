@@ -9,23 +9,26 @@
 #include "contact/contact_tiles.h"
 #include "motion/integrate_motion.h"
 #include "motion/loads.h"
-#include "motion/pin_forces.h"
 #include "motion/rigid_motion.h"
-#include "touch/plate_forces.h"
-#include "touch/rigid_wall_forces.h"
+#include "push/push.h"
 
 namespace cellcrush {
 namespace {
 
 /// Moves the free particles of a band (E2) and clears the contact forces that moved them.
 void move_band(StepInProgress& step, std::size_t band) {
-  step.record.near[band] = integrate_motion(step.scene, step.state, step.scene.bands[band], step.record.reach,
+  step.record.near[band] = integrate_motion(step.scene, step.state, step.scene.bands[band], step.record.plates.reach,
                                             step.workspace.workers, step.record.moved, step.near_plates);
 }
 
 void move_all(StepInProgress& step) {
   State& state = step.state;
   step.record.of_rigid_bodies = move_rigid_bodies(step.scene, state);
+  for (const Pusher* pusher : pushers()) {
+    if (pusher->move != nullptr) {
+      pusher->move(step.scene, state);
+    }
+  }
   for (std::size_t band = 0; band < step.scene.bands.size(); ++band) {
     move_band(step, band);
   }
@@ -68,15 +71,12 @@ void evaluate_band_contacts(StepInProgress& step, std::size_t band) {
 void evaluate_band_plates(StepInProgress& step, std::size_t band) {
   const std::span<const int> near(step.near_plates);
   const NearCounts& counts = step.record.near[band];
-  const auto evaluate = [&](int first, std::size_t count) {
-    evaluate_plate_forces(step.scene, step.state, step.record.plate,
-                          near.subspan(static_cast<std::size_t>(first), count), step.record.contacts);
-  };
   const LatticeBand& of = step.scene.bands[band];
-  evaluate(of.first_joint, counts.joints);
-  evaluate(of.first_inner, counts.inner);
-  evaluate_rigid_wall_forces(step.scene, step.state, of.first_joint, of.end_joint, step.record.contacts);
-  evaluate_rigid_wall_forces(step.scene, step.state, of.first_inner, of.end_inner, step.record.contacts);
+  const PressedBand on = {of, near.subspan(static_cast<std::size_t>(of.first_joint), counts.joints),
+                          near.subspan(static_cast<std::size_t>(of.first_inner), counts.inner)};
+  for (const Pusher* pusher : pushers()) {
+    pusher->press(step.scene, step.state, step.record.plates, on, step.record.contacts);
+  }
 }
 
 void evaluate_all_loads(StepInProgress& step) {

@@ -2,16 +2,11 @@
 
 #include <algorithm>
 
-#include "motion/rigid_wall_motion.h"
-
 namespace cellcrush {
 
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record) {
-  const double dt = scene.schedule.time_step;
   record.time = time;
   record.plates = plate_step_of(scene, time, travel);
-  record.plate = {record.plates.travel, scene.plates.speed_at(time + 0.5 * dt)};
-  record.reach = reach_of_plates(scene, record.plates.travel);
   record.of_rigid_bodies = MotionWorks();
   record.moved.resize(moved_chunk_count(scene));
   record.near.resize(scene.bands.size());
@@ -25,8 +20,9 @@ void accumulate(const Scene& scene, const StepRecord& record, State& state) {
   for (const MovedChunk& chunk : record.moved) {
     chunk.works.accumulate(state.ledger);
   }
-  accumulate_plates(scene, record.plates, state);
-  accumulate_rigid_walls(scene, record.time, state);
+  for (const Pusher* pusher : pushers()) {
+    pusher->accumulate(scene, record.plates, state);
+  }
   for (const double work : record.plastic_work) {
     state.ledger.plastic += work;
   }

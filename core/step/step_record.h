@@ -4,19 +4,14 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/contact_workspace.h"
-#include "motion/integrate_motion.h"
-#include "motion/plate_motion.h"
-#include "touch/plate_forces.h"
+#include "push/push.h"
 
 namespace cellcrush {
 
 /// Record of one step: the data known before it, and the sums over the lattice that its stages compute.
 struct StepRecord {
   double time = 0.0;  ///< s, at its start
-  PlateStep plates;   ///< motion of the impact plate over the step
-  PlateMotion plate;  ///< its travel and speed at the end of the step
-  PlateReach reach;   ///< positions from which balls reach a plate at that time
+  PlateStep plates;
 
   MotionWorks of_rigid_bodies;
   std::vector<MovedChunk> moved;     ///< of all free particles

@@ -98,9 +98,11 @@ void PartHistories::close() {
   all_.close(what);
 }
 
-void read_parts(hid_t file, const v1::Frame& frame, hsize_t first, std::span<v1::Sample> samples) {
+void read_parts(hid_t file, const v1::Case& scene, hsize_t first, std::span<v1::Sample> samples) {
+  const v1::Frame& frame = scene.lattice().frame();
   for (const auto& node : frame.watched_nodes()) read_part(file, watched_nodes(), node, first, samples);
   for (const auto& wall : frame.rigid_walls()) read_part(file, rigid_walls(), wall.id(), first, samples);
+  for (const auto& wall : scene.loading().rigid_walls()) read_part(file, rigid_walls(), wall.id(), first, samples);
 }
 
 }  // namespace cellcrush::store

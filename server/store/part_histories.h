@@ -10,7 +10,7 @@
 
 namespace cellcrush::store {
 
-/// Parts of a frame of which a sample has numbers. In a result, each has a group in `group`, and in it a dataset for
+/// Parts of a case of which a sample has numbers. In a result, each has a group in `group`, and in it a dataset for
 /// each number of the sample's message.
 struct PartKind {
   const char* group;
@@ -22,7 +22,7 @@ PartKind watched_nodes();
 /// /rigid_walls/{id}.
 PartKind rigid_walls();
 
-/// Writes the numbers of the parts of a frame to a result, with one row per sample, parallel to /history. Writes
+/// Writes the numbers of the parts of a case to a result, with one row per sample, parallel to /history. Writes
 /// nothing without such parts. Failures throw ServiceError.
 class PartHistories {
  public:
@@ -45,8 +45,8 @@ class PartHistories {
   std::vector<Part> written_;
 };
 
-/// Adds the parts of a frame to samples from row `first` on of an open result. Throws ServiceError: data_loss for a
+/// Adds the parts of a case to samples from row `first` on of an open result. Throws ServiceError: data_loss for a
 /// dataset that is missing or differs from what was written.
-void read_parts(hid_t file, const v1::Frame& frame, hsize_t first, std::span<v1::Sample> samples);
+void read_parts(hid_t file, const v1::Case& scene, hsize_t first, std::span<v1::Sample> samples);
 
 }  // namespace cellcrush::store

@@ -63,7 +63,7 @@ std::vector<v1::Sample> ResultReader::history(std::int64_t first, std::int64_t c
   options.ignore_unknown_fields = true;
   if (!google::protobuf::util::JsonStringToMessage(text_attribute("case"), &submitted, options).ok())
     throw damaged_result("its case cannot be read");
-  read_parts(file_.id(), submitted.lattice().frame(), from, out);
+  read_parts(file_.id(), submitted, from, out);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "cellcrush/spec_checker.h"
 #include "translate/case_size.h"
 #include "translate/case_to_spec.h"
+#include "translate/loads_places.h"
 #include "translate/problems.h"
 
 namespace cellcrush::translate {
@@ -15,8 +16,9 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted) {
   Verdict out;
   for (auto& problem : find_long_lists(submitted)) out.problems.push_back(std::move(problem));
   if (!out.problems.empty()) return out;
-  const auto reading = to_spec(submitted);
-  const auto verdict = specs_->check(reading.spec);
+  auto reading = to_spec(submitted);
+  auto verdict = specs_->check(reading.spec);
+  name_as_given(submitted, verdict.problems);
   for (const Problems* problems : {&reading.problems, &verdict.problems}) {
     for (const auto& problem : *problems) out.problems.push_back(to_proto(problem));
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cellcrush/v1/field.pb.h"
+#include "translate/loads_places.h"
 #include "translate/problems.h"
 
 namespace cellcrush::translate {
@@ -30,11 +31,12 @@ class ListChecker {
   }
 
   // The points of all time functions together.
-  void check_points(const v1::Frame& frame) {
+  void check_points(const v1::Case& submitted) {
+    const v1::Frame& frame = submitted.lattice().frame();
     std::int64_t points = 0;
     for (const auto& load : frame.loads()) points += load.force_n_or_n_mm().points_size();
     for (const auto& motion : frame.motions()) points += motion.displacement_mm_or_rad().points_size();
-    for (const auto& wall : frame.rigid_walls()) points += wall.displacement_mm().points_size();
+    for (const auto& wall : rigid_walls_of(submitted)) points += wall.displacement_mm().points_size();
     for (const auto& load : frame.distributed_loads())
       points += load.x_n_per_mm().points_size() + load.y_n_per_mm().points_size();
     if (points <= kMostPoints) return;
@@ -52,10 +54,10 @@ class ListChecker {
 
 google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& submitted) {
   ListChecker lists;
-  const v1::Frame& frame = submitted.lattice().frame();
-  lists.check("lattice.frame", frame);
+  lists.check("lattice.frame", submitted.lattice().frame());
+  lists.check("loading", submitted.loading());
   lists.check("lattice.inclusions", submitted.lattice().inclusions());
-  lists.check_points(frame);
+  lists.check_points(submitted);
   return lists.take();
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "translate/loads_places.h"
 #include "translate/problems.h"
 
 namespace cellcrush::translate {
@@ -47,7 +48,7 @@ RegularLattice read_numbers(const google::protobuf::Message& in) {
 
 void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   if (in.has_frame()) {
-    spec.lattice = to_spec(in.frame(), problems);
+    spec.lattice = to_spec(in.frame(), spec.loads, problems);
   } else if (auto regular = read_regular(in)) {
     spec.lattice = *std::move(regular);
   }
@@ -106,13 +107,19 @@ void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {
   if (in.plates().has_friction()) spec.plates.friction = in.plates().friction();
 }
 
-void read_loading(const v1::Loading& in, LoadingSpec& out, Problems& problems) {
+void read_loading(const v1::Loading& in, SceneSpec& spec, Problems& problems) {
+  LoadingSpec& out = spec.loading;
   read_choice(in.direction(),
               {{v1::Loading::X, LoadingSpec::Direction::x}, {v1::Loading::Y, LoadingSpec::Direction::y}},
               "loading.direction", "X or Y", out.direction, problems);
   if (in.has_speed_m_per_s()) out.speed_m_per_s = in.speed_m_per_s();
   if (in.has_end_strain()) out.end_strain = in.end_strain();
   if (in.has_ramp_strain()) out.ramp_strain = in.ramp_strain();
+  if (in.has_end_time_s()) out.end_time_s = in.end_time_s();
+  if (in.has_end_at_rest()) out.end_at_rest = in.end_at_rest();
+  spec.loads.gravity_x_m_per_s2 = in.gravity_x_m_per_s2();
+  spec.loads.gravity_y_m_per_s2 = in.gravity_y_m_per_s2();
+  spec.loads.rigid_walls = read_rigid_walls(in, problems);
 }
 
 void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems) {
@@ -161,8 +168,10 @@ MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& 
   return out;
 }
 
-CaseReading to_spec(const v1::Case& in) {
+CaseReading to_spec(const v1::Case& submitted) {
   CaseReading out;
+  v1::Case in = submitted;
+  move_to_loading(in, out.problems);
   SceneSpec& spec = out.spec;
   if (character_count(in.title()) > kLongestTitle) {
     out.problems.push_back(invalid_field("title", std::to_string(character_count(in.title())) + " characters",
@@ -176,10 +185,11 @@ CaseReading to_spec(const v1::Case& in) {
   spec.material = to_spec(in.material(), "material.", out.problems);
   read_section(in.section(), spec.section, out.problems);
   read_contact(in, spec, out.problems);
-  read_loading(in.loading(), spec.loading, out.problems);
+  read_loading(in.loading(), spec, out.problems);
   read_numerics(in.numerics(), spec.numerics, out.problems);
   if (in.output().has_sample_count()) spec.output.sample_count = in.output().sample_count();
   if (in.output().has_frame_count()) spec.output.frame_count = in.output().frame_count();
+  name_as_given(submitted, out.problems);
   return out;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "cellcrush/scene_spec.h"
 #include "cellcrush/v1/case.pb.h"
 
@@ -20,8 +23,11 @@ CaseReading to_spec(const v1::Case& in);
 /// The lattice of equal cells of a case; nothing for a frame, or without a lattice.
 std::optional<RegularLattice> read_regular(const v1::Lattice& in);
 
-/// Converts the frame; appends problems.
-FrameLattice to_spec(const v1::Frame& in, Problems& problems);
+/// Converts the walls of a frame, and the loads on its nodes and beams; appends problems.
+FrameWalls to_spec(const v1::Frame& in, LoadsSpec& loads, Problems& problems);
+
+/// Those of a loading; appends problems.
+std::vector<LoadsSpec::RigidWall> read_rigid_walls(const v1::Loading& in, Problems& problems);
 
 /// A material; the paths of its fields start with `path`.
 MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems);

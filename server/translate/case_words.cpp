@@ -10,6 +10,7 @@
 
 #include "cellcrush/lattice_words.h"
 #include "translate/case_to_spec.h"
+#include "translate/loads_places.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -81,10 +82,6 @@ void describe_loads(const v1::Frame& frame, v1::CaseWords& words) {
     add_fact(words, "distributed loads", plural(frame.distributed_loads_size(), "load"));
   add_list(words, "initial velocities", frame.initial_velocities(),
            [](const auto& velocity) { return velocity.node(); });
-  if (frame.gravity_x_m_per_s2() != 0.0 || frame.gravity_y_m_per_s2() != 0.0) {
-    add_fact(words, "gravity",
-             fmt::format("{} m/s2 along x, {} m/s2 along y", frame.gravity_x_m_per_s2(), frame.gravity_y_m_per_s2()));
-  }
 }
 
 void describe_frame(const v1::Frame& frame, v1::CaseWords& words) {
@@ -103,12 +100,7 @@ void describe_frame(const v1::Frame& frame, v1::CaseWords& words) {
   describe_masses(frame, words);
   describe_loads(frame, words);
   add_fact(words, "contact between beams", frame.self_contact() ? "modelled" : "ignored");
-  add_list(words, "rigid walls", frame.rigid_walls(),
-           [](const v1::Frame::RigidWall& wall) { return wall.id() + (wall.has_displacement_mm() ? " (moves)" : ""); });
   if (frame.watched_nodes_size() > 0) add_fact(words, "watched nodes", names_text(frame.watched_nodes()));
-  if (!frame.has_end_time_s()) return;
-  add_fact(words, "end time", fmt::format("{} s", frame.end_time_s()));
-  words.set_loading(fmt::format("loaded for {} s", frame.end_time_s()));
 }
 
 void describe_cells(const RegularLattice& regular, v1::CaseWords& words) {
@@ -141,12 +133,32 @@ void describe_changes(const v1::Lattice& lattice, v1::CaseWords& words) {
                         "The theory ignores the stiff cells.");
 }
 
+std::string rigid_wall_text(const v1::Frame::RigidWall& wall) {
+  if (wall.has_mass_g()) return fmt::format("{} ({} g, {} m/s)", wall.id(), wall.mass_g(), wall.speed_m_per_s());
+  return wall.id() + (wall.has_displacement_mm() ? " (moves)" : "");
+}
+
 void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
-  if (!loading.has_speed_m_per_s()) return;
-  std::string text = words.loading() + (words.loading().empty() ? "" : ", ");
-  text += fmt::format("crushed along {} at {} m/s", loading.direction() == v1::Loading::Y ? 'Y' : 'X',
-                      loading.speed_m_per_s());
-  if (loading.has_end_strain()) text += fmt::format(" to strain {}", loading.end_strain());
+  if (loading.gravity_x_m_per_s2() != 0.0 || loading.gravity_y_m_per_s2() != 0.0) {
+    add_fact(
+        words, "gravity",
+        fmt::format("{} m/s2 along x, {} m/s2 along y", loading.gravity_x_m_per_s2(), loading.gravity_y_m_per_s2()));
+  }
+  add_list(words, "rigid walls", loading.rigid_walls(), rigid_wall_text);
+  std::string text;
+  if (loading.has_end_time_s()) {
+    add_fact(words, "end time", fmt::format("{} s", loading.end_time_s()));
+    text = fmt::format("loaded for {} s", loading.end_time_s());
+  }
+  if (loading.has_speed_m_per_s()) {
+    text += fmt::format("{}crushed along {} at {} m/s", text.empty() ? "" : ", ",
+                        loading.direction() == v1::Loading::Y ? 'Y' : 'X', loading.speed_m_per_s());
+    if (loading.has_end_strain()) text += fmt::format(" to strain {}", loading.end_strain());
+  }
+  if (loading.end_at_rest() > 0.0) {
+    add_fact(words, "end at rest", fmt::format("at {} of the greatest kinetic energy", loading.end_at_rest()));
+    text += ", or until at rest";
+  }
   words.set_loading(std::move(text));
 }
 
@@ -161,11 +173,11 @@ std::string material_text(const v1::Material& material) {
 
 v1::CaseWords describe_case(const v1::Case& scene) {
   v1::CaseWords words;
-  words.set_plates(!scene.lattice().has_frame() || scene.loading().has_speed_m_per_s());
+  words.set_plates(scene.loading().has_speed_m_per_s());
   if (scene.lattice().has_frame()) describe_frame(scene.lattice().frame(), words);
   if (const auto regular = read_regular(scene.lattice())) describe_cells(*regular, words);
   describe_changes(scene.lattice(), words);
-  describe_loading(scene.loading(), words);
+  describe_loading(loading_of(scene), words);
   if (scene.has_depth_mm()) add_fact(words, "depth", fmt::format("{} mm", scene.depth_mm()));
   if (scene.has_material()) add_fact(words, "material", material_text(scene.material()));
   if (scene.elements_per_wall() > 0) add_fact(words, "elements per wall", std::to_string(scene.elements_per_wall()));

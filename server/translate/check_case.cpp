@@ -5,6 +5,7 @@
 #include "cellcrush/spec_checker.h"
 #include "translate/case_size.h"
 #include "translate/case_to_spec.h"
+#include "translate/loads_places.h"
 #include "translate/problems.h"
 #include "translate/results.h"
 #include "translate/spec_to_case.h"
@@ -29,7 +30,7 @@ void describe(const SceneFacts& facts, v1::CheckCaseResponse& out) {
   for (const auto& sentence : facts.modelled) out.add_modelled(sentence);
 }
 
-// A frame's nodes and rigid walls keep their names from the case.
+// A frame's nodes keep their names from the case.
 void restore_names(const v1::Frame& submitted, v1::Frame& completed) {
   const auto rename = [&submitted](std::string& id) { id = submitted.nodes(std::stoi(id)).id(); };
   for (auto& node : *completed.mutable_nodes()) rename(*node.mutable_id());
@@ -42,8 +43,6 @@ void restore_names(const v1::Frame& submitted, v1::Frame& completed) {
   for (auto& motion : *completed.mutable_motions()) rename(*motion.mutable_node());
   for (auto& watched : *completed.mutable_watched_nodes()) rename(watched);
   for (auto& velocity : *completed.mutable_initial_velocities()) rename(*velocity.mutable_node());
-  for (int i = 0; i < completed.rigid_walls_size(); ++i)
-    completed.mutable_rigid_walls(i)->set_id(submitted.rigid_walls(i).id());
 }
 
 // A case as the solver reads it.
@@ -56,9 +55,10 @@ Built build(const v1::Case& submitted, google::protobuf::RepeatedPtrField<v1::Pr
             const std::function<void()>& between_stages) {
   found = find_long_lists(submitted);
   if (!found.empty()) return {};
-  const auto reading = to_spec(submitted);
+  auto reading = to_spec(submitted);
   between_stages();
-  const auto built = build_scene(reading.spec, between_stages);
+  auto built = build_scene(reading.spec, between_stages);
+  name_as_given(submitted, built.problems);
   for (const Problems* problems : {&reading.problems, &built.problems}) {
     for (const auto& problem : *problems) *found.Add() = to_proto(problem);
   }
@@ -82,6 +82,10 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
     restore_names(submitted.lattice().frame(),
                   *out.response.mutable_completed_case()->mutable_lattice()->mutable_frame());
   }
+  v1::Case& completed = *out.response.mutable_completed_case();
+  auto& walls = completed.lattice().has_frame() ? *completed.mutable_lattice()->mutable_frame()->mutable_rigid_walls()
+                                                : *completed.mutable_loading()->mutable_rigid_walls();
+  for (int i = 0; i < walls.size(); ++i) walls[i].set_id(rigid_walls_of(submitted)[i].id());
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;
   return out;

@@ -1,8 +1,12 @@
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
 #include <algorithm>
 #include <cctype>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "translate/case_to_spec.h"
 #include "translate/problems.h"
@@ -23,12 +27,36 @@ bool is_name(const std::string& id) {
 
 Problem missing(const std::string& field) { return invalid_field(field, "", "is missing.", "Set it."); }
 
+// Notes the position of a node or wall with a valid id of its own.
+void read_id(const std::string& field, const std::string& what, const std::string& id, int position,
+             std::unordered_map<std::string, int>& positions, Problems& problems) {
+  if (!is_name(id)) {
+    problems.push_back(invalid_field(field, id, "is not a valid name: names have 1 to 64 letters, digits, '_' or '-'.",
+                                     "Give each " + what + " a unique, valid name."));
+  } else if (!positions.emplace(id, position).second) {
+    problems.push_back(invalid_field(field, id, "is the name of another " + what + " as well.",
+                                     "Give each " + what + " a unique name."));
+  }
+}
+
+LoadsSpec::TimeFunction read_function(const std::string& path, const v1::Frame::TimeFunction& in, Problems& problems) {
+  LoadsSpec::TimeFunction out;
+  for (int k = 0; k < in.points_size(); ++k) {
+    const std::string point = path + ".points[" + std::to_string(k) + "]";
+    if (!in.points(k).has_time_s()) problems.push_back(missing(point + ".time_s"));
+    if (!in.points(k).has_value()) problems.push_back(missing(point + ".value"));
+    out.emplace_back(in.points(k).time_s(), in.points(k).value());
+  }
+  return out;
+}
+
 // Converts one frame: the wire refers to nodes by id, the spec by index.
 class FrameReader {
  public:
-  FrameReader(const v1::Frame& in, Problems& problems) : in_(in), problems_(problems) {}
+  FrameReader(const v1::Frame& in, LoadsSpec& loads, Problems& problems)
+      : in_(in), loads_(loads), problems_(problems) {}
 
-  FrameLattice read() {
+  FrameWalls read() {
     read_nodes();
     read_beams();
     read_supports();
@@ -37,11 +65,7 @@ class FrameReader {
     read_motions();
     read_distributed_loads();
     read_watched_nodes();
-    read_rigid_walls();
-    out_.gravity_x_m_per_s2 = in_.gravity_x_m_per_s2();
-    out_.gravity_y_m_per_s2 = in_.gravity_y_m_per_s2();
     if (in_.has_self_contact()) out_.self_contact = in_.self_contact();
-    if (in_.has_end_time_s()) out_.end_time_s = in_.end_time_s();
     return std::move(out_);
   }
 
@@ -50,23 +74,10 @@ class FrameReader {
     for (int i = 0; i < in_.nodes_size(); ++i) {
       const auto& node = in_.nodes(i);
       const std::string path = item("nodes", i);
-      read_id(path + ".id", "node", node.id(), i, positions_);
+      read_id(path + ".id", "node", node.id(), i, positions_, problems_);
       if (!node.has_x_mm()) problems_.push_back(missing(path + ".x_mm"));
       if (!node.has_y_mm()) problems_.push_back(missing(path + ".y_mm"));
       out_.nodes.push_back({node.x_mm(), node.y_mm(), node.attached_mass_g(), node.attached_inertia_g_mm2()});
-    }
-  }
-
-  // Notes the position of a node or wall with a valid id of its own.
-  void read_id(const std::string& field, const std::string& what, const std::string& id, int position,
-               std::unordered_map<std::string, int>& positions) {
-    if (!is_name(id)) {
-      problems_.push_back(invalid_field(field, id,
-                                        "is not a valid name: names have 1 to 64 letters, digits, '_' or '-'.",
-                                        "Give each " + what + " a unique, valid name."));
-    } else if (!positions.emplace(id, position).second) {
-      problems_.push_back(invalid_field(field, id, "is the name of another " + what + " as well.",
-                                        "Give each " + what + " a unique name."));
     }
   }
 
@@ -74,7 +85,7 @@ class FrameReader {
     for (int i = 0; i < in_.beams_size(); ++i) {
       const auto& beam = in_.beams(i);
       const std::string path = item("beams", i);
-      FrameLattice::Beam out;
+      FrameWalls::Beam out;
       out.start = find_node(path + ".start", beam.start());
       out.end = find_node(path + ".end", beam.end());
       if (!beam.has_thickness_mm()) problems_.push_back(missing(path + ".thickness_mm"));
@@ -99,16 +110,16 @@ class FrameReader {
     for (int i = 0; i < in_.loads_size(); ++i) {
       const auto& load = in_.loads(i);
       const std::string path = item("loads", i);
-      out_.loads.push_back({find_node(path + ".node", load.node()), component(path + ".component", load.component()),
-                            read_function(path + ".force_n_or_n_mm", load.force_n_or_n_mm())});
+      loads_.loads.push_back({find_node(path + ".node", load.node()), component(path + ".component", load.component()),
+                              read_function(path + ".force_n_or_n_mm", load.force_n_or_n_mm(), problems_)});
     }
   }
 
   void read_initial_velocities() {
     for (int i = 0; i < in_.initial_velocities_size(); ++i) {
       const auto& velocity = in_.initial_velocities(i);
-      out_.initial_velocities.push_back({find_node(item("initial_velocities", i) + ".node", velocity.node()),
-                                         velocity.x_m_per_s(), velocity.y_m_per_s(), velocity.rotation_rad_per_s()});
+      loads_.initial_velocities.push_back({find_node(item("initial_velocities", i) + ".node", velocity.node()),
+                                           velocity.x_m_per_s(), velocity.y_m_per_s(), velocity.rotation_rad_per_s()});
     }
   }
 
@@ -116,9 +127,9 @@ class FrameReader {
     for (int i = 0; i < in_.motions_size(); ++i) {
       const auto& motion = in_.motions(i);
       const std::string path = item("motions", i);
-      out_.motions.push_back({find_node(path + ".node", motion.node()),
-                              component(path + ".component", motion.component()),
-                              read_function(path + ".displacement_mm_or_rad", motion.displacement_mm_or_rad())});
+      loads_.motions.push_back(
+          {find_node(path + ".node", motion.node()), component(path + ".component", motion.component()),
+           read_function(path + ".displacement_mm_or_rad", motion.displacement_mm_or_rad(), problems_)});
     }
   }
 
@@ -127,8 +138,9 @@ class FrameReader {
       const auto& load = in_.distributed_loads(i);
       const std::string path = item("distributed_loads", i);
       if (!load.has_beam()) problems_.push_back(missing(path + ".beam"));
-      out_.distributed_loads.push_back({load.beam(), read_function(path + ".x_n_per_mm", load.x_n_per_mm()),
-                                        read_function(path + ".y_n_per_mm", load.y_n_per_mm())});
+      loads_.distributed_loads.push_back({load.beam(),
+                                          read_function(path + ".x_n_per_mm", load.x_n_per_mm(), problems_),
+                                          read_function(path + ".y_n_per_mm", load.y_n_per_mm(), problems_)});
     }
   }
 
@@ -142,34 +154,6 @@ class FrameReader {
     }
   }
 
-  void read_rigid_walls() {
-    std::unordered_map<std::string, int> positions;
-    for (int i = 0; i < in_.rigid_walls_size(); ++i) {
-      const auto& wall = in_.rigid_walls(i);
-      const std::string path = item("rigid_walls", i);
-      read_id(path + ".id", "rigid wall", wall.id(), i, positions);
-      if (!wall.has_x_mm()) problems_.push_back(missing(path + ".x_mm"));
-      if (!wall.has_y_mm()) problems_.push_back(missing(path + ".y_mm"));
-      FrameLattice::RigidWall out = {wall.x_mm(), wall.y_mm(), wall.normal_x(), wall.normal_y(), wall.friction(), {}};
-      if (wall.has_displacement_mm()) {
-        out.points = read_function(path + ".displacement_mm", wall.displacement_mm());
-        if (out.points.empty()) problems_.push_back(missing(path + ".displacement_mm.points"));
-      }
-      out_.rigid_walls.push_back(out);
-    }
-  }
-
-  FrameLattice::TimeFunction read_function(const std::string& path, const v1::Frame::TimeFunction& in) {
-    FrameLattice::TimeFunction out;
-    for (int k = 0; k < in.points_size(); ++k) {
-      const std::string point = path + ".points[" + std::to_string(k) + "]";
-      if (!in.points(k).has_time_s()) problems_.push_back(missing(point + ".time_s"));
-      if (!in.points(k).has_value()) problems_.push_back(missing(point + ".value"));
-      out.emplace_back(in.points(k).time_s(), in.points(k).value());
-    }
-    return out;
-  }
-
   int find_node(const std::string& field, const std::string& id) {
     const auto found = positions_.find(id);
     if (found != positions_.end()) return found->second;
@@ -181,27 +165,62 @@ class FrameReader {
     return 0;
   }
 
-  FrameLattice::Component component(const std::string& field, v1::Frame::Component value) {
+  LoadsSpec::Component component(const std::string& field, v1::Frame::Component value) {
     switch (value) {
-      case v1::Frame::COMPONENT_X: return FrameLattice::Component::x;
-      case v1::Frame::COMPONENT_Y: return FrameLattice::Component::y;
-      case v1::Frame::COMPONENT_ROTATION: return FrameLattice::Component::rotation;
+      case v1::Frame::COMPONENT_X: return LoadsSpec::Component::x;
+      case v1::Frame::COMPONENT_Y: return LoadsSpec::Component::y;
+      case v1::Frame::COMPONENT_ROTATION: return LoadsSpec::Component::rotation;
       case v1::Frame::COMPONENT_UNSPECIFIED: problems_.push_back(missing(field)); break;
       default:
         problems_.push_back(invalid_field(field, std::to_string(value), "is not a valid component.",
                                           "Use COMPONENT_X, COMPONENT_Y or COMPONENT_ROTATION."));
     }
-    return FrameLattice::Component::x;
+    return LoadsSpec::Component::x;
   }
 
   const v1::Frame& in_;
+  LoadsSpec& loads_;
   Problems& problems_;
-  FrameLattice out_;
+  FrameWalls out_;
   std::unordered_map<std::string, int> positions_;
 };
 
 }  // namespace
 
-FrameLattice to_spec(const v1::Frame& in, Problems& problems) { return FrameReader(in, problems).read(); }
+FrameWalls to_spec(const v1::Frame& in, LoadsSpec& loads, Problems& problems) {
+  return FrameReader(in, loads, problems).read();
+}
+
+namespace {
+
+LoadsSpec::RigidWall read_rigid_wall(const v1::Frame::RigidWall& in, const std::string& path, Problems& problems) {
+  if (!in.has_x_mm()) problems.push_back(missing(path + ".x_mm"));
+  if (!in.has_y_mm()) problems.push_back(missing(path + ".y_mm"));
+  LoadsSpec::RigidWall out = {in.x_mm(), in.y_mm(), in.normal_x(), in.normal_y(), in.friction()};
+  if (in.has_displacement_mm()) {
+    out.points = read_function(path + ".displacement_mm", in.displacement_mm(), problems);
+    if (out.points.empty()) problems.push_back(missing(path + ".displacement_mm.points"));
+  }
+  std::vector<const google::protobuf::FieldDescriptor*> given;
+  in.GetReflection()->ListFields(in, &given);
+  for (const auto* field : given) {
+    if (field->number() > v1::Frame::RigidWall::kDisplacementMmFieldNumber)  // those after it are of one kind only
+      out.own[std::string(field->name())] = in.GetReflection()->GetDouble(in, field);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<LoadsSpec::RigidWall> read_rigid_walls(const v1::Loading& in, Problems& problems) {
+  std::unordered_map<std::string, int> positions;
+  std::vector<LoadsSpec::RigidWall> out;
+  for (int i = 0; i < in.rigid_walls_size(); ++i) {
+    const std::string path = "loading.rigid_walls[" + std::to_string(i) + "]";
+    read_id(path + ".id", "rigid wall", in.rigid_walls(i).id(), i, positions, problems);
+    out.push_back(read_rigid_wall(in.rigid_walls(i), path, problems));
+  }
+  return out;
+}
 
 }  // namespace cellcrush::translate

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "translate/loads_places.h"
+
 namespace cellcrush::translate {
 namespace {
 
@@ -104,14 +106,14 @@ v1::Ledger ledger_of(const Sample& sample) {
 
 }  // namespace
 
-v1::Sample to_proto(const Sample& sample, const v1::Frame& frame) {
+v1::Sample to_proto(const Sample& sample, const v1::Case& scene) {
   v1::Sample out;
   visit_columns(sample, setter_of(out));
   out.set_energy_damping_mj(sample.energy_damping());
   if (sample.front) *out.mutable_front() = to_proto(*sample.front);
   for (std::size_t i = 0; i < sample.watched.size(); ++i) {
     auto& watched = *out.add_watched();
-    watched.set_node(frame.watched_nodes(static_cast<int>(i)));
+    watched.set_node(scene.lattice().frame().watched_nodes(static_cast<int>(i)));
     watched.set_ux_mm(sample.watched[i].ux);
     watched.set_uy_mm(sample.watched[i].uy);
     watched.set_rotation_rad(sample.watched[i].rotation);
@@ -121,7 +123,7 @@ v1::Sample to_proto(const Sample& sample, const v1::Frame& frame) {
   }
   for (std::size_t i = 0; i < sample.rigid_walls.size(); ++i) {
     auto& wall = *out.add_rigid_walls();
-    wall.set_wall(frame.rigid_walls(static_cast<int>(i)).id());
+    wall.set_wall(rigid_walls_of(scene)[static_cast<int>(i)].id());
     wall.set_displacement_mm(sample.rigid_walls[i].displacement);
     wall.set_normal_force_n(sample.rigid_walls[i].normal_force);
     wall.set_tangential_force_n(sample.rigid_walls[i].tangential_force);

@@ -17,8 +17,8 @@ namespace cellcrush::translate {
 /// Why a run that stopped by itself failed; JOB_CAUSE_UNSPECIFIED when it did not.
 v1::Job::Cause cause_of(RunStatus::Kind kind);
 
-/// `frame`: that of the case, whose ids watched nodes and rigid walls have; empty of a lattice.
-v1::Sample to_proto(const Sample& sample, const v1::Frame& frame);
+/// `scene`: the case, whose ids watched nodes and rigid walls have.
+v1::Sample to_proto(const Sample& sample, const v1::Case& scene);
 v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh);
 v1::Theory to_proto(const Theory& theory);

@@ -6,6 +6,8 @@
 #include <string>
 #include <variant>
 
+#include "translate/loads_places.h"
+
 namespace cellcrush::translate {
 namespace {
 
@@ -22,11 +24,11 @@ void write_regular(const RegularLattice& in, v1::Lattice& out) {
   for (const auto& [name, value] : in.own) reflection.SetDouble(&message, field(name), value);
 }
 
-v1::Frame::Component to_proto(FrameLattice::Component component) {
+v1::Frame::Component to_proto(LoadsSpec::Component component) {
   switch (component) {
-    case FrameLattice::Component::x: return v1::Frame::COMPONENT_X;
-    case FrameLattice::Component::y: return v1::Frame::COMPONENT_Y;
-    case FrameLattice::Component::rotation: return v1::Frame::COMPONENT_ROTATION;
+    case LoadsSpec::Component::x: return v1::Frame::COMPONENT_X;
+    case LoadsSpec::Component::y: return v1::Frame::COMPONENT_Y;
+    case LoadsSpec::Component::rotation: return v1::Frame::COMPONENT_ROTATION;
   }
   return v1::Frame::COMPONENT_UNSPECIFIED;
 }
@@ -42,7 +44,7 @@ void write_material(const MaterialSpec& in, v1::Material& out) {
   out.set_poissons_ratio(in.poissons_ratio);
 }
 
-void write_function(const FrameLattice::TimeFunction& in, v1::Frame::TimeFunction& out) {
+void write_function(const LoadsSpec::TimeFunction& in, v1::Frame::TimeFunction& out) {
   for (const auto& [time, value] : in) {
     auto& point = *out.add_points();
     point.set_time_s(time);
@@ -50,7 +52,7 @@ void write_function(const FrameLattice::TimeFunction& in, v1::Frame::TimeFunctio
   }
 }
 
-void write_frame_structure(const FrameLattice& in, v1::Frame& out) {
+void write_frame(const FrameWalls& in, v1::Frame& out) {
   for (std::size_t i = 0; i < in.nodes.size(); ++i) {
     auto& node = *out.add_nodes();
     node.set_id(std::to_string(i));
@@ -76,24 +78,11 @@ void write_frame_structure(const FrameLattice& in, v1::Frame& out) {
     added.set_fix_y(support.fix_y);
     added.set_fix_rotation(support.fix_rotation);
   }
+  out.set_self_contact(in.self_contact);
+  for (const int node : in.watched_nodes) out.add_watched_nodes(std::to_string(node));
 }
 
-void write_rigid_walls(const FrameLattice& in, v1::Frame& out) {
-  for (std::size_t i = 0; i < in.rigid_walls.size(); ++i) {
-    const FrameLattice::RigidWall& wall = in.rigid_walls[i];
-    auto& added = *out.add_rigid_walls();
-    added.set_id(std::to_string(i));
-    added.set_x_mm(wall.x_mm);
-    added.set_y_mm(wall.y_mm);
-    added.set_normal_x(wall.normal_x);
-    added.set_normal_y(wall.normal_y);
-    added.set_friction(wall.friction);
-    if (!wall.points.empty()) write_function(wall.points, *added.mutable_displacement_mm());
-  }
-}
-
-void write_frame(const FrameLattice& in, v1::Frame& out) {
-  write_frame_structure(in, out);
+void write_node_loads(const LoadsSpec& in, v1::Frame& out) {
   for (const auto& load : in.loads) {
     auto& added = *out.add_loads();
     added.set_node(std::to_string(load.node));
@@ -119,19 +108,14 @@ void write_frame(const FrameLattice& in, v1::Frame& out) {
     added.set_y_m_per_s(velocity.y_m_per_s);
     added.set_rotation_rad_per_s(velocity.rotation_rad_per_s);
   }
-  out.set_gravity_x_m_per_s2(in.gravity_x_m_per_s2);
-  out.set_gravity_y_m_per_s2(in.gravity_y_m_per_s2);
-  out.set_self_contact(in.self_contact);
-  write_rigid_walls(in, out);
-  for (const int node : in.watched_nodes) out.add_watched_nodes(std::to_string(node));
-  if (in.end_time_s) out.set_end_time_s(*in.end_time_s);
 }
 
 void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
   if (const auto* regular = std::get_if<RegularLattice>(&spec.lattice)) {
     write_regular(*regular, out);
-  } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+  } else if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
     write_frame(*frame, *out.mutable_frame());
+    write_node_loads(spec.loads, *out.mutable_frame());
   }
   out.mutable_imperfection()->set_amplitude_mm(spec.imperfection.amplitude_mm);
   out.mutable_imperfection()->set_bow_mm(spec.imperfection.bow_mm);
@@ -145,11 +129,35 @@ void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
   }
 }
 
-void write_loading(const LoadingSpec& in, v1::Loading& out) {
+void write_plates(const LoadingSpec& in, v1::Loading& out) {
   out.set_direction(in.direction == LoadingSpec::Direction::x ? v1::Loading::X : v1::Loading::Y);
   if (in.speed_m_per_s) out.set_speed_m_per_s(*in.speed_m_per_s);
   out.set_end_strain(in.end_strain);
   out.set_ramp_strain(in.ramp_strain);
+}
+
+void write_loads(const SceneSpec& spec, v1::Case& out) {
+  const bool listed = out.lattice().has_frame();
+  v1::Loading& loading = *out.mutable_loading();
+  if (spec.loading.end_time_s) loading.set_end_time_s(*spec.loading.end_time_s);
+  if (spec.loading.end_at_rest > 0.0) loading.set_end_at_rest(spec.loading.end_at_rest);
+  if (listed || spec.loads.gravity_x_m_per_s2 != 0.0) loading.set_gravity_x_m_per_s2(spec.loads.gravity_x_m_per_s2);
+  if (listed || spec.loads.gravity_y_m_per_s2 != 0.0) loading.set_gravity_y_m_per_s2(spec.loads.gravity_y_m_per_s2);
+  for (std::size_t i = 0; i < spec.loads.rigid_walls.size(); ++i) {
+    const LoadsSpec::RigidWall& wall = spec.loads.rigid_walls[i];
+    v1::Frame::RigidWall& added = *loading.add_rigid_walls();
+    added.set_id(std::to_string(i));
+    added.set_x_mm(wall.x_mm);
+    added.set_y_mm(wall.y_mm);
+    added.set_normal_x(wall.normal_x);
+    added.set_normal_y(wall.normal_y);
+    added.set_friction(wall.friction);
+    if (!wall.points.empty()) write_function(wall.points, *added.mutable_displacement_mm());
+    for (const auto& [name, value] : wall.own)
+      added.GetReflection()->SetDouble(&added, added.GetDescriptor()->FindFieldByName(name), value);
+  }
+  move_to_frame(out);
+  if (loading.ByteSizeLong() == 0) out.clear_loading();
 }
 
 void write_section(const SectionSpec& in, v1::Section& out) {
@@ -202,9 +210,9 @@ v1::Case to_case(const SceneSpec& spec) {
   out.mutable_contact()->set_search(spec.contact.search == ContactSpec::Search::faces ? v1::Contact::FACES
                                                                                       : v1::Contact::BUCKETS);
   out.mutable_plates()->set_friction(spec.plates.friction);
-  // Without plates there is no loading.
-  const bool listed = std::holds_alternative<FrameLattice>(spec.lattice);
-  if (!listed || spec.loading.speed_m_per_s) write_loading(spec.loading, *out.mutable_loading());
+  const bool has_plates = spec.loading.speed_m_per_s.has_value();
+  if (has_plates || !spec.loading.end_time_s) write_plates(spec.loading, *out.mutable_loading());
+  write_loads(spec, out);
   write_numerics(spec.numerics, *out.mutable_numerics());
   out.mutable_output()->set_sample_count(spec.output.sample_count);
   out.mutable_output()->set_frame_count(spec.output.frame_count);

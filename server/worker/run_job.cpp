@@ -61,7 +61,7 @@ class Run {
     output_->put_mesh();
     if (!resumes) output_->put_frame(simulation_.take_frame(0));
     last_checkpoint_ = Clock::now();
-    while (simulation_.step() < facts_.step_count && !ends_early()) {
+    while (!simulation_.has_ended() && !ends_early()) {
       advance_to_next_output();
       if (failed()) break;
       if (request_ == StopRequest::suspend) return suspend();
@@ -109,7 +109,7 @@ class Run {
   void advance_to_next_output() {
     const std::int64_t next =
         std::min({next_multiple(facts_.sample_interval), next_multiple(facts_.frame_interval), facts_.step_count});
-    while (simulation_.step() < next) {
+    while (simulation_.step() < next && !simulation_.has_ended()) {
       const std::int64_t before = simulation_.step();
       const auto start = Clock::now();
       simulation_.advance(std::min(piece_, next - before), &stage_timer_);
@@ -133,7 +133,7 @@ class Run {
     }
     // At the time limit it ends with its existing samples: one more would be at another step if this worker were lost
     // now.
-    const bool last = request_ == StopRequest::cancel || simulation_.step() == facts_.step_count;
+    const bool last = request_ == StopRequest::cancel || simulation_.has_ended();
     if (last || simulation_.step() % facts_.sample_interval == 0) put_out_sample();
     if (failed()) return;
     if (last || simulation_.step() % facts_.frame_interval == 0)
@@ -197,7 +197,7 @@ class Run {
   }
 
   Final suspend() {
-    if (simulation_.step() == facts_.step_count) return complete();
+    if (simulation_.has_ended()) return complete();
     checkpoint();
     Final out;
     out.set_suspended_step(simulation_.step());
@@ -215,7 +215,7 @@ class Run {
   // Closes the result; a failed run keeps everything computed before.
   Final complete() {
     const RunStatus status = simulation_.status();
-    const bool whole = !failed() && simulation_.step() == facts_.step_count;
+    const bool whole = !failed() && simulation_.has_ended();
     if (failed()) put_out_last_good_frame();
     Final out = failure(translate::cause_of(status.kind), status.message, status.remedy);
     if (!whole && !failed()) {

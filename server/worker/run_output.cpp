@@ -65,7 +65,7 @@ void RunOutput::put_sample(Sample sample) {
 }
 
 v1::Sample RunOutput::record(Sample sample) {
-  auto out = translate::to_proto(sample, order_.case_().lattice().frame());
+  auto out = translate::to_proto(sample, order_.case_());
   samples_.push_back(std::move(sample));
   meter_.add(out);
   writer_.add_sample(out);

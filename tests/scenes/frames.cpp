@@ -9,6 +9,12 @@
 
 namespace cellcrush::scenes {
 
+void put_frame(const FrameLattice& frame, SceneSpec& spec) {
+  spec.lattice = frame.walls();
+  spec.loads = frame;
+  spec.loading.end_time_s = frame.end_time_s;
+}
+
 FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements) {
   return {start, end, thickness_mm, elements, std::nullopt};
 }
@@ -34,7 +40,7 @@ SceneSpec elastic_frame(FrameLattice frame) { return plastic_frame(std::move(fra
 SceneSpec plastic_frame(FrameLattice frame, double modulus, double yield_stress, double density) {
   frame.end_time_s = frame.end_time_s.value_or(1.0);
   SceneSpec spec;
-  spec.lattice = std::move(frame);
+  put_frame(frame, spec);
   spec.depth_mm = 1.0;
   spec.material.youngs_modulus_mpa = modulus;
   spec.material.yield_stress_mpa = yield_stress;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,12 +15,28 @@
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
 
-namespace cellcrush::scenes {
+namespace cellcrush {
+
+/// A frame with what acts on it and its end, in one list.
+/// Only put_frame gives it to a spec: its walls are private, so that no assignment can lose the rest.
+struct FrameLattice : private FrameWalls, LoadsSpec {
+  using FrameWalls::Node, FrameWalls::Beam, FrameWalls::Support;
+  using FrameWalls::nodes, FrameWalls::beams, FrameWalls::supports, FrameWalls::self_contact, FrameWalls::watched_nodes;
+
+  std::optional<double> end_time_s = std::nullopt;
+
+  [[nodiscard]] const FrameWalls& walls() const { return *this; }
+};
+
+namespace scenes {
 
 inline constexpr double kDensity = 2700.0;  ///< kg/m^3, of aluminium
 
 /// The unit vector at an angle from the x axis, rad.
 inline Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// Gives a spec the walls, loads and end of a frame.
+void put_frame(const FrameLattice& frame, SceneSpec& spec);
 
 /// A beam of a frame, of the case's material.
 FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements);

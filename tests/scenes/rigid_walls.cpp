@@ -5,6 +5,7 @@
 
 #include "cellcrush/vector.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 
 namespace cellcrush::scenes {
 namespace {
@@ -90,6 +91,30 @@ SceneSpec TossedFrame::spec(double angle, double yield_stress_mpa) {
   frame.end_time_s = kEnd;
   SceneSpec spec = in_double_precision(elastic_frame(std::move(frame)));
   spec.material.yield_stress_mpa = yield_stress_mpa;
+  return spec;
+}
+
+double mass_in_grams(const SceneSpec& spec) { return 1e6 * build(spec)->total_mass; }
+
+SceneSpec struck_hexagons(double mass_g, double speed_m_per_s) {
+  SceneSpec spec = hexagon_specimen(4, 3);
+  const double height = (1.5 * 3 + 0.5) * *cells_of(spec).side_mm;
+  const double radius = 0.5 * *cells_of(spec).wall_thickness_mm;
+  spec.loading.speed_m_per_s.reset();
+  spec.loading.end_time_s = 1e-3;
+  spec.loads.rigid_walls = {{3.0, height + 1.001 * radius, 0.0, -1.0}};
+  spec.loads.rigid_walls[0].own = {{"mass_g", mass_g}, {"speed_m_per_s", speed_m_per_s}};
+  return in_double_precision(std::move(spec));
+}
+
+SceneSpec stopped_mass() {
+  SceneSpec spec = struck_hexagons(1.0, 15.0);
+  spec.loads.rigid_walls[0].own["mass_g"] = 2.0 * mass_in_grams(spec);
+  spec.loads.rigid_walls.push_back({0.0, -0.5001 * *cells_of(spec).wall_thickness_mm, 0.0, 1.0});
+  spec.loads.gravity_y_m_per_s2 = -1000.0;
+  spec.numerics.mass_damping_per_s = 2e4;
+  spec.loading.end_time_s = 0.02;
+  spec.loading.end_at_rest = 1e-8;
   return spec;
 }
 

@@ -48,4 +48,13 @@ struct TossedFrame {
   static SceneSpec spec(double angle, double yield_stress_mpa = 100.0);
 };
 
+/// Of the walls alone.
+double mass_in_grams(const SceneSpec& spec);
+
+/// A free lattice of hexagons that a mass runs into from above.
+SceneSpec struck_hexagons(double mass_g, double speed_m_per_s);
+
+/// A mass, twice that of the hexagons on the ground which it runs into, comes to rest on them under gravity.
+SceneSpec stopped_mass();
+
 }  // namespace cellcrush::scenes

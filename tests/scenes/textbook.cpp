@@ -136,15 +136,15 @@ SceneSpec lee_frame(double deflection) {
 
 SceneSpec buckled_column(double load_ratio) {
   SceneSpec spec = Cantilever::spec(32, Component::x, 0.0, 1.0, 1.0);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   const double time_unit = 1.0 / Cantilever::first_frequency();
   const double buckling_load =
       std::numbers::pi * std::numbers::pi * Cantilever::kStiffness / (4.0 * Cantilever::kLength * Cantilever::kLength);
   const double nudge = 0.02 * buckling_load;
-  frame.loads = {{1, Component::x, {{0.0, 0.0}, {20.0 * time_unit, -load_ratio * buckling_load}}},
-                 {1, Component::y, {{0.0, nudge}, {20.0 * time_unit, nudge}, {40.0 * time_unit, 0.0}}}};
+  spec.loads.loads = {{1, Component::x, {{0.0, 0.0}, {20.0 * time_unit, -load_ratio * buckling_load}}},
+                      {1, Component::y, {{0.0, nudge}, {20.0 * time_unit, nudge}, {40.0 * time_unit, 0.0}}}};
   frame.watched_nodes = {1};
-  frame.end_time_s = 100.0 * time_unit;
+  spec.loading.end_time_s = 100.0 * time_unit;
   spec.numerics.mass_damping_per_s = kDamping * Cantilever::first_frequency();
   return spec;
 }

@@ -52,8 +52,8 @@ TEST(CaseWords, DescribeAFrameByItsParts) {
               ::testing::ElementsAre("beams: 2, 0.5 to 1 mm thick", "supports: wall (x y rotation)",
                                      "attached masses: on 1 node", "forces and moments: tip (y)",
                                      "prescribed motion: elbow (rotation)", "initial velocities: tip",
-                                     "gravity: 0 m/s2 along x, -9.81 m/s2 along y", "contact between beams: ignored",
-                                     "watched nodes: tip, elbow", "end time: 0.02 s", "depth: 5 mm"));
+                                     "contact between beams: ignored", "watched nodes: tip, elbow",
+                                     "gravity: 0 m/s2 along x, -9.81 m/s2 along y", "end time: 0.02 s", "depth: 5 mm"));
 }
 
 TEST(CaseWords, CutLongListsAndCountTheRest) {
@@ -97,6 +97,24 @@ TEST(CaseWords, SayHowTheCaseIsLoadedAndWhereTheoryDoesNotApply) {
   EXPECT_THAT(words_of_case("lattice { triangle {} }").theory_note(), HasSubstr("Triangles are stretch-dominated: "));
   EXPECT_EQ(words_of_case("lattice { hexagon {} inclusions { rows: 2 } }").theory_note(),
             "The theory ignores the stiff cells.");
+}
+
+TEST(CaseWords, DescribeTheLoadingOfAnyLatticeAndWhereTheRunEnds) {
+  const auto struck = words_of_case(R"(
+    lattice { hexagon { columns: 8 rows: 9 } }
+    loading {
+      end_time_s: 0.02 end_at_rest: 0.001 gravity_y_m_per_s2: -9.81
+      rigid_walls { id: "floor" } rigid_walls { id: "hammer" mass_g: 3 speed_m_per_s: 2 }
+      rigid_walls { id: "ram" displacement_mm { points { time_s: 0 value: 1 } } }
+    })");
+  EXPECT_FALSE(struck.plates());
+  EXPECT_EQ(struck.loading(), "loaded for 0.02 s, or until at rest");
+  EXPECT_THAT(facts_of(struck),
+              IsSupersetOf({"gravity: 0 m/s2 along x, -9.81 m/s2 along y",
+                            "rigid walls: floor, hammer (3 g, 2 m/s), ram (moves)", "end time: 0.02 s",
+                            "end at rest: at 0.001 of the greatest kinetic energy"}));
+  EXPECT_EQ(words_of_case("lattice { frame { end_time_s: 3 } } loading { speed_m_per_s: 1 end_strain: 0.5 }").loading(),
+            "loaded for 3 s, crushed along X at 1 m/s to strain 0.5");
 }
 
 TEST(CaseWords, GoWithEveryAnswerThatHasACase) {

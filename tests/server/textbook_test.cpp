@@ -87,5 +87,13 @@ TEST_F(TextbookJobs, RigidWallsStandInTheResultBesideTheHistory) {
   EXPECT_NEAR(samples.back().rigid_walls[0].displacement, scenes::TossedFrame::kWallSpeed * samples.back().time, 1e-9);
 }
 
+TEST_F(TextbookJobs, AMassThatComesToRestOnHexagonsEndsTheRun) {
+  const std::vector<Sample> samples = run(scenes::stopped_mass());
+  EXPECT_LT(samples.back().time, 0.9 * *scenes::stopped_mass().loading.end_time_s);
+  EXPECT_LT(samples.back().energies.kinetic, 1e-3 * samples.front().energies.kinetic);
+  expect_column("/rigid_walls/0/displacement_mm", samples,
+                [](auto& sample) { return sample.rigid_walls.at(0).displacement; });
+}
+
 }  // namespace
 }  // namespace cellcrush::testing

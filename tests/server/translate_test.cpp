@@ -2,6 +2,7 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <type_traits>
 
 #include "scenes/lattices.h"
@@ -196,21 +197,22 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
   *wall.mutable_displacement_mm()->add_points() = point;
   const auto reading = translate::to_spec(given);
   EXPECT_THAT(reading.problems, IsEmpty());
-  const auto& spec = std::get<FrameLattice>(reading.spec.lattice);
+  const auto& spec = std::get<FrameWalls>(reading.spec.lattice);
+  const LoadsSpec& loads = reading.spec.loads;
   EXPECT_EQ(spec.beams.at(0).end, 1);
-  EXPECT_EQ(spec.loads.at(0).node, 1);
-  EXPECT_EQ(spec.loads.at(0).component, FrameLattice::Component::y);
-  EXPECT_EQ(spec.loads.at(0).points.at(0), std::make_pair(0.001, 5.0));
-  EXPECT_EQ(spec.motions.at(0).points.at(0), std::make_pair(0.5, 2.0));
-  EXPECT_EQ(spec.distributed_loads.at(0).y_points.size(), 1U);
-  EXPECT_TRUE(spec.distributed_loads.at(0).x_points.empty());
-  EXPECT_EQ(spec.gravity_y_m_per_s2, -9.81);
+  EXPECT_EQ(loads.loads.at(0).node, 1);
+  EXPECT_EQ(loads.loads.at(0).component, LoadsSpec::Component::y);
+  EXPECT_EQ(loads.loads.at(0).points.at(0), std::make_pair(0.001, 5.0));
+  EXPECT_EQ(loads.motions.at(0).points.at(0), std::make_pair(0.5, 2.0));
+  EXPECT_EQ(loads.distributed_loads.at(0).y_points.size(), 1U);
+  EXPECT_TRUE(loads.distributed_loads.at(0).x_points.empty());
+  EXPECT_EQ(loads.gravity_y_m_per_s2, -9.81);
   EXPECT_EQ(spec.watched_nodes, std::vector<int>{1});
   EXPECT_EQ(spec.beams.at(0).material->density_kg_per_m3, 1.0);
   EXPECT_FALSE(spec.beams.at(0).pin_start);
   EXPECT_TRUE(spec.beams.at(0).pin_end);
-  const FrameLattice::RigidWall floor = {1.0, -2.0, 0.0, 3.0, 0.25, {{0.5, 2.0}}};
-  EXPECT_EQ(spec.rigid_walls, std::vector{floor});
+  const LoadsSpec::RigidWall floor = {1.0, -2.0, 0.0, 3.0, 0.25, {{0.5, 2.0}}};
+  EXPECT_EQ(loads.rigid_walls, std::vector{floor});
   const v1::Case once = translate::to_case(reading.spec);
   EXPECT_TRUE(MessageDifferencer::Equals(once, translate::to_case(translate::to_spec(once).spec)));
 }
@@ -231,6 +233,53 @@ TEST(Translate, ARigidWallsMissingOrDoubleIdAndPlaceAreProblemsWithTheirPaths) {
               ElementsAre("lattice.frame.rigid_walls[0].x_mm", "lattice.frame.rigid_walls[1].id",
                           "lattice.frame.rigid_walls[1].displacement_mm.points", "lattice.frame.rigid_walls[2].id",
                           "lattice.frame.rigid_walls[3].id"));
+}
+
+TEST(Translate, LoadsAndEndOfAnyLatticeStandInTheLoading) {
+  v1::Case given = testing::small_case();
+  given.clear_loading();
+  v1::Loading& loading = *given.mutable_loading();
+  loading.set_end_time_s(1e-3);
+  loading.set_end_at_rest(0.01);
+  loading.set_gravity_y_m_per_s2(-9.81);
+  auto& hammer = *loading.add_rigid_walls();
+  hammer.set_id("hammer");
+  hammer.set_x_mm(0.0);
+  hammer.set_y_mm(100.0);
+  hammer.set_normal_y(-1.0);
+  hammer.set_mass_g(3.0);
+  hammer.set_speed_m_per_s(2.0);
+  const SceneSpec spec = translate::to_spec(given).spec;
+  EXPECT_EQ(spec.loading.end_time_s, 1e-3);
+  EXPECT_EQ(spec.loading.end_at_rest, 0.01);
+  EXPECT_EQ(spec.loads.gravity_y_m_per_s2, -9.81);
+  const std::map<std::string, double> own = {{"mass_g", 3.0}, {"speed_m_per_s", 2.0}};
+  EXPECT_EQ(spec.loads.rigid_walls.at(0).own, own);
+  const auto check = translate::check_case(given);
+  ASSERT_THAT(fields_of(check.response), IsEmpty());
+  const v1::Loading& completed = check.response.completed_case().loading();
+  EXPECT_EQ(completed.end_time_s(), 1e-3);
+  EXPECT_EQ(completed.rigid_walls(0).id(), "hammer");
+  EXPECT_EQ(completed.rigid_walls(0).mass_g(), 3.0);
+  EXPECT_EQ(translate::to_spec(check.response.completed_case()).spec.loads, spec.loads);
+  hammer.set_mass_g(0.0);
+  EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("loading.rigid_walls[0].mass_g"));
+}
+
+TEST(Translate, WhatAFrameHasAtTwoPlacesIsNamedAsGiven) {
+  v1::Case given = frame_case();
+  given.mutable_lattice()->mutable_frame()->set_end_time_s(-1.0);
+  EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("lattice.frame.end_time_s"));
+  given.mutable_lattice()->mutable_frame()->clear_end_time_s();
+  EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("lattice.frame.end_time_s"));
+  given.mutable_loading()->set_end_time_s(-1.0);
+  EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("loading.end_time_s"));
+  given.mutable_loading()->set_end_time_s(1e-3);
+  EXPECT_THAT(fields_of(translate::check_case(given).response), IsEmpty());
+  given.mutable_lattice()->mutable_frame()->set_end_time_s(1e-3);
+  const auto twice = translate::check_case(given).response;
+  EXPECT_THAT(fields_of(twice), ElementsAre("loading.end_time_s"));
+  EXPECT_THAT(twice.problems(0).message(), ::testing::HasSubstr("lattice.frame.end_time_s"));
 }
 
 TEST(Translate, IdsThatMeanSomethingInAPathAndDoubleWatchesAreProblems) {

@@ -99,7 +99,7 @@ struct Sample {
   std::optional<Front> front;
   DensestLayer densest_layer;                ///< as measured last; 0 before the first time
   std::vector<WatchedNode> watched;          ///< in the order of the frame's watched nodes
-  std::vector<RigidWallSample> rigid_walls;  ///< in the order of the frame's rigid walls
+  std::vector<RigidWallSample> rigid_walls;  ///< in the order of the case
   std::vector<Warning> warnings;             ///< of contacts, first seen at this sample
 
   [[nodiscard]] double energy_damping() const { return energies.contact_damping + energies.mass_damping; }

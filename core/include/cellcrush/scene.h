@@ -177,17 +177,21 @@ struct Plates {
   [[nodiscard]] double speed_at(double time) const;
 };
 
-/// A rigid wall of a frame: a half plane that pushes on the balls of all particles (E9f). It moves along its normal.
+struct HalfPlaneKind;
+
+/// A rigid wall: a half plane that pushes on the balls of all particles (E9f). It moves along its normal, as its kind
+/// says.
 struct RigidWall {
-  Vector2 point;        ///< on its face at a displacement of 0, mm
-  Vector2 normal;       ///< unit, out of the wall
-  double friction;      ///< Coulomb's coefficient
-  TimeFunction motion;  ///< displacement along the normal, mm
+  const HalfPlaneKind* kind = nullptr;
+  Vector2 point;          ///< on its face at a displacement of 0, mm
+  Vector2 normal;         ///< unit, out of the wall
+  double friction = 0.0;  ///< Coulomb's coefficient
+  TimeFunction motion;    ///< imposed displacement along the normal, mm
+  double mass = 0.0;      ///< tonne; 0: its motion is imposed
+  double speed = 0.0;     ///< mm/s, along the normal at the start, of a mass
 
   /// Positive direction of friction: the normal turned clockwise.
   [[nodiscard]] Vector2 tangent() const { return -normal_of(normal); }
-  /// A point on the face at a time, mm.
-  [[nodiscard]] Vector2 face_at(double time) const { return point + motion.value_at(time) * normal; }
   /// Travel along the normal from one time to another, mm.
   [[nodiscard]] double travel_between(double from, double to) const {
     return motion.value_at(to) - motion.value_at(from);
@@ -203,7 +207,7 @@ struct ContactLaw {
   double skin = 0.0;           ///< mm, distance beyond touch up to which candidates are collected
   double face_skin = 0.0;      ///< mm, the same in the search by faces
   double thinnest = 0.0;       ///< h_min, mm, thickness of the thinnest wall
-  /// mm, by which beams of a frame may approach in a step; a run in which they do so by more is ended. 0: not checked.
+  /// mm, by which walls may approach in a step; a run in which they do so by more is ended. 0: not checked.
   double most_travel = 0.0;
 };
 
@@ -231,6 +235,7 @@ struct Schedule {
   std::int64_t step_count = 0;
   std::int64_t sample_interval = 0;
   std::int64_t frame_interval = 0;
+  double end_at_rest = 0.0;  ///< fraction of the greatest kinetic energy (RestWatch in step/rest_watch.h); 0: no end
 };
 
 /// Everything that stays constant during a run. Built and checked by build_scene; units mm, tonne, s, N, MPa. N
@@ -272,14 +277,14 @@ struct Scene {
   std::size_t law = 0;              ///< of the fibres, into Laws
   SectionRule section;
   bool single_fibres = false;  ///< fibre histories are stored and updated in single precision
-  /// Single precision was asked for, but would round so slow a loading away (scene/fibre_precision.h).
+  /// Single precision was asked for, but would round so slow a loading away (scene/run_plan.h).
   bool slow_loading = false;
   bool constant_area = false;  ///< walls keep their section area, as in the paper, instead of their volume (E5c)
   ContactLaw contact;
   LimitedReaches limited_reaches;  ///< empty without contact
   ContactFaces faces;              ///< for the contact search, where their premise holds
   Plates plates;
-  std::vector<RigidWall> rigid_walls;  ///< of a frame
+  std::vector<RigidWall> rigid_walls;
   MassScaling mass_scaling;
   double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v
   Schedule schedule;

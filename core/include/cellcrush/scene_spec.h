@@ -12,6 +12,10 @@
 
 namespace cellcrush {
 
+// A spec has m and g, a scene mm and tonne.
+inline constexpr double kMmPerM = 1e3;
+inline constexpr double kTonnePerGram = 1e-6;
+
 // The request of a user, before any check. This is the boundary: names carry units and equal the field paths of a case
 // ("loading.speed_m_per_s"). Scene holds the same in the units of the solver (mm, tonne, s, N, MPa).
 // A std::optional must be given where it applies, unless its comment names a default; if missing, it is reported.
@@ -41,13 +45,8 @@ struct MaterialSpec : LawParameters {
   bool operator==(const MaterialSpec&) const = default;
 };
 
-/// An explicit planar frame. Nodes are named by their index in `nodes`.
-struct FrameLattice {
-  enum class Component { x, y, rotation };
-
-  /// A function of time: (s, value), linear between the points, constant outside.
-  using TimeFunction = std::vector<std::pair<double, double>>;
-
+/// Walls that are listed one by one: an explicit planar frame. Nodes are named by their index in `nodes`.
+struct FrameWalls {
   struct Node {
     double x_mm = 0.0;
     double y_mm = 0.0;
@@ -72,6 +71,23 @@ struct FrameLattice {
     bool fix_rotation = false;
     bool operator==(const Support&) const = default;
   };
+
+  std::vector<Node> nodes;
+  std::vector<Beam> beams;
+  std::vector<Support> supports;
+  bool self_contact = false;
+  std::vector<int> watched_nodes;
+
+  bool operator==(const FrameWalls&) const = default;
+};
+
+/// What acts on the walls besides plates. What names nodes or beams is for a frame.
+struct LoadsSpec {
+  enum class Component { x, y, rotation };
+
+  /// A function of time: (s, value), linear between the points, constant outside.
+  using TimeFunction = std::vector<std::pair<double, double>>;
+
   /// Force in N or moment in N mm.
   struct NodalLoad {
     int node = 0;
@@ -101,32 +117,27 @@ struct FrameLattice {
     bool operator==(const InitialVelocity&) const = default;
   };
 
-  /// A half plane that pushes on all beams, and moves along its normal (E9f).
+  /// A half plane that pushes on all walls, and moves along its normal (E9f).
   struct RigidWall {
     double x_mm = 0.0;  ///< of a point on its face
     double y_mm = 0.0;
-    double normal_x = 0.0;  ///< direction out of the wall, towards the frame; of any length but 0
+    double normal_x = 0.0;  ///< direction out of the wall, towards the lattice; of any length but 0
     double normal_y = 0.0;
     double friction = 0.0;
-    TimeFunction points;  ///< displacement along the normal, mm; empty: the wall stands still
+    TimeFunction points = {};                ///< displacement along the normal, mm; empty: none is imposed
+    std::map<std::string, double> own = {};  ///< numbers that only one kind of it has, by the names of their fields
     bool operator==(const RigidWall&) const = default;
   };
 
-  std::vector<Node> nodes;
-  std::vector<Beam> beams;
-  std::vector<Support> supports;
   std::vector<NodalLoad> loads;
   std::vector<NodalMotion> motions;
   std::vector<DistributedLoad> distributed_loads;
   std::vector<InitialVelocity> initial_velocities;
   double gravity_x_m_per_s2 = 0.0;
   double gravity_y_m_per_s2 = 0.0;
-  bool self_contact = false;
   std::vector<RigidWall> rigid_walls;
-  std::vector<int> watched_nodes;
-  std::optional<double> end_time_s;  ///< between plates: default none, the end strain ends the run
 
-  bool operator==(const FrameLattice&) const = default;
+  bool operator==(const LoadsSpec&) const = default;
 };
 
 /// Rows of stiff cells, whose walls are thicker, in a lattice of hexagons.
@@ -186,7 +197,7 @@ struct ContactSpec {
   double friction = 0.0;
   double stiffness_factor = 0.12;  ///< k = m_min max(stiffness_factor / dt_crit^2, ...) (E9)
   double damping_ratio = 0.2;      ///< zeta, fraction of critical damping (E9)
-  /// Least speed of approach for which contacts are made (V of E9). The speed of the plate, or that which a frame's
+  /// Least speed of approach for which contacts are made (V of E9). The speed of the plate, or that which
   /// velocities, motions, rigid walls and gravity tell (E9a), counts where it is more.
   double impact_speed_m_per_s = 0.0;
   Search search = Search::faces;
@@ -200,13 +211,18 @@ struct PlatesSpec {
   bool operator==(const PlatesSpec&) const = default;
 };
 
-/// The two plates. They stand around every regular lattice, and around a frame where a speed is given.
+/// The two plates, which stand around the lattice where a speed is given, and the end of the run: at the strain, at the
+/// time or at rest, whichever comes first.
 struct LoadingSpec {
   enum class Direction { x, y };
   Direction direction = Direction::x;
   std::optional<double> speed_m_per_s;
   double end_strain = 0.8;
   double ramp_strain = 0.0;
+  std::optional<double> end_time_s;  ///< default between plates: none
+  /// Fraction of the greatest kinetic energy so far, below which the lattice is at rest; 0: the run does not end at
+  /// rest (RestWatch in step/rest_watch.h).
+  double end_at_rest = 0.0;
 
   bool operator==(const LoadingSpec&) const = default;
 };
@@ -240,7 +256,8 @@ struct OutputSpec {
 
 struct SceneSpec {
   std::string title;
-  std::variant<std::monostate, RegularLattice, FrameLattice> lattice;
+  std::variant<std::monostate, RegularLattice, FrameWalls> lattice;
+  LoadsSpec loads;
   Imperfection imperfection;
   Inclusions inclusions;
   std::optional<double> depth_mm;

@@ -96,7 +96,7 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Advances by at most `steps`, never beyond the last step. Does nothing unless status() is `running`.
+  /// Advances by at most `steps`, never beyond the end. Does nothing unless status() is `running`.
   void advance(std::int64_t steps, StageObserver* observer = nullptr);
 
   /// Scalars now; ends the interval over which stresses are averaged. Checks the run: status() may change, and a sample
@@ -122,6 +122,9 @@ class Simulation {
   /// Calls visit(first byte, bytes) for the arrays of the scene and of the state. Their addresses stay valid until a
   /// step enlarges the contact lists, or until restore().
   void visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const;
+
+  /// Whether there is no further step: at the end strain, at the end time or at rest.
+  [[nodiscard]] bool has_ended() const;
 
   [[nodiscard]] RunStatus status() const;
   [[nodiscard]] std::int64_t step() const;

@@ -43,13 +43,20 @@ struct PlateForce {
   [[nodiscard]] double total() const { return elastic + viscous; }
 };
 
-/// Force of a rigid wall on a frame (E9f).
+/// Force of a rigid wall on the lattice (E9f).
 struct RigidWallForce {
   PlateForce normal;        ///< along its normal
   double tangential = 0.0;  ///< N, friction along its tangent, the normal turned clockwise
 };
 
-/// Impulse of a rigid wall on a frame since the start, N s.
+/// Travel of a rigid wall along its normal.
+struct RigidWallMotion {
+  double travel = 0.0;  ///< mm
+  double speed = 0.0;   ///< mm/s, half a step before `time`
+  double way = 0.0;     ///< mm, of the work of the forces before: half a step before and half a step after them
+};
+
+/// Impulse of a rigid wall on the lattice since the start, N s.
 struct RigidWallImpulse {
   double normal = 0.0;
   double tangential = 0.0;
@@ -88,6 +95,7 @@ struct State {
   double impact_travel = 0.0;                        ///< of the impact plate
   double impact_impulse = 0.0;                       ///< N s, of the impact plate on the lattice
   double support_impulse = 0.0;                      ///< N s, of the support plate on the lattice
+  std::vector<RigidWallMotion> rigid_wall_motion;    ///< one for each of Scene::rigid_walls
   std::vector<RigidWallImpulse> rigid_wall_impulse;  ///< one for each of Scene::rigid_walls
 
   // Written by evaluate_internal_forces.
@@ -148,9 +156,9 @@ struct State {
 template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-         reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_impulse, axis, length,
-         inverse_length, thickening, thickening_slope, radius_growth, fibres, single_fibres, wall_force, wall_moment,
-         internal_force, internal_moment, load_force, load_moment, contacts, crossing_step, contact_force,
+         reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
+         length, inverse_length, thickening, thickening_slope, radius_growth, fibres, single_fibres, wall_force,
+         wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step, contact_force,
          friction_force, impact_friction, support_friction, impact_force, support_force, rigid_wall_friction,
          rigid_wall_force, contact_totals, fastest_step, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
@@ -159,8 +167,8 @@ void visit_fields(S& state, Visitor&& visit) {
     list(stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-       reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_impulse, axis, length,
-       inverse_length, thickening, thickening_slope, radius_growth);
+       reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
+       length, inverse_length, thickening, thickening_slope, radius_growth);
   list_fibres(fibres);
   list_fibres(single_fibres);
   list(wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment);

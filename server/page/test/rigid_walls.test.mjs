@@ -23,6 +23,8 @@ test("before the first sample a rigid wall stands where the case puts it", () =>
   assert.equal(walls.at(1)[0].y, 2 - 10);
 });
 
-test("a honeycomb has no rigid walls", () => {
-  assert.deepEqual(new RigidWalls({ job: { case: {} }, samples: [] }).at(0), []);
+test("a honeycomb has the rigid walls of its loading", () => {
+  const facesOf = (loading) => new RigidWalls({ job: { case: { loading } }, samples: [] }).at(0);
+  assert.deepEqual(facesOf({ rigidWalls: [wall] }), [{ x: 1, y: 2, normalX: 0, normalY: -1 }]);
+  assert.deepEqual(facesOf(undefined), []);
 });

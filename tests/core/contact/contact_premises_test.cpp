@@ -40,7 +40,7 @@ TEST(InitialOverlap, CrossingBeamsAreNamedWhereTheyCrossHoweverFarTheirNodes) {
   for (const int elements : {1, 8}) {
     SceneSpec spec = frame_of(nodes, {{0, 1}, {2, 3}}, 0.5, elements);
     EXPECT_TRUE(is_refused(spec, "lattice.frame.beams[1]", "lattice.frame.beams[0] before loading, at (5, -1) mm"));
-    std::get<FrameLattice>(spec.lattice).self_contact = false;
+    std::get<FrameWalls>(spec.lattice).self_contact = false;
     EXPECT_TRUE(build_scene(spec).scene) << "without contact beams may cross";
   }
   const std::vector<Vector2> joined = {{-30.0, -1.0}, {30.0, -1.0}, {5.0, -40.0}, {5.0, 40.0}, {5.0, -1.0}};

@@ -91,7 +91,7 @@ SceneSpec spec_of(const Rule& rule, const Hardening& hardening, AreaRule area, P
   MaterialSpec other = spec.material;
   other.youngs_modulus_mpa = 41000.0;
   other.yield_stress_mpa = 120.0;
-  auto& beams = std::get<FrameLattice>(spec.lattice).beams;
+  auto& beams = std::get<FrameWalls>(spec.lattice).beams;
   for (int w = 0; w < kBeams; w += 4) {
     beams[w].material = other;
   }

@@ -44,9 +44,8 @@ SceneSpec pulled_wall(int elements, double elongation, double steps, double hard
   SceneSpec spec = wall(elements, elongation, 1.0);
   spec.material.hardening_modulus_mpa = hardening;
   const double end = steps * scenes::build(spec)->schedule.time_step;
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  frame.motions[0].points.back().first = end;
-  frame.end_time_s = end;
+  spec.loads.motions[0].points.back().first = end;
+  spec.loading.end_time_s = end;
   return spec;
 }
 
@@ -101,11 +100,10 @@ double residual_of_cycle(const SectionSpec& section, int elements, double strain
   spec.section = section;
   spec.material.yield_stress_mpa = 1e6;
   spec.numerics.mass_damping_per_s = 2e5;
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  const double end = *frame.end_time_s;
+  const double end = *spec.loading.end_time_s;
   const double stretch = strain * kSide;
-  frame.supports[1].fix_rotation = false;
-  frame.motions = {
+  std::get<FrameWalls>(spec.lattice).supports[1].fix_rotation = false;
+  spec.loads.motions = {
       {1, Component::x, {{0.0, 0.0}, {end / 4, stretch}, {end / 2, stretch}, {3 * end / 4, 0.0}}},
       {1, Component::rotation, {{0.0, 0.0}, {end / 4, 0.0}, {end / 2, 0.5}, {3 * end / 4, 0.5}, {end, 0.0}}}};
   Simulation simulation(scenes::build(spec));

@@ -198,15 +198,15 @@ SceneSpec bars_at_step(double angle, double share) {
 /// The upper bar is pushed down at its far end until it has the speed, and then strikes the lower one.
 SceneSpec pushed_bar(double contacts_for) {
   SceneSpec spec = bars(90.0, kPlace, 0.0);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   constexpr double kTime = 2e-5;  // s
   constexpr double kMass = 1e-12 * scenes::kDensity * kLength * kThickness;
   for (const int node : {2, 3}) frame.nodes[node].y_mm += 4.5;
-  frame.loads = {
+  spec.loads.loads = {
       {3,
        FrameLattice::Component::y,
        {{0.0, -1e3 * kSpeed * kMass / kTime}, {kTime, -1e3 * kSpeed * kMass / kTime}, {1.001 * kTime, 0.0}}}};
-  frame.end_time_s = 2.0 * kTime;
+  spec.loading.end_time_s = 2.0 * kTime;
   spec.contact.impact_speed_m_per_s = contacts_for;
   return spec;
 }
@@ -232,8 +232,7 @@ TEST(CrossingBars, StiffnessAndStepFollowTheSpeedOfApproach) {
   EXPECT_NEAR(fast->schedule.time_step, 0.08 * kThickness / (1e3 * kSpeed), 1e-12 * fast->schedule.time_step);
   EXPECT_EQ(fast->schedule.bound, StepBound::approach);
   SceneSpec both = bars(45.0, kPlace, 0.5 * kSpeed);  // the same speed of approach, shared
-  auto& frame = std::get<FrameLattice>(both.lattice);
-  for (const int node : {0, 1}) frame.initial_velocities.push_back({node, 0.0, 0.5 * kSpeed, 0.0});
+  for (const int node : {0, 1}) both.loads.initial_velocities.push_back({node, 0.0, 0.5 * kSpeed, 0.0});
   EXPECT_DOUBLE_EQ(scenes::build(both)->contact.stiffness, fast->contact.stiffness);
   const auto at_rest = scenes::build(bars(45.0, kPlace, 0.0));
   EXPECT_EQ(at_rest->schedule.bound, StepBound::elements);
@@ -282,11 +281,11 @@ TEST(ContactGuard, LoadsThatMakeBarsFastNeedTheSpeedInTheCase) {
 // The bar's end is 2000 times as heavy as the particles for which contacts are made.
 TEST(ContactGuard, SeesAHeavyBarSinkIn) {
   SceneSpec spec = bars(90.0, kPlace, 40.0);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   frame.nodes[2].attached_mass_g = 1e6 * 2000.0 * 1e-12 * scenes::kDensity * kLength * kThickness / kElements;
   frame.supports = {{0, true, true, true}, {1, true, true, true}};
   frame.beams[0].elements = 1;
-  frame.end_time_s = 20.0 * kGap / 40e3;
+  spec.loading.end_time_s = 20.0 * kGap / 40e3;
   Simulation simulation(scenes::build(spec));
   scenes::watch(
       simulation, [](const Sample&) {}, 20);

@@ -182,13 +182,12 @@ Extremes extremes_of(const std::vector<double>& curve) {
 /// Drives a node of a frame down, from rest with a steady acceleration over the first tenth of the time, and averages
 /// what its beams bear over 200 intervals.
 Path drive(SceneSpec spec, int node, double way) {
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  const double end = *frame.end_time_s;
+  const double end = *spec.loading.end_time_s;
   FrameLattice::TimeFunction points;
   const double speed = way / (0.95 * end);
   for (int i = 0; i <= 40; ++i) points.emplace_back(i * end / 400.0, -speed * i * i * end / 32000.0);
   points.emplace_back(end, -way);
-  frame.motions = {{node, FrameLattice::Component::y, points}};
+  spec.loads.motions = {{node, FrameLattice::Component::y, points}};
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   const auto scene = scenes::build(spec);
   Simulation simulation(scene);

@@ -120,8 +120,7 @@ struct Drag {
     SceneSpec spec = scenes::elastic_frame(frame);
     spec.contact.friction = kFriction;
     load = scenes::build(spec)->contact.stiffness * depth;
-    std::get<FrameLattice>(spec.lattice).loads = {
-        {tip, FrameLattice::Component::y, {{0.0, 0.0}, {0.3 * departure, -load}}}};
+    spec.loads.loads = {{tip, FrameLattice::Component::y, {{0.0, 0.0}, {0.3 * departure, -load}}}};
     scene = scenes::build(spec);
     state = make_initial_state(*scene);
   }

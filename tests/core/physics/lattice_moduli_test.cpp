@@ -96,8 +96,7 @@ SceneSpec crushed_hexagon(double thickness, double yield_stress, double strain, 
   FrameLattice frame = half_hexagon(thickness, elements);
   frame.motions = {{2, Component::y, rise_to(-strain * kHexagonHeight)}};
   SceneSpec spec = slow_frame(std::move(frame), thickness, 1500.0, 0.2);
-  auto& moved = std::get<FrameLattice>(spec.lattice);
-  moved.end_time_s = moved.motions.front().points.back().first;
+  spec.loading.end_time_s = spec.loads.motions.front().points.back().first;
   spec.material.yield_stress_mpa = yield_stress;
   spec.section = section;
   spec.output.sample_count = 200;

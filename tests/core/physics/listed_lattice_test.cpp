@@ -30,7 +30,7 @@ SceneSpec listed(SceneSpec spec) {
         scenes::beam(scene->walls.start[w], scene->walls.end[w], scene->walls.thickness[w], elements));
   }
   frame.self_contact = true;
-  spec.lattice = frame;
+  scenes::put_frame(frame, spec);
   spec.imperfection = {};
   return spec;
 }
@@ -54,7 +54,7 @@ TEST(ListedLattice, WithoutCellsHasStressAndStrain) {
   frame.beams = {scenes::beam(0, 1, 0.5, 4), scenes::beam(1, 2, 0.5, 4)};
   frame.supports = {{0, false, true, true}, {2, false, true, true}};
   SceneSpec spec = scenes::elastic_frame(frame);
-  std::get<FrameLattice>(spec.lattice).end_time_s.reset();
+  spec.loading.end_time_s.reset();
   spec.loading.speed_m_per_s = 1.0;
   spec.loading.end_strain = 0.02;
   spec.output.sample_count = 50;
@@ -63,7 +63,7 @@ TEST(ListedLattice, WithoutCellsHasStressAndStrain) {
   EXPECT_GT(samples.back().stress_impact, 0.0);
   EXPECT_FALSE(samples.back().front.has_value());
 
-  std::get<FrameLattice>(spec.lattice).end_time_s = 1e-4;  // before the end strain
+  spec.loading.end_time_s = 1e-4;  // before the end strain
   EXPECT_NEAR(scenes::run_frame(spec).back().time, 1e-4, 1e-6);
 }
 
@@ -74,9 +74,9 @@ TEST(ListedLattice, BetweenPlatesIsRefusedWithAField) {
     return fields;
   };
   SceneSpec spec = listed(short_crush());
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   spec.loading.speed_m_per_s.reset();
-  EXPECT_EQ(fields_of(spec), "lattice.frame.end_time_s ");
+  EXPECT_EQ(fields_of(spec), "loading.end_time_s ");
   spec.loading.speed_m_per_s = 1.0;
   frame.self_contact = false;
   frame.beams[0].pin_end = true;

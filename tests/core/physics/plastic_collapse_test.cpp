@@ -85,9 +85,8 @@ TEST(Truss, OfThreeBarsYieldsFirstAndCollapsesAtTheLoadsOfPragerAndHodge) {
   const double unit = 3000.0 / Truss::frequency();
   const double yield_way = Truss::kHeight * Truss::kYieldStress / Truss::kModulus;
   SceneSpec spec = Truss::spec({{0.0, 0.0}, {unit, 0.0}});
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  frame.loads.clear();
-  frame.motions = {{0, FrameLattice::Component::y, {{0.0, 0.0}, {unit, -4.0 * yield_way}}}};
+  spec.loads.loads.clear();
+  spec.loads.motions = {{0, FrameLattice::Component::y, {{0.0, 0.0}, {unit, -4.0 * yield_way}}}};
   const auto scene = scenes::build(spec);
   Simulation simulation(scene);
   double first_yield = 0.0;
@@ -231,14 +230,14 @@ TEST(CrushedRing, BetweenRigidWallsBearsTheRisingLoadOfDeRuntzAndHodge) {
 // Rounding leaves energies of 1e-20 mJ, whose balance says nothing.
 TEST(CrushedRing, IsAtRestUntilAWallReachesIt) {
   SceneSpec spec = walled_ring(12, 0.5, 1.0);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   for (FrameLattice::Node& node : frame.nodes) {
     node.x_mm = std::round(1e6 * node.x_mm) / 1e6;
     node.y_mm = std::round(1e6 * node.y_mm) / 1e6;
   }
   frame.supports.clear();
-  frame.rigid_walls[0].y_mm -= 2.0;
-  frame.rigid_walls[1].y_mm += 2.0;
+  spec.loads.rigid_walls[0].y_mm -= 2.0;
+  spec.loads.rigid_walls[1].y_mm += 2.0;
   const std::vector<Sample> samples = scenes::run_frame(spec);
   EXPECT_GT(samples.back().step, 100);
   for (const Sample& sample : samples) {

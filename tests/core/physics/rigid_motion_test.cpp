@@ -82,8 +82,7 @@ TEST(InitialVelocity, ABarThatStartsAsARigidBodyStaysOne) {
 // The cubic of a beam element: turned ends bend it, by L / 8 of the difference of their spins in the middle.
 TEST(InitialVelocity, OfTurningEndsBendsTheBeam) {
   SceneSpec spec = spinning_bar(4);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  frame.initial_velocities = {{0, 0.0, 0.0, 7.0}, {1, 0.0, 0.0, -3.0}};
+  spec.loads.initial_velocities = {{0, 0.0, 0.0, 7.0}, {1, 0.0, 0.0, -3.0}};
   const auto scene = scenes::build(spec);
   const Vector2 normal(-0.5, 0.5 * std::numbers::sqrt3);
   EXPECT_LT((scene->initial_velocity[3] - kLength / 8.0 * 10.0 * normal).norm(), 1e-11);
@@ -92,7 +91,7 @@ TEST(InitialVelocity, OfTurningEndsBendsTheBeam) {
 
 TEST(InitialVelocity, OfOneNodeLeavesTheRestOfTheBeamAtRest) {
   SceneSpec spec = spinning_bar(4);
-  std::get<FrameLattice>(spec.lattice).initial_velocities.pop_back();
+  spec.loads.initial_velocities.pop_back();
   const auto scene = scenes::build(spec);
   for (std::size_t i = 1; i < scene->particle_count(); ++i) {
     EXPECT_EQ(scene->initial_velocity[i], Vector2(0.0, 0.0)) << i;

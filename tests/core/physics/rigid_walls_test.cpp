@@ -180,12 +180,11 @@ TEST(RigidWall, GoesOnFromACheckpointToTheSameBits) {
 TEST(RigidWall, CountsInTheSpeedOfApproach) {
   SceneSpec spec = FallingBar::spec(10);
   EXPECT_NEAR(approach_speed_of(*scenes::build(spec)), FallingBar::kSpeed, 1e-9);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  frame.rigid_walls[0].points = {{0.0, 0.0}, {1.0, 300.0}, {2.0, 0.0}};  // towards the bar at 300 mm/s, then away
+  spec.loads.rigid_walls[0].points = {{0.0, 0.0}, {1.0, 300.0}, {2.0, 0.0}};  // towards the bar at 300 mm/s, then away
   EXPECT_NEAR(approach_speed_of(*scenes::build(spec)), FallingBar::kSpeed + 300.0, 1e-9);
-  frame.rigid_walls[0].points.clear();
-  frame.initial_velocities.clear();
-  frame.gravity_x_m_per_s2 = -9.81;
+  spec.loads.rigid_walls[0].points.clear();
+  spec.loads.initial_velocities.clear();
+  spec.loads.gravity_x_m_per_s2 = -9.81;
   const double height = FallingBar::kLength + 0.5 * FallingBar::kThickness + FallingBar::kGap;
   EXPECT_NEAR(approach_speed_of(*scenes::build(spec)), std::sqrt(2.0 * 9810.0 * height), 1e-6);
 }

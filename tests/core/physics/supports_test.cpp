@@ -24,7 +24,7 @@ using Component = FrameLattice::Component;
 TEST(Reactions, OfACantileversRootBalanceItsLoad) {
   const double load = Cantilever::kStiffness / (Cantilever::kLength * Cantilever::kLength);  // P L^2 / EI = 1
   SceneSpec spec = Cantilever::spec(8, Component::y, load, 0.2, 1.0);
-  std::get<FrameLattice>(spec.lattice).watched_nodes = {0, 1};
+  std::get<FrameWalls>(spec.lattice).watched_nodes = {0, 1};
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   const std::vector<Sample> samples = scenes::run_frame(spec);
   const WatchedNode& root = samples.back().watched[0];
@@ -39,10 +39,10 @@ TEST(Reactions, OfACantileversRootBalanceItsLoad) {
 
 TEST(Reactions, OfABeamOnTwoPinsAreHalfOfItsLoadWithoutMoments) {
   SceneSpec spec = Cantilever::spec(8, Component::y, 0.0, 0.2, 1.0);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   constexpr double kLoad = 1e-5;  // N/mm
   frame.supports = {{0, true, true, false}, {1, false, true, false}};
-  frame.distributed_loads = {{0, {}, {{0.0, 0.0}, {0.2, -kLoad}}}};
+  spec.loads.distributed_loads = {{0, {}, {{0.0, 0.0}, {0.2, -kLoad}}}};
   frame.watched_nodes = {0, 1};
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   const std::vector<Sample> samples = scenes::run_frame(spec);
@@ -137,7 +137,7 @@ TEST(Pins, OfADeterminateTrussPassTheForcesOfStatics) {
 // The same bars, welded: their ends pass moments, so that the lower one bears a part of the load across.
 TEST(Pins, MakeADifferenceToStoutBars) {
   SceneSpec spec = bracket(0.3, 2);
-  for (FrameLattice::Beam& beam : std::get<FrameLattice>(spec.lattice).beams) beam.pin_start = beam.pin_end = false;
+  for (FrameLattice::Beam& beam : std::get<FrameWalls>(spec.lattice).beams) beam.pin_start = beam.pin_end = false;
   const std::vector<Sample> samples = scenes::run_frame(spec);
   EXPECT_GT(std::abs(samples.back().watched[0].reaction_y), 1e-3 * 0.3);
   EXPECT_NE(samples.back().watched[0].reaction_moment, 0.0);
@@ -178,14 +178,14 @@ TEST(Pins, AtClampedNodesLetABeamVibrateAsSimpleSupportsDo) {
 // A propped beam: two plastic hinges and the pin make it a mechanism at 6 M_p / L instead of 8.
 TEST(Pins, OfAClampedBeamLowerItsLimitLoad) {
   SceneSpec spec = scenes::pushed_clamped_beam(3.0, 12);
-  std::get<FrameLattice>(spec.lattice).beams[1].pin_end = true;
+  std::get<FrameWalls>(spec.lattice).beams[1].pin_end = true;
   scenes::record_figure("limit load", scenes::expect_limit_load(scenes::run_frame(spec), &WatchedNode::uy, 6.0), 3);
 }
 
 // A portal whose left corner is a hinge: hinges at the two feet and the right corner, H = 3 M_p / L instead of 4.
 TEST(Pins, OfAPortalsCornerLowerItsLimitLoad) {
   SceneSpec spec = scenes::pushed_portal(8.0, 12);
-  std::get<FrameLattice>(spec.lattice).beams[1].pin_start = true;
+  std::get<FrameWalls>(spec.lattice).beams[1].pin_start = true;
   scenes::record_figure("limit load", scenes::expect_limit_load(scenes::run_frame(spec), &WatchedNode::ux, 3.0), 3);
 }
 
@@ -228,10 +228,10 @@ TEST(Pins, KeepJointsTogetherToTheLastBitAndMomentumToRoundOff) {
 
 TEST(Pins, AreRefusedWithContactAndWhereNothingTurns) {
   SceneSpec spec = bracket(0.3, 2);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
+  auto& frame = std::get<FrameWalls>(spec.lattice);
   frame.self_contact = true;
-  frame.loads.push_back({2, Component::rotation, {{0.0, 1.0}}});
-  frame.motions = {{2, Component::rotation, {{0.0, 0.0}, {1.0, 1.0}}}};
+  spec.loads.loads.push_back({2, Component::rotation, {{0.0, 1.0}}});
+  spec.loads.motions = {{2, Component::rotation, {{0.0, 0.0}, {1.0, 1.0}}}};
   const Problems problems = build_scene(spec).problems;
   ASSERT_EQ(problems.size(), 3U);
   EXPECT_EQ(problems[0].field, "lattice.frame.self_contact");

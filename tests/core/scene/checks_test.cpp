@@ -130,11 +130,10 @@ TEST(CheckSpec, RefusesALatticeOfRigidCellsAlone) {
 }
 
 /// A bar along x, 1 mm thick, from 0 to 100, that has a wall.
-Problems problems_of(const FrameLattice::RigidWall& wall, bool pinned = false) {
+Problems problems_of(const LoadsSpec::RigidWall& wall, bool pinned = false) {
   SceneSpec spec = scenes::FallingBar::spec(2);
-  auto& frame = std::get<FrameLattice>(spec.lattice);
-  frame.rigid_walls = {wall};
-  frame.beams[0].pin_start = pinned;
+  spec.loads.rigid_walls = {wall};
+  std::get<FrameWalls>(spec.lattice).beams[0].pin_start = pinned;
   return build_scene(spec).problems;
 }
 
@@ -146,7 +145,7 @@ TEST(CheckRigidWalls, AcceptsThemWhereTheyTouchTheFrameOrNot) {
 
 TEST(CheckRigidWalls, RefusesWhatIsNoneAndAFrameThatStandsInOne) {
   struct Refused {
-    FrameLattice::RigidWall wall;
+    LoadsSpec::RigidWall wall;
     std::string field, value, message;
   };
   for (const auto& [wall, field, value, message] : std::vector<Refused>{
@@ -160,12 +159,12 @@ TEST(CheckRigidWalls, RefusesWhatIsNoneAndAFrameThatStandsInOne) {
            {{-10.0, 0.0, -3.0, 0.0, 0.0, {}}, "", "110.25 mm", "lattice.frame.nodes[1]"},  // the wrong way round
            {{-0.25, 0.0, 1.0, 0.0, 0.0, {{0.0, 0.5}, {1.0, 0.0}}}, "", "0.5 mm", "time 0"}}) {
     const Problems problems = problems_of(wall);
-    ASSERT_THAT(fields_of(problems), ElementsAre("lattice.frame.rigid_walls[0]" + field)) << message;
+    ASSERT_THAT(fields_of(problems), ElementsAre("loading.rigid_walls[0]" + field)) << message;
     EXPECT_EQ(problems[0].value, value);
     EXPECT_THAT(problems[0].message, HasSubstr(message));
   }
   const Problems of_pins = problems_of({-10.0, 0.0, 1.0, 0.0, 0.0, {}}, true);
-  ASSERT_THAT(fields_of(of_pins), ElementsAre("lattice.frame.rigid_walls"));
+  ASSERT_THAT(fields_of(of_pins), ElementsAre("loading.rigid_walls"));
   EXPECT_THAT(of_pins[0].message, HasSubstr("pinned"));
 }
 

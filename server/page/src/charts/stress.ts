@@ -1,4 +1,4 @@
-// Stress at both plates against strain, beside theory; for a frame without plates, forces of the rigid walls.
+// Stress at both plates against strain, beside theory; without plates, forces of the rigid walls.
 import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
 import { number } from "../dom/format";
 import type { Band, ChartData, Level, Mark, Series } from "./chart_data";
@@ -83,7 +83,7 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
 const kMostWalls = 6;
 const kMostForces = 2000;
 
-/** Undefined for a frame without rigid walls. */
+/** Undefined without rigid walls. */
 export function forceChart(samples: Sample[], axis: Axis): ChartData | undefined {
   const walls = samples[0]?.rigidWalls.slice(0, kMostWalls) ?? [];
   if (walls.length === 0) return undefined;
@@ -95,6 +95,6 @@ export function forceChart(samples: Sample[], axis: Axis): ChartData | undefined
   return {
     series, columns: [kept.map((sample) => axis.sample(sample)), ...columns],
     xLabel: axis.label, yLabel: "normal force (N)", xEnd: axis.end, yTop: top > 0 ? 1.08 * top : 1,
-    note: "forces of the rigid walls on the frame, means between samples",
+    note: "forces of the rigid walls on the lattice, means between samples",
   };
 }

@@ -143,9 +143,9 @@ export class JobPage implements View {
 
   private followState(job: Job): void {
     const { lattice, loading } = job.case ?? {};
-    const { kind } = lattice ?? {};
-    if (kind?.case === "frame" && !job.words?.plates) this.setAxis(timeAxis(kind.value.endTimeS ?? 1));
-    else this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
+    const ofFrame = lattice?.kind.case === "frame" ? lattice.kind.value.endTimeS : undefined;
+    if (job.words?.plates ?? true) this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
+    else this.setAxis(timeAxis(loading?.endTimeS ?? ofFrame ?? 1));
     const isLive = !hasEnded(job);
     if (isLive && !this.wasLive && this.wantedStrain === undefined) this.player.follow();
     // An ended crush opens half way, where there is something to see.

@@ -1,4 +1,4 @@
-// The rigid walls of a frame of beams: where their faces are at a time, and their drawing.
+// The rigid walls of a case: where their faces are at a time, and their drawing.
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
 import type { Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
@@ -14,8 +14,8 @@ const kThickness = 0.014; // of the diagonal of the view
 
 function facesOf(submitted: Case | undefined): Face[] {
   const kind = submitted?.lattice?.kind;
-  if (kind?.case !== "frame") return [];
-  return kind.value.rigidWalls.map((wall) => {
+  const ofFrame = kind?.case === "frame" ? kind.value.rigidWalls : [];
+  return [...ofFrame, ...submitted?.loading?.rigidWalls ?? []].map((wall) => {
     const [x, y] = [wall.normalX ?? 0, wall.normalY ?? 0];
     const length = Math.hypot(x, y) || 1;
     return { x: wall.xMm ?? 0, y: wall.yMm ?? 0, normalX: x / length, normalY: y / length };

@@ -1,12 +1,17 @@
-#include "touch/face_forces.h"
+#include "push/push.h"
 
 #include <algorithm>
+#include <array>
 
 #include "contact/contact_tiles.h"
 #include "contact/thickening.h"
 #include "contact/touch/force_laws.h"
 
 namespace cellcrush {
+
+extern const Pusher kPlates;
+extern const Pusher kHalfPlanes;
+
 namespace {
 
 /// Friction on a particle whose centre is `distance` mm from the face, at most `limit` N.
@@ -44,6 +49,17 @@ FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int p
     sum.tangential = rub(scene, state, face, particle, distance, face.friction * (sum.elastic + sum.viscous));
   }
   return sum;
+}
+
+MotionWorks face_works(const PlateForce& force, double displacement) {
+  return {.contact = force.elastic * displacement,
+          .contact_damping = force.viscous * displacement,
+          .external = force.total() * displacement};
+}
+
+std::span<const Pusher* const> pushers() {
+  static constexpr std::array kPushers = {&kPlates, &kHalfPlanes};
+  return kPushers;
 }
 
 }  // namespace cellcrush
