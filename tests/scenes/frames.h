@@ -17,8 +17,8 @@
 
 namespace cellcrush {
 
-/// A frame with what acts on it and its end, in one list.
-/// Only put_frame gives it to a spec: its walls are private, so that no assignment can lose the rest.
+/// A frame with what acts on it and its end, in one list. Only put_frame gives it to a spec: its walls are private, so
+/// that no assignment can lose the rest.
 struct FrameLattice : private FrameWalls, LoadsSpec {
   using FrameWalls::Node, FrameWalls::Beam, FrameWalls::Support;
   using FrameWalls::nodes, FrameWalls::beams, FrameWalls::supports, FrameWalls::self_contact, FrameWalls::watched_nodes;
@@ -28,7 +28,8 @@ struct FrameLattice : private FrameWalls, LoadsSpec {
   [[nodiscard]] const FrameWalls& walls() const { return *this; }
 };
 
-namespace scenes {
+}  // namespace cellcrush
+namespace cellcrush::scenes {
 
 inline constexpr double kDensity = 2700.0;  ///< kg/m^3, of aluminium
 
