@@ -40,6 +40,12 @@ const std::vector<Target>& targets() {
   return kTargets;
 }
 
+/// What use_simd_target() chose. hwy::SupportedTargets() cannot be asked: it chooses the best target again.
+const Target*& chosen_target() {
+  static const Target* chosen = &targets().front();
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<std::string> simd_targets() {
@@ -50,12 +56,7 @@ std::vector<std::string> simd_targets() {
   return names;
 }
 
-std::string simd_target() {
-  const std::int64_t enabled = hwy::SupportedTargets();
-  const auto best = std::find_if(targets().begin(), targets().end(),
-                                 [&](const Target& target) { return (enabled & target.bit) != 0; });
-  return best->name;
-}
+std::string simd_target() { return chosen_target()->name; }
 
 bool use_simd_target(std::string_view name) {
   const std::vector<Target>& known = targets();  // before any is disabled
@@ -67,6 +68,7 @@ bool use_simd_target(std::string_view name) {
   }
   hwy::DisableTargets(found->bit - 1);  // all better ones
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  chosen_target() = &*found;
   return true;
 }
 

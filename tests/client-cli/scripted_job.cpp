@@ -25,7 +25,7 @@ constexpr const char* kFailedJob = R"(
   remedy: "lower numerics.time_step_s"
 )";
 
-constexpr const char* kSucceededJob = R"(
+constexpr const char* kSucceededJob = R"pb(
   summary {
     plateau_window_low: 0.2 plateau_window_high: 0.4
     plateau_stress_impact_mpa: 3.412 plateau_stress_support_mpa: 0.4471 densification_strain: 0.76
@@ -40,7 +40,7 @@ constexpr const char* kSucceededJob = R"(
   }
   start_time { seconds: 1000 }
   end_time { seconds: 1047 }
-)";
+)pb";
 
 void merge(const char* text, v1::Job& job) { google::protobuf::TextFormat::MergeFromString(text, &job); }
 

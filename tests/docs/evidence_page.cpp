@@ -67,8 +67,8 @@ EvidencePage make_evidence_page(const std::string& text, const scenes::Evidence&
       if (!by_hand && has_own_digits(cells[3])) report("a number that no test recorded:" + cells[3]);
       std::string result;
       std::string rest = cells[3];
-      for (std::smatch number; std::regex_search(rest, number, kNumbers);) {
-        const std::string name = number[1];
+      for (std::smatch match; std::regex_search(rest, match, kNumbers);) {
+        const std::string name = match[1];
         std::string value;
         int found = 0;
         for (const auto& [key, recorded] : evidence) {
@@ -78,8 +78,8 @@ EvidencePage make_evidence_page(const std::string& text, const scenes::Evidence&
           ++found;
         }
         if (found != 1) report(std::to_string(found) + " rows for " + name);
-        result += number.prefix().str() + "<!--" + name + "-->" + value;
-        rest = number.suffix();
+        result += match.prefix().str() + "<!--" + name + "-->" + value;
+        rest = match.suffix();
       }
       line = "|" + cells[1] + "|" + cells[2] + "|" + result + rest + "|" + cells[4] + "|";
     }

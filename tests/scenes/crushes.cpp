@@ -95,7 +95,7 @@ SceneSpec spec_of(const SmallSpecimen& specimen, int columns, int rows) {
   return spec;
 }
 
-std::string name_of(const testing::TestParamInfo<SmallSpecimen>& test) {
+std::string name_of(const ::testing::TestParamInfo<SmallSpecimen>& test) {
   return std::string(test.param.lattice) + "At" + std::to_string(static_cast<int>(test.param.speed)) +
          (test.param.friction > 0.0 ? "WithFriction" : "") +
          (test.param.elements > 0 ? "Of" + std::to_string(test.param.elements) + "Elements" : "");

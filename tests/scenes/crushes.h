@@ -40,6 +40,6 @@ struct SmallSpecimen {
 SceneSpec spec_of(const SmallSpecimen& specimen, int columns, int rows);
 
 /// Names the instance of a test.
-std::string name_of(const testing::TestParamInfo<SmallSpecimen>& test);
+std::string name_of(const ::testing::TestParamInfo<SmallSpecimen>& test);
 
 }  // namespace cellcrush::scenes

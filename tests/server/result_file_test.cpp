@@ -225,6 +225,16 @@ class ChangedResultTest : public ResultFileTest {
   static void read_first(const ResultReader& reader) { static_cast<void>(reader.frame(0)); }
 };
 
+TEST_F(ChangedResultTest, AColumnThatAnEarlierVersionLackedIsZero) {
+  replace("/history/collapsed_fraction", [](hid_t) {});
+  const auto history = ResultReader(path_).history();
+  ASSERT_EQ(history.size(), kSamples);
+  EXPECT_EQ(history.back().collapsed_fraction(), 0.0);
+  EXPECT_GT(history.back().time_s(), 0.0);
+  replace("/history/time_s", [](hid_t) {});
+  expect_damaged([](const ResultReader& reader) { static_cast<void>(reader.history()); });
+}
+
 TEST_F(ChangedResultTest, OneChangedByteAnywhereIsFoundBeforeHdf5ReadsIt) {
   file_ = Hdf5Handle();
   std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);

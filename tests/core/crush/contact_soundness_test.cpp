@@ -18,7 +18,7 @@ namespace {
 
 using scenes::SmallSpecimen;
 
-constexpr auto kNames = [](const testing::TestParamInfo<SmallSpecimen>& test) { return scenes::name_of(test); };
+constexpr auto kNames = [](const ::testing::TestParamInfo<SmallSpecimen>& test) { return scenes::name_of(test); };
 
 /// Small specimens crushed to 80 % at the chosen step.
 class ContactSoundness : public testing::TestWithParam<SmallSpecimen> {

@@ -92,6 +92,7 @@ Hashes hashes_of(const std::vector<GoldenCrush>& crushes) {
   for (const std::string& target : simd_targets()) {
     EXPECT_TRUE(use_simd_target(target));
     for (const GoldenCrush& crush : crushes) {
+      EXPECT_EQ(simd_target(), target);  // the question must not choose the best target again
       Simulation simulation(scenes::build(crush.spec));
       simulation.advance(crush.steps > 0 ? crush.steps : simulation.scene().schedule.step_count);
       std::ostringstream hash;

@@ -281,7 +281,7 @@ TEST_P(OracleOfCrushes, StaysNearTheSolverInSinglePrecision) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Specimens, OracleOfCrushes, testing::ValuesIn(cases()),
-                         [](const testing::TestParamInfo<Case>& test) { return test.param.name; });
+                         [](const ::testing::TestParamInfo<Case>& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace cellcrush

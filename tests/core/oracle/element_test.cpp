@@ -326,7 +326,7 @@ TEST_P(OracleOfElements, TakesAllStepsAsTheSolverDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, OracleOfElements, testing::ValuesIn(kRules),
-                         [](const testing::TestParamInfo<Rule>& test) { return test.param.name; });
+                         [](const ::testing::TestParamInfo<Rule>& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace cellcrush

@@ -64,9 +64,8 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
   if (places) columns = columns.map((column) => places.map((place) => column[place]));
   const peak = kept.reduce((most, s) => Math.max(most, s.stressImpactMpa, s.stressSupportMpa), 0);
   const bands: Band[] = [{ from: 0.2, to: 0.4, label: "plateau window" }];
-  const marks: Mark[] = [];
   const densification = summary?.densificationStrain;
-  if (densification !== undefined) marks.push({ at: densification, label: "densification" });
+  const marks: Mark[] = densification === undefined ? [] : [{ at: densification, label: "densification" }];
   const beyond = peak > 1.001 * top ? `; single samples reach ${number(peak, 2)} MPa, off the chart` : "";
   return {
     series: [

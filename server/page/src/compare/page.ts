@@ -43,8 +43,7 @@ class Compared {
     const { job, error } = this.data;
     setText(this.title, `Job ${idOf(this.data.name)}: ${job ? titleOf(job) : ""}`);
     if (error) setText(this.about, isNotFound(error) ? "This job does not exist, or was deleted." : errorText(error));
-    if (!job?.case) return;
-    setText(this.about, sceneWords(job.words));
+    if (job?.words) setText(this.about, sceneWords(job.words));
   }
 
   showAt(strain: number, isMoving: boolean): void {

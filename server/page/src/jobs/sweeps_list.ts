@@ -19,6 +19,7 @@ export class SweepsList {
   private readonly more = button("Earlier sweeps", () => void this.load(true), { class: "quiet" });
   /** Ends when the first sweeps are shown, or could not be fetched. */
   readonly firstLoad: Promise<void>;
+  private readonly pending = new Set<string>();
   private sweeps = new Map<string, Sweep>();
   private token = "";
   private readonly refreshing = new Later(() => void this.refresh(), kCalmMs);
@@ -42,8 +43,6 @@ export class SweepsList {
     ];
     this.firstLoad = this.load(false);
   }
-
-  private pending = new Set<string>();
 
   // Asks for the counts of the sweeps whose jobs changed.
   private refreshSoon(name: string): void {

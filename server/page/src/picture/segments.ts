@@ -14,10 +14,10 @@ export const kSegmentFloats = 6;
 export function mixFields(a: Fields, b: Fields, mix: number, into: Fields | undefined): Fields {
   const fits = into && into.position.length === a.position.length;
   const out = fits ? into : { position: a.position.slice(), plastic: a.plastic.slice() };
-  for (let i = 0; i < out.position.length; ++i) {
-    out.position[i] = a.position[i] + mix * (b.position[i] - a.position[i]);
+  for (const key of ["position", "plastic"] as const) {
+    const [to, from, until] = [out[key], a[key], b[key]];
+    for (let i = 0; i < to.length; ++i) to[i] = from[i] + mix * (until[i] - from[i]);
   }
-  for (let i = 0; i < out.plastic.length; ++i) out.plastic[i] = a.plastic[i] + mix * (b.plastic[i] - a.plastic[i]);
   return out;
 }
 
