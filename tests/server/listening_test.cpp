@@ -81,7 +81,7 @@ TEST(ConnectionTable, AdmitsUpToBothLimitsAndForgetsWhatWasClosed) {
   EXPECT_EQ(table.admit(three.ends[0], "b"), std::nullopt);
   EXPECT_THAT(table.admit(four.ends[0], "b").value(), HasSubstr("3 connections are open"));
   one.close_first();
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // it looks for closed ones at most that often
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // it looks for closed ones at most that often
   EXPECT_EQ(table.admit(four.ends[0], "b"), std::nullopt);
   EXPECT_EQ(table.count(), 3U);
 }
