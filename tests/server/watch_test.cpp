@@ -105,6 +105,7 @@ TEST_F(WatchTest, AWatchGoesOnWhereAnotherWasCutOff) {
   EXPECT_TRUE(nothing.status.ok());
   EXPECT_EQ(nothing.events.size(), 2U) << "The snapshot and the mesh.";
   EXPECT_EQ(client.watch(job, 1'000'000).status.error_code(), grpc::StatusCode::OUT_OF_RANGE);
+  EXPECT_EQ(client.watch(job, -1).status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
 }
 
 TEST_F(WatchTest, ManyWatchersLeaveRoomForOtherCalls) {
@@ -163,26 +164,6 @@ TEST_F(WatchTest, AWatchOfWhichNothingIsReadIsClosedAndGoesOnWhereItWas) {
   for (const auto& later : rest.events) contract.see(later);
   contract.end(rest.status);
   EXPECT_THAT(contract.broken(), ::testing::IsEmpty());
-}
-
-TEST_F(WatchTest, AnIdleWatchGetsBookmarks) {
-  auto options = default_options();
-  options.watch_times.bookmark_interval = milliseconds(200);
-  options.workers = 1;
-  start(options);
-  auto client = this->client();
-  client.create(endless_case());
-  const std::string waiting = client.create(small_case());
-  v1::WatchJobRequest request;
-  request.set_name(waiting);
-  const auto context = bounded_context();
-  const auto reader = client.jobs->WatchJob(context.get(), request);
-  v1::JobEvent event;
-  do {
-    ASSERT_TRUE(reader->Read(&event));
-  } while (!event.has_bookmark());
-  EXPECT_EQ(event.sequence(), 1);
-  context->TryCancel();
 }
 
 }  // namespace
