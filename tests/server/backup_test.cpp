@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <iterator>
 
 #include "error.h"
 #include "server/daemon_fixture.h"
@@ -53,14 +52,6 @@ class BackupTest : public DaemonFixture {
       return error.what();
     }
     return "not refused";
-  }
-
-  static void flip_a_bit(const std::filesystem::path& path, std::streamoff offset) {
-    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-    file.seekg(offset);
-    const char byte = static_cast<char>(file.get());
-    file.seekp(offset);
-    file.put(static_cast<char>(byte ^ 4));
   }
 };
 
@@ -192,9 +183,9 @@ TEST_F(BackupTest, EveryFlippedBitOfABackupIsFoundAndNothingIsRestoredOfIt) {
   store::take_backup(data_folder(), backup());
   for (const std::string name : {"journal.sqlite", "jobs/2/result.h5", "MANIFEST"}) {
     const auto path = backup() / name;
-    const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path));
-    for (const std::streamoff offset : {std::streamoff{30}, size / 2, size - 20}) {
-      flip_a_bit(path, offset);
+    const auto size = std::filesystem::file_size(path);
+    for (const auto offset : {std::uintmax_t{30}, size / 2, size - 20}) {
+      flip_bits(path, offset, 4);
       std::string words;
       try {
         for (const auto& problem : store::verify_folder(backup()).problems) words += problem;
@@ -206,7 +197,7 @@ TEST_F(BackupTest, EveryFlippedBitOfABackupIsFoundAndNothingIsRestoredOfIt) {
       DaemonProcess restore({"restore", backup().string(), "--data", restored().string()});
       EXPECT_EQ(restore.wait(), 1);
       EXPECT_FALSE(std::filesystem::exists(restored()));
-      flip_a_bit(path, offset);
+      flip_bits(path, offset, 4);
     }
   }
   std::filesystem::remove(backup() / "jobs/2/result.h5");
@@ -217,7 +208,7 @@ TEST_F(BackupTest, WhatIsWrongWithADataFolderIsNamedWithItsRemedyWhileTheDaemonR
   auto client = this->client();
   make_ended_jobs(client);
   EXPECT_THAT(store::verify_folder(data_folder()).problems, IsEmpty());
-  flip_a_bit(data_folder() / "jobs/1/result.h5", 2000);
+  flip_bits(data_folder() / "jobs/1/result.h5", 2000);
   std::filesystem::remove(data_folder() / "jobs/2/result.h5");
   std::filesystem::create_directory(data_folder() / "jobs/99");
   {
