@@ -86,8 +86,8 @@ DaemonOptions options_on(const std::filesystem::path& data_folder) {
   return out;
 }
 
-// A daemon's Service on a data folder, without workers and reached over a channel within this process: calls pass gRPC's
-// own reading of bytes as they do from outside.
+// A daemon's Service on a data folder, without workers and reached over a channel within this process: calls pass
+// gRPC's own reading of bytes as they do from outside.
 class WireDaemon {
  public:
   explicit WireDaemon(const std::filesystem::path& data_folder)

@@ -109,6 +109,7 @@ TEST_F(JobsServiceTest, FramesAreFoundByIndexStrainAndTime) {
     EXPECT_TRUE(status.ok()) << status.error_message();
     EXPECT_EQ(frame.position_mm_size(), 2 * mesh.particle_count());
     EXPECT_EQ(frame.plastic_fraction_size(), mesh.thickness_mm_size());
+    for (const int node : mesh.element_nodes()) EXPECT_TRUE(node >= 0 && node < mesh.particle_count()) << node;
     return frame.index();
   };
   EXPECT_EQ(index(), last);

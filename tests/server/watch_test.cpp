@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -56,6 +57,14 @@ TEST_F(WatchTest, AWatchIsCompleteAndEndsWhenTheResultCanBeRead) {
   }
   const store::ResultReader result(data_folder() / job / "result.h5");
   EXPECT_EQ(last_frame, static_cast<int>(result.frame_times().size()) - 1) << "The last frame is not missed.";
+  EXPECT_NEAR(result.history().back().strain(), 0.5, 0.01);
+  for (const auto& sample : result.history()) {
+    for (const double value : {sample.time_s(), sample.travel_mm(), sample.stress_impact_mpa(),
+                               sample.stress_support_mpa(), sample.energy_kinetic_mj(), sample.energy_elastic_mj(),
+                               sample.energy_plastic_mj(), sample.energy_contact_mj(), sample.energy_friction_mj(),
+                               sample.energy_damping_mj(), sample.work_external_mj(), sample.energy_residual_mj()})
+      ASSERT_TRUE(std::isfinite(value)) << sample.DebugString();
+  }
   const auto events = numbered(watched.events);
   EXPECT_GE(events.size(), 93U);
   EXPECT_EQ(events[0].state().state(), v1::Job::PENDING);
