@@ -1,4 +1,4 @@
-// What goes wrong outside the case: no server, no such job, a worker or a daemon that dies.
+// What goes wrong outside the case: a worker or a daemon that dies or is asked to go.
 #include <gmock/gmock.h>
 #include <unistd.h>
 

@@ -112,8 +112,8 @@ TEST_F(JournalTest, WhatIsNewIsAdmittedOnceAndNotMadeWhenItIsRefused) {
 
 TEST(JobState, OnlyARunSucceedsAndNothingFollowsAnEnd) {
   using Job = v1::Job;
-  for (const auto from : {Job::PENDING, Job::RUNNING, Job::SUSPENDED, Job::CANCELLING, Job::SUCCEEDED, Job::FAILED,
-                          Job::CANCELLED}) {
+  for (const auto from :
+       {Job::PENDING, Job::RUNNING, Job::SUSPENDED, Job::CANCELLING, Job::SUCCEEDED, Job::FAILED, Job::CANCELLED}) {
     const bool is_end = from == Job::SUCCEEDED || from == Job::FAILED || from == Job::CANCELLED;
     EXPECT_EQ(is_terminal(from), is_end);
     EXPECT_EQ(may_follow(from, Job::FAILED), !is_end) << Job::State_Name(from);
