@@ -55,10 +55,5 @@ TEST_F(BadInput, IsRefusedWithFieldsAndRemedies) {
   for (const auto& [source, expected] : cases) expect_refused(source, expected);
 }
 
-TEST_F(BadInput, AWrongCommandLine) {
-  EXPECT_EQ(cellcrush({"no-such-command"}).exit_code, 2);
-  EXPECT_EQ(cellcrush({"submit"}).exit_code, 2);
-}
-
 }  // namespace
 }  // namespace cellcrush::e2e

@@ -1,4 +1,4 @@
-// What goes wrong outside the case: no server, no such job, a worker or a daemon that dies.
+// What goes wrong outside the case: a worker or a daemon that dies or is asked to go.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -69,24 +69,6 @@ TEST_F(Failure, ADrainThatWaitsReturnsOnceTheDaemonHasGone) {
   EXPECT_EQ(cellcrush({"list"}).exit_code, 0) << "The next one has the folder at once.";
 }
 
-TEST_F(Failure, WithoutAServerTheCommandEndsWithinTwoSeconds) {
-  for (const std::string& address : {"unix:" + (folder() / "nobody").string(), std::string("127.0.0.1:1")}) {
-    const Outcome outcome = run({CELLCRUSH_PROGRAM, "list", "--server", address}, kShortLimit);
-    EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
-    EXPECT_LT(outcome.seconds, 2.0) << address;
-    EXPECT_THAT(outcome.errors, HasSubstr(address));
-  }
-}
-
-TEST_F(Failure, AnUnknownJob) {
-  for (const char* verb : {"show", "watch"}) {
-    const Outcome outcome = cellcrush({verb, "jobs/no-such-job"});
-    EXPECT_EQ(outcome.exit_code, 5) << verb << ":\n" << outcome.all();
-    EXPECT_THAT(outcome.all(), HasSubstr("jobs/no-such-job"));
-  }
-  EXPECT_EQ(cellcrush({"fetch", "jobs/no-such-job", "-o", (folder() / "out").string()}).exit_code, 5);
-}
-
 TEST_F(Failure, AKilledWorkerIsReplacedAndItsJobGoesOn) {
   const std::string job = start_long_job();
   ASSERT_GT(worker_, 0);
@@ -115,15 +97,6 @@ TEST_F(Failure, AKilledDaemonLosesNoJobAndNoWorker) {
   EXPECT_TRUE(ends(worker_)) << "The next daemon has no hold of it.";
 }
 
-TEST_F(Failure, ADaemonThatIsAskedToEndLeavesItsJobsAtACheckpoint) {
-  const std::string job = start_long_job();
-  ASSERT_GT(worker_, 0);
-  stop_daemon();
-  EXPECT_TRUE(ends(worker_)) << "The worker outlives its daemon.";
-  start_daemon();
-  EXPECT_TRUE(within(kShortLimit, [&] { return worker_of(job) > 0; }));
-}
-
 TEST_F(Failure, AJobIsSuspendedAndResumed) {
   const std::string job = start_long_job();
   const Outcome suspended = cellcrush({"suspend", job});
@@ -133,16 +106,6 @@ TEST_F(Failure, AJobIsSuspendedAndResumed) {
   const Outcome resumed = cellcrush({"resume", job});
   EXPECT_EQ(resumed.exit_code, 0) << resumed.all();
   EXPECT_TRUE(within(kShortLimit, [&] { return worker_of(job) > 0; }));
-}
-
-TEST_F(Failure, CtrlCLeavesTheJobRunning) {
-  const std::string job = start_long_job();
-  Process watch(command({"watch", job}));
-  ASSERT_TRUE(watch.wait_for_output("%", kShortLimit)) << watch.output() << watch.errors();
-  watch.send(SIGINT);
-  const Outcome watched = watch.wait(kShortLimit);
-  EXPECT_EQ(watched.exit_code, 130) << watched.all();
-  EXPECT_EQ(job_object(job)["state"], "RUNNING");
 }
 
 }  // namespace

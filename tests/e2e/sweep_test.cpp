@@ -49,24 +49,6 @@ TEST_F(SecondDay, AVelocitySweepEndsInATableWithTheoryBesideIt) {
   EXPECT_TRUE(json::parse(cellcrush({"list", "--json"}).output)["jobs"].empty()) << "its jobs go with it";
 }
 
-TEST_F(SecondDay, ASweepThatRunsIsNotDeleted) {
-  const Outcome sweep = cellcrush({"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100"});
-  ASSERT_EQ(sweep.exit_code, 0) << sweep.all();
-  const std::string name = first_word(sweep);
-  const Outcome refused = cellcrush({"delete", name});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.all(), HasSubstr("Cancel the sweep, then delete it"));
-  EXPECT_EQ(cellcrush({"cancel", name}).exit_code, 0);
-}
-
-TEST_F(SecondDay, ABadPointRefusesTheWholeSweep) {
-  const Outcome sweep = cellcrush({"sweep", small(), "--over", "loading.speed_m_per_s=50,-1"});
-  EXPECT_EQ(sweep.exit_code, 2);
-  EXPECT_THAT(sweep.all(), HasSubstr("loading.speed_m_per_s"));
-  const Outcome list = cellcrush({"list", "--json"});
-  EXPECT_TRUE(json::parse(list.output)["jobs"].empty()) << list.output;
-}
-
 TEST_F(SecondDay, ACancelledJobKeepsWhatItComputedAndCanThenBeDeleted) {
   const Outcome submitted = cellcrush({"submit", "preset:type-i"});
   ASSERT_EQ(submitted.exit_code, 0) << submitted.all();

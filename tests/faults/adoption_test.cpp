@@ -60,18 +60,6 @@ TEST_F(AdoptionTest, WhatAWorkerFinishedWhileThereWasNoDaemonCounts) {
   expect_every_sample_once(client, job);
 }
 
-TEST_F(AdoptionTest, AWorkerThatWentWhileThereWasNoDaemonIsReplaced) {
-  std::string job;
-  const pid_t worker = run_and_kill(case_of_seconds(), job);
-  kill(worker, SIGKILL);
-  ASSERT_TRUE(wait_until_gone(worker, std::chrono::seconds(5)));
-  start_daemon({"--workers", "1"});
-  auto client = this->client();
-  expect_success(client, job);
-  EXPECT_EQ(client.get(job).attempt(), 2);
-  expect_every_sample_once(client, job);
-}
-
 TEST_F(AdoptionTest, AnAdoptedWorkerHeedsACancel) {
   std::string job;
   const pid_t worker = run_and_kill(endless_case(), job);

@@ -2,14 +2,11 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
-#include <fstream>
 #include <iostream>
 
 #include "faults/fault_fixture.h"
-#include "faults/filled_journal.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
-#include "server/watch_contract.h"
 #include "store/journal_reader.h"
 #include "store/report_log.h"
 
@@ -51,26 +48,6 @@ class CorruptRowTest : public FaultFixture {
     std::cout << "one damaged row of " << count_ << " jobs: " << intact << " others served as they were\n";
   }
 
-  // A watch behind `after` keeps the contract. Its end.
-  static grpc::Status watch_soundly(Client& client, const std::string& job, std::int64_t after,
-                                    std::int64_t& sequence) {
-    WatchContract contract(after);
-    const auto watched = client.watch(job, after, false, [&](const v1::JobEvent& event) { contract.see(event); });
-    contract.end(watched.status);
-    EXPECT_THAT(contract.broken(), IsEmpty());
-    sequence = contract.sequence();
-    return watched.status;
-  }
-
-  // Changes a bit of a file.
-  void flip(const std::string& name, std::uint64_t offset) const {
-    std::fstream file(data_folder() / name, std::ios::binary | std::ios::in | std::ios::out);
-    file.seekg(static_cast<std::streamoff>(offset));
-    const int byte = file.get();
-    file.seekp(static_cast<std::streamoff>(offset));
-    file.put(static_cast<char>(byte ^ 1));
-  }
-
   const std::int64_t count_ = rounds(500, 10'000);
   const std::vector<std::string> arguments_ = {"--workers", "1"};
   std::map<std::string, v1::Job> before_;
@@ -97,7 +74,7 @@ TEST_F(CorruptRowTest, AWaitingJobWhoseCaseCannotBeReadFailsAndTheOthersGoOn) {
   EXPECT_THAT(job.cause_message(), HasSubstr("cannot be read"));
   EXPECT_FALSE(job.remedy().empty());
   std::int64_t last = 0;
-  EXPECT_TRUE(watch_soundly(client, "jobs/77", 0, last).ok());
+  EXPECT_TRUE(watch_soundly(client, "jobs/77", 0, &last).ok());
   EXPECT_EQ(last, 2);
   EXPECT_TRUE(client.remove("jobs/77").ok());
   EXPECT_THAT(stop_daemon(), HasSubstr("jobs/77 is FAILED with STORE_CORRUPT"));
@@ -112,10 +89,10 @@ TEST_F(CorruptRowTest, AJobOfWhichNothingCanBeReadFailsAndTheOthersGoOn) {
   expect_the_others_intact(client, "jobs/77");
   EXPECT_EQ(client.get("jobs/77").cause(), v1::Job::STORE_CORRUPT);
   std::int64_t last = 0;
-  const auto status = watch_soundly(client, "jobs/77", 0, last);
+  const auto status = watch_soundly(client, "jobs/77", 0, &last);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS);
   EXPECT_THAT(status.error_message(), HasSubstr("Event 1 of jobs/77"));
-  EXPECT_TRUE(watch_soundly(client, "jobs/77", 1, last).ok());
+  EXPECT_TRUE(watch_soundly(client, "jobs/77", 1, &last).ok());
   EXPECT_EQ(last, 2);
 }
 
@@ -130,22 +107,23 @@ TEST_F(CorruptRowTest, AResultThatCannotBeReadCostsOnlyItsSamples) {
     for (const auto& name : {job, next}) EXPECT_TRUE(client.wait_for_state(name, v1::Job::SUCCEEDED));
   }
   stop_daemon();
-  flip(job + "/result.h5", std::filesystem::file_size(data_folder() / job / "result.h5") / 2);
+  const auto result = data_folder() / job / "result.h5";
+  flip_bits(result, std::filesystem::file_size(result) / 2);
   start_daemon(arguments_);
   auto client = this->client();
   EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED);
   std::int64_t last = 0;
-  const auto status = watch_soundly(client, job, 0, last);
+  const auto status = watch_soundly(client, job, 0, &last);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS);
   EXPECT_EQ(last, 2) << "What comes before the samples is given.";
   EXPECT_THAT(status.error_message(),
               AllOf(HasSubstr("Event 3 of " + job + " cannot be read"), HasSubstr("watch with after_sequence 23.")));
-  EXPECT_TRUE(watch_soundly(client, job, 23, last).ok()) << "What comes behind them is given.";
+  EXPECT_TRUE(watch_soundly(client, job, 23, &last).ok()) << "What comes behind them is given.";
   EXPECT_EQ(last, 24);
   grpc::Status history;
   EXPECT_THAT(client.history(job, history), IsEmpty());
   EXPECT_EQ(history.error_code(), grpc::StatusCode::DATA_LOSS);
-  EXPECT_TRUE(watch_soundly(client, next, 0, last).ok());
+  EXPECT_TRUE(watch_soundly(client, next, 0, &last).ok());
   EXPECT_EQ(client.history(next).size(), 21U);
 }
 
@@ -164,7 +142,7 @@ TEST_F(CorruptRowTest, AReportThatCannotBeReadEndsTheJobWhichKeepsTheSamplesBefo
     store::ReportLogReader reports(data_folder() / job / "reports");
     v1::Sample sample;
     for (int i = 0; i < 5; ++i) ASSERT_EQ(reports.read_sample(sample), store::ReportLogReader::Read::message);
-    flip(job + "/reports", reports.offset() - 1);
+    flip_bits(data_folder() / job / "reports", reports.offset() - 1);
   }
   start_daemon(arguments_);
   auto client = this->client();

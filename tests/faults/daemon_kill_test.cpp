@@ -1,12 +1,14 @@
-// What was acknowledged outlives a daemon that is killed at any moment.
+// What was acknowledged outlives a daemon that is killed at any moment and is there once; the next one serves soon.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
+#include <barrier>
 #include <chrono>
 #include <iostream>
 #include <map>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "faults/fault_fixture.h"
@@ -20,6 +22,10 @@ namespace {
 
 using std::chrono::milliseconds;
 using KillClock = std::chrono::steady_clock;
+
+double seconds_since(KillClock::time_point start) {
+  return std::chrono::duration<double>(KillClock::now() - start).count();
+}
 
 // A client that makes jobs, each under a request_id of its own, and asks again with the same one until it is answered.
 class StubbornClient {
@@ -135,6 +141,71 @@ TEST_F(DaemonKillTest, EveryAcknowledgedJobExistsOnceAndSucceeds) {
   for (const auto& [id, job] : acknowledged) expect_whole(reader, job);
   std::cout << kills << " daemons killed, " << acknowledged.size() << " jobs acknowledged (" << repeats
             << " calls repeated), " << made.size() << " made by " << attempts << " workers\n";
+}
+
+// Many clients that ask for the same at the same time.
+class RequestIdTest : public FaultFixture {
+ protected:
+  // Asks for all ids in their order; the names that were answered.
+  static std::vector<std::string> ask_for_all(const std::string& address, int ids) {
+    std::vector<std::string> out;
+    auto client = impatient_client(address);
+    for (int i = 0; i < ids; ++i) {
+      auto request = job_of(tiny_case());
+      request.set_request_id("request-" + std::to_string(i));
+      out.push_back(client.create(request).name());
+    }
+    return out;
+  }
+};
+
+TEST_F(RequestIdTest, EqualIdsOfManyClientsMakeOneJobEach) {
+  start_daemon({"--workers", "1"});
+  // Holds the only worker, so that no other job runs.
+  auto client = this->client();
+  const std::string running = client.create(endless_case());
+  constexpr int kClients = 64;
+  const int ids = rounds(50, 1000);
+  std::vector<std::vector<std::string>> answers(static_cast<std::size_t>(kClients));
+  std::barrier together(kClients);
+  const auto start = KillClock::now();
+  {
+    std::vector<std::jthread> threads;
+    threads.reserve(answers.size());
+    for (auto& answer : answers) {
+      threads.emplace_back([&] {
+        together.arrive_and_wait();
+        answer = ask_for_all(address(), ids);
+      });
+    }
+  }
+  const double seconds = seconds_since(start);
+  const std::set<std::string> distinct(answers[0].begin(), answers[0].end());
+  EXPECT_EQ(distinct.size(), static_cast<std::size_t>(ids));
+  for (const auto& answer : answers) EXPECT_EQ(answer, answers[0]);
+  EXPECT_EQ(all_jobs(client).size(), static_cast<std::size_t>(ids) + 1);
+  std::cout << kClients << " clients, " << ids << " equal ids: " << distinct.size() << " jobs, " << kClients * ids
+            << " calls in " << seconds << " s\n";
+  ASSERT_TRUE(client.cancel(running).ok());
+}
+
+using RestartTest = FaultFixture;
+
+TEST_F(RestartTest, ADaemonWithManyWaitingJobsServesSoon) {
+  const int count = rounds(1000, 10'000);
+  fill_journal(data_folder(), count, endless_case());
+  const auto start = KillClock::now();
+  start_daemon({"--workers", "1"});
+  const double listening = seconds_since(start);
+  auto client = this->client();
+  EXPECT_EQ(client.get("jobs/" + std::to_string(count)).state(), v1::Job::PENDING);
+  const double serving = seconds_since(start);
+  EXPECT_TRUE(client.wait_for_state("jobs/1", v1::Job::RUNNING));
+  const double running = seconds_since(start);
+  EXPECT_LT(serving, is_full_round() ? 5.0 : 15.0);
+  EXPECT_EQ(all_jobs(client).size(), static_cast<std::size_t>(count));
+  std::cout << count << " waiting jobs: listens after " << listening << " s, serves after " << serving
+            << " s, runs the first after " << running << " s\n";
 }
 
 }  // namespace

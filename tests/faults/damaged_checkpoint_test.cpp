@@ -3,7 +3,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <random>
 #include <thread>
@@ -76,13 +75,8 @@ class DamagedCheckpointTest : public FaultFixture {
   }
 
   void flip_a_bit(const std::filesystem::path& path) {
-    const auto place = static_cast<std::streamoff>(random_() % std::filesystem::file_size(path));
-    std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
-    file.seekg(place);
-    const auto byte = static_cast<unsigned>(file.get());
-    file.seekp(place);
-    file.put(static_cast<char>(byte ^ (1U << random_() % 8)));
-    EXPECT_TRUE(file.good()) << path;
+    const auto place = random_() % std::filesystem::file_size(path);
+    flip_bits(path, place, 1U << random_() % 8);
   }
 
   const std::vector<std::string> arguments_ = {"--workers", "1", "--checkpoint-interval", "0.05"};

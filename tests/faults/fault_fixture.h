@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -32,6 +33,9 @@ Client impatient_client(const std::string& address);
 
 /// All jobs, by name.
 std::map<std::string, v1::Job> all_jobs(Client& client);
+
+/// Makes a data folder whose journal has `count` PENDING jobs of the case, numbered from 1, as CreateJob leaves them.
+void fill_journal(const std::filesystem::path& data_folder, std::int64_t count, const v1::Case& submitted);
 
 /// A daemon as a process, which is killed and started again on the same folder. No process is left at the end.
 class FaultFixture : public ::testing::Test {

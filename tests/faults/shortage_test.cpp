@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "faults/fault_fixture.h"
-#include "faults/filled_journal.h"
 #include "server/small_case.h"
 #include "store/sqlite.h"
 

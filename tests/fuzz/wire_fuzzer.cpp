@@ -6,9 +6,12 @@
 // Left out: cases of more than 2000 elements and sweeps of as many in all, for which the time is too short; running
 // jobs, which tests/server and tests/faults have; and TLS and tokens, which are read before a message is.
 #include <google/protobuf/stubs/logging.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -16,15 +19,18 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "access/gate.h"
 #include "cellcrush/v1/cases_service.pb.h"
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
 #include "fuzz/prepared_folder.h"
 #include "fuzz/size_bound.h"
-#include "fuzz/wire_daemon.h"
 #include "fuzz/wire_input.h"
 #include "server/temporary_folder.h"
+#include "service.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
@@ -34,6 +40,110 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMostElements = 2000.0;
+
+constexpr double kStepCost = 1e-8;
+constexpr std::chrono::milliseconds kQuiet{3};
+constexpr std::chrono::seconds kMinute{60};
+
+grpc::ByteBuffer buffer_of(const std::string& bytes) {
+  const grpc::Slice slice(bytes);
+  return {&slice, 1};
+}
+
+std::string bytes_of(const grpc::ByteBuffer& buffer) {
+  std::vector<grpc::Slice> slices;
+  std::string out;
+  if (!buffer.Dump(&slices).ok()) return out;
+  for (const auto& slice : slices) out.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
+  return out;
+}
+
+// Waits for the one operation that is under way; whether it went well.
+bool wait(grpc::CompletionQueue& queue) {
+  void* tag = nullptr;
+  bool ok = false;
+  return queue.Next(&tag, &ok) && ok;
+}
+
+// The same for a message of a watch; the call is broken off when none comes soon.
+bool wait_for_news(grpc::CompletionQueue& queue, grpc::ClientContext& context) {
+  void* tag = nullptr;
+  bool ok = false;
+  if (queue.AsyncNext(&tag, &ok, std::chrono::system_clock::now() + kQuiet) == grpc::CompletionQueue::TIMEOUT) {
+    context.TryCancel();
+    return wait(queue);
+  }
+  return ok;
+}
+
+// A worker that is started by mistake ends at once.
+DaemonOptions options_on(const std::filesystem::path& data_folder) {
+  DaemonOptions out;
+  out.data_folder = data_folder;
+  out.workers = 2;
+  out.worker_program = "/bin/false";
+  out.watch_times.bookmark_interval = kMinute;
+  return out;
+}
+
+// A daemon's Service on a data folder, without workers and reached over a channel within this process: calls pass
+// gRPC's own reading of bytes as they do from outside.
+class WireDaemon {
+ public:
+  explicit WireDaemon(const std::filesystem::path& data_folder)
+      : service_(options_on(data_folder), gate_, kStepCost, [] {}) {
+    grpc::ServerBuilder builder;
+    builder.SetSyncServerOption(grpc::ServerBuilder::NUM_CQS, 1);
+    service_.register_with(builder);
+    server_ = builder.BuildAndStart();
+    stub_ = std::make_unique<grpc::GenericStub>(server_->InProcessChannel({}));
+  }
+
+  // The service was not started: there are only watches to end.
+  ~WireDaemon() {
+    service_.stop();
+    server_->Shutdown(std::chrono::system_clock::now() + kMinute);
+    server_->Wait();
+  }
+  WireDaemon(const WireDaemon&) = delete;
+  WireDaemon& operator=(const WireDaemon&) = delete;
+
+  // How a call ended, and the bytes of its last message.
+  struct Answer {
+    grpc::Status status;
+    std::string message;
+  };
+
+  // Makes a call of any kind, with any bytes as its message. A watch is broken off when it has nothing more to say for
+  // now.
+  Answer call(const std::string& method, const std::string& request, bool is_watch) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + kMinute);
+    grpc::CompletionQueue queue;
+    const auto stream = stub_->PrepareCall(&context, method, &queue);
+    stream->StartCall(nullptr);
+    Answer out;
+    if (wait(queue)) {
+      stream->WriteLast(buffer_of(request), grpc::WriteOptions(), nullptr);
+      static_cast<void>(wait(queue));
+      grpc::ByteBuffer message;
+      while (true) {
+        stream->Read(&message, nullptr);
+        if (!(is_watch ? wait_for_news(queue, context) : wait(queue))) break;
+        out.message = bytes_of(message);
+      }
+    }
+    stream->Finish(&out.status, nullptr);
+    static_cast<void>(wait(queue));
+    return out;
+  }
+
+ private:
+  access::Gate gate_{access::Options{}};
+  Service service_;
+  std::unique_ptr<grpc::Server> server_;
+  std::unique_ptr<grpc::GenericStub> stub_;
+};
 
 // A daemon on a copy of the prepared folder; a new one when calls have changed something.
 class Bench {

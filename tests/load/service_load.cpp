@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "faults/filled_journal.h"
+#include "faults/fault_fixture.h"
 #include "load/figures.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"

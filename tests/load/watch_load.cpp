@@ -2,24 +2,195 @@
 // usage: watch_load [WATCHERS [ROUNDS [packed|numbers|json]]]
 #include <fmt/core.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
+#include "cellcrush/v1/jobs_service.pb.h"
+#include "http/connect_protocol.h"
 #include "load/figures.h"
-#include "load/http_watchers.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
+#include "server/http/http_socket.h"
 
 namespace cellcrush::load {
 namespace {
 
 using testing::Client;
+
+/// What some watchers of a job received, all together.
+struct Received {
+  std::int64_t messages = 0;
+  std::int64_t bytes = 0;  ///< with the headers of HTTP
+  std::int64_t samples = 0;
+  std::int64_t frames = 0;
+  std::int64_t skipped_frames = 0;
+  std::int64_t wrong_numbers = 0;  ///< states and samples that did not follow the one before
+  int failed = 0;                  ///< watchers whose watch ended otherwise than with the job
+};
+
+/// How the watchers ask.
+struct HttpWatch {
+  int port = 0;     ///< of 127.0.0.1
+  std::string job;  ///< "jobs/{job}"
+  int watchers = 0;
+  enum class Form { packed, numbers, json } form = Form::packed;  ///< of the frames; JSON has numbers
+};
+
+std::string request_text(const HttpWatch& watch) {
+  v1::WatchJobsRequest request;
+  auto& job = *request.add_jobs();
+  job.set_name(watch.job);
+  job.set_frames(true);
+  if (watch.form == HttpWatch::Form::packed) job.set_encoding(v1::FieldFrame::PACKED);
+  const bool json = watch.form == HttpWatch::Form::json;
+  const std::string body = http::envelope(
+      0, json ? R"({"jobs":[{"name":")" + watch.job + R"(","frames":true}]})" : request.SerializeAsString());
+  return "POST /cellcrush.v1.Jobs/WatchJobs HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(watch.port) +
+         "\r\nContent-Type: application/connect+" + (json ? "json" : "proto") +
+         "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+// Reads the answer to one streaming call of the Connect protocol over HTTP/1.1, piece by piece as it comes.
+class StreamParser {
+ public:
+  // `on_message` gets each message in order, without its prefix, but not the last envelope.
+  explicit StreamParser(std::function<void(std::string_view message)> on_message)
+      : on_message_(std::move(on_message)) {}
+
+  void add(std::string_view bytes) {
+    while (!bytes.empty()) {
+      if (chunk_left_ > 0) {
+        const auto piece = bytes.substr(0, chunk_left_);
+        chunk_left_ -= piece.size();
+        bytes.remove_prefix(piece.size());
+        add_body(piece);
+        continue;
+      }
+      line_ += bytes.front();
+      bytes.remove_prefix(1);
+      if (!line_.ends_with(in_body_ ? "\r\n" : "\r\n\r\n")) continue;
+      if (in_body_ && line_.size() > 2) chunk_left_ = std::stoul(line_, nullptr, 16);
+      in_body_ = true;
+      line_.clear();
+    }
+  }
+
+  // Whether the last envelope came.
+  [[nodiscard]] bool ended() const { return ended_; }
+
+ private:
+  void add_body(std::string_view bytes) {
+    constexpr std::size_t kPrefix = 5;
+    body_ += bytes;
+    std::size_t at = 0;
+    while (body_.size() - at >= kPrefix) {
+      std::size_t size = 0;
+      for (std::size_t i = 1; i < kPrefix; ++i) size = size << 8U | static_cast<unsigned char>(body_[at + i]);
+      if (body_.size() - at < kPrefix + size) break;
+      if (body_[at] == static_cast<char>(http::kEndOfStream)) {
+        ended_ = true;
+      } else {
+        on_message_(std::string_view(body_).substr(at + kPrefix, size));
+      }
+      at += kPrefix + size;
+    }
+    body_.erase(0, at);
+  }
+
+  std::function<void(std::string_view)> on_message_;
+  std::string line_;            // headers, or the size of a chunk, so far
+  bool in_body_ = false;        // the headers are complete
+  std::size_t chunk_left_ = 0;  // bytes of the chunk that follow
+  std::string body_;            // without a complete envelope
+  bool ended_ = false;
+};
+
+class Watcher {
+ public:
+  Watcher(const HttpWatch& watch, Received& received)
+      : is_json_(watch.form == HttpWatch::Form::json),
+        received_(received),
+        socket_(watch.port),
+        parser_([this](std::string_view message) { count(message); }) {
+    socket_.send(request_text(watch));
+  }
+
+  [[nodiscard]] int descriptor() const { return socket_.number(); }
+  [[nodiscard]] bool ended() const { return ended_; }
+
+  // Takes what has come.
+  void read(std::vector<char>& room) {
+    const auto count = recv(socket_.number(), room.data(), room.size(), 0);
+    if (count <= 0) return end(false);
+    received_.bytes += count;
+    parser_.add({room.data(), static_cast<std::size_t>(count)});
+    if (parser_.ended()) end(false);
+  }
+
+ private:
+  void end(bool with_the_job) {
+    if (!ended_ && !with_the_job) ++received_.failed;
+    ended_ = true;
+  }
+
+  void count(std::string_view bytes) {
+    ++received_.messages;
+    if (is_json_) {
+      if (bytes.find("\"watchedEnd\"") != std::string_view::npos) end(true);
+      return;
+    }
+    if (!message_.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return end(false);
+    if (message_.has_watched_end()) return end(message_.watched_end().status().code() == 0);
+    if (!message_.has_watched()) return;
+    const auto& event = message_.watched().event();
+    received_.samples += event.has_sample();
+    if (event.has_frame()) {
+      received_.frames += event.frame().part() == 0;
+      received_.skipped_frames += event.frame().part() == 0 ? event.frame().skipped() : 0;
+    }
+    if (event.has_sample() || event.has_state()) received_.wrong_numbers += event.sequence() != ++sequence_;
+  }
+
+  const bool is_json_;
+  Received& received_;
+  testing::HttpSocket socket_;
+  StreamParser parser_;
+  v1::WatchJobsResponse message_;
+  std::int64_t sequence_ = 0;
+  bool ended_ = false;
+};
+
+// Watches the job and its frames over HTTP by WatchJobs, each watcher on a connection of its own. One thread serves
+// them all; it returns once the job has ended for each. Of JSON it counts messages and bytes only.
+Received watch_over_http(const HttpWatch& watch) {
+  Received out;
+  std::vector<std::unique_ptr<Watcher>> watchers;
+  for (int i = 0; i < watch.watchers; ++i) watchers.push_back(std::make_unique<Watcher>(watch, out));
+  std::vector<char> room(256 * 1024);
+  while (!watchers.empty()) {
+    std::vector<pollfd> waiting;
+    waiting.reserve(watchers.size());
+    for (const auto& each : watchers) waiting.push_back({each->descriptor(), POLLIN, 0});
+    poll(waiting.data(), waiting.size(), -1);
+    for (std::size_t i = 0; i < waiting.size(); ++i)
+      if (waiting[i].revents != 0) watchers[i]->read(room);
+    std::erase_if(watchers, [](const auto& each) { return each->ended(); });
+  }
+  return out;
+}
 
 // A crush of Type I by default, at a speed that takes seconds.
 v1::Case crush(Client& client) {

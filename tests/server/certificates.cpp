@@ -102,11 +102,6 @@ CertificateRequest client_request(const std::string& common_name) {
   return out;
 }
 
-std::string text_of_file(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 void write_secret(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
   chmod(path.c_str(), 0600);

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "server/temporary_folder.h"
+
 namespace cellcrush::testing {
 
 /// A certificate and its key, as PEM files in a folder.
@@ -37,9 +39,6 @@ class Authority {
   std::filesystem::path folder_;
   CertificateFiles files_;
 };
-
-/// All of a file.
-std::string text_of_file(const std::filesystem::path& path);
 
 /// Writes a file that its owner alone can read.
 void write_secret(const std::filesystem::path& path, const std::string& text);

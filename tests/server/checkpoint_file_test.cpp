@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "server/temporary_folder.h"
@@ -32,11 +31,6 @@ class CheckpointFileTest : public ::testing::Test {
     write_checkpoint(job_, checkpoint);
   }
 
-  static std::string read(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
-
   static void replace(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
   }
@@ -57,7 +51,7 @@ TEST_F(CheckpointFileTest, TheNewestCounts) {
 TEST_F(CheckpointFileTest, ATornOrBitFlippedOneIsRefusedByNameAndTheOneBeforeCounts) {
   write(10);
   write(20);
-  const std::string whole = read(job_.checkpoint());
+  const std::string whole = testing::text_of_file(job_.checkpoint());
   for (std::size_t i = 0; i < whole.size(); i += 13) {
     std::string flipped = whole;
     flipped[i] = static_cast<char>(flipped[i] ^ 1);

@@ -193,14 +193,17 @@ TEST_F(JobLifeTest, ManyCancelledAtAnyMomentAllEndInOrder) {
 
 TEST_F(JobLifeTest, ADeletedJobIsGoneWithAllItLeft) {
   auto client = this->client();
-  const std::string job = client.create(small_case(), v1::Job::SUCCEEDED);
+  auto request = job_of(small_case());
+  request.set_request_id("id");
+  const std::string job = client.create(request).name();
+  expect_success(client, job);
   ASSERT_TRUE(std::filesystem::exists(folder_of(job) / "result.h5"));
   ASSERT_TRUE(client.remove(job).ok());
   EXPECT_FALSE(std::filesystem::exists(folder_of(job)));
   EXPECT_EQ(client.remove(job).error_code(), grpc::StatusCode::NOT_FOUND);
   EXPECT_EQ(client.watch(job).status.error_code(), grpc::StatusCode::NOT_FOUND);
   EXPECT_TRUE(client.list().empty());
-  EXPECT_EQ(client.create(small_case()), "jobs/2") << "Its number is not used again.";
+  EXPECT_EQ(client.create(request).name(), "jobs/2") << "Its request_id is free, its number is not used again.";
 }
 
 TEST_F(JobLifeTest, AFolderThatADeletionLeftBehindGoesAtTheNextStart) {

@@ -116,22 +116,12 @@ TEST_F(JobSearchTest, ConditionsNarrowEachOther) {
   EXPECT_THAT(found(filter_of({}, "", "one", "")), ElementsAre(third)) << "Its labels went with it.";
 }
 
-TEST_F(JobSearchTest, ARequestIdIsItsOwnersOwn) {
-  v1::Job of_anna;
-  of_anna.set_owner("anna");
-  v1::Job of_bob;
-  of_bob.set_owner("bob");
-  const auto first = journal_->create_job(of_anna, "id", "hash of anna");
-  const auto second = journal_->create_job(of_bob, "id", "hash of bob");
-  EXPECT_TRUE(second.is_new);
-  EXPECT_EQ(journal_->create_job(of_anna, "id", "hash of anna").job, first.job);
-  EXPECT_EQ(journal_->create_job(of_bob, "id", "hash of bob").job, second.job);
-  EXPECT_THROW(journal_->create_job(of_bob, "id", "another"), ServiceError);
+TEST_F(JobSearchTest, ARequestIdOfASweepIsItsOwnersOwn) {
   v1::Sweep sweep;
   sweep.set_owner("anna");
-  const auto sweep_of_anna = journal_->create_sweep(sweep, {SweepJob()}, "id", "hash of anna");
+  const auto of_anna = journal_->create_sweep(sweep, {SweepJob()}, "id", "hash of anna");
   sweep.set_owner("bob");
-  EXPECT_NE(journal_->create_sweep(sweep, {SweepJob()}, "id", "hash of bob").sweep, sweep_of_anna.sweep);
+  EXPECT_NE(journal_->create_sweep(sweep, {SweepJob()}, "id", "hash of bob").sweep, of_anna.sweep);
 }
 
 TEST_F(JobSearchTest, ARequestThatAVersionWithoutOwnersMadeIsThatOfTheLocalCaller) {

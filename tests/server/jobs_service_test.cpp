@@ -1,8 +1,5 @@
 #include <gmock/gmock.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "google/rpc/status.pb.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
@@ -86,8 +83,7 @@ TEST_F(JobsServiceTest, UnknownNamesAreNotFound) {
 TEST_F(JobsServiceTest, ADownloadIsTheFileFromAnyOffset) {
   const std::string job = finished_job();
   auto client = this->client();
-  std::ifstream file(result_path(job), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = text_of_file(result_path(job));
   ASSERT_GT(bytes.size(), 10'000U);
   grpc::Status status;
   for (const std::size_t offset : {std::size_t{0}, std::size_t{4567}, bytes.size()}) {
@@ -113,6 +109,7 @@ TEST_F(JobsServiceTest, FramesAreFoundByIndexStrainAndTime) {
     EXPECT_TRUE(status.ok()) << status.error_message();
     EXPECT_EQ(frame.position_mm_size(), 2 * mesh.particle_count());
     EXPECT_EQ(frame.plastic_fraction_size(), mesh.thickness_mm_size());
+    for (const int node : mesh.element_nodes()) EXPECT_TRUE(node >= 0 && node < mesh.particle_count()) << node;
     return frame.index();
   };
   EXPECT_EQ(index(), last);

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 
@@ -28,10 +27,7 @@ class ReportLogTest : public ::testing::Test {
 
   [[nodiscard]] std::filesystem::path path() const { return folder_.path() / "reports"; }
 
-  [[nodiscard]] std::string bytes() const {
-    std::ifstream file(path(), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
+  [[nodiscard]] std::string bytes() const { return testing::text_of_file(path()); }
 
   void write_bytes(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
 

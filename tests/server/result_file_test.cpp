@@ -237,19 +237,12 @@ TEST_F(ChangedResultTest, AColumnThatAnEarlierVersionLackedIsZero) {
 
 TEST_F(ChangedResultTest, OneChangedByteAnywhereIsFoundBeforeHdf5ReadsIt) {
   file_ = Hdf5Handle();
-  std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
-  const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path_));
-  for (const std::streamoff offset : {std::streamoff{0}, std::streamoff{25}, std::streamoff{511}, std::streamoff{512},
-                                      size / 3, size / 2, size - 1}) {
-    const auto put = [&](int change) {
-      file.seekg(offset);
-      const int byte = file.get();
-      file.seekp(offset);
-      file.put(static_cast<char>(byte ^ change)).flush();
-    };
-    put(1);
+  const auto size = std::filesystem::file_size(path_);
+  for (const auto offset : {std::uintmax_t{0}, std::uintmax_t{25}, std::uintmax_t{511}, std::uintmax_t{512}, size / 3,
+                            size / 2, size - 1}) {
+    testing::flip_bits(path_, offset);
     EXPECT_THROW(ResultReader{path_}, ServiceError) << offset;
-    put(1);
+    testing::flip_bits(path_, offset);
   }
   EXPECT_EQ(ResultReader(path_).frame_times().size(), 4U);
 }

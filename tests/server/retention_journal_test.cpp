@@ -25,34 +25,12 @@ class RetentionJournalTest : public JournalTest {
     reader_.emplace(path());
   }
 
-  std::int64_t end_of(std::int64_t job) {
-    for (const auto& ended : reader_->ended_jobs({}, 100)) {
-      if (ended.job == job) return ended.ended_at;
-    }
-    return -1;
-  }
-
   Journal::CreatedSweep make_sweep(int jobs) {
     return journal_->create_sweep({}, std::vector<SweepJob>(static_cast<std::size_t>(jobs)), "id", "hash");
   }
 
   std::int64_t uptime_ = 1000;
 };
-
-TEST_F(RetentionJournalTest, AnEndIsCountedByTheTimeInWhichADaemonServed) {
-  const auto first = create();
-  uptime_ += 100;
-  change(first, v1::Job::CANCELLED);
-  EXPECT_EQ(end_of(first), 100);
-  reader_.reset();
-  journal_.reset();
-  // The machine was started again and ran for long before the daemon did.
-  uptime_ = 1'000'000;
-  reopen_on_clock();
-  EXPECT_EQ(journal_->service_seconds(), 100);
-  uptime_ += 7;
-  EXPECT_EQ(journal_->service_seconds(), 107);
-}
 
 TEST_F(RetentionJournalTest, ADaemonThatWasKilledIsContinuedFromTheNewestEnd) {
   const auto job = create();
@@ -65,35 +43,6 @@ TEST_F(RetentionJournalTest, ADaemonThatWasKilledIsContinuedFromTheNewestEnd) {
       path(), [](std::int64_t) {}, GroupCommit::Committed(), [] { return std::chrono::seconds(5); });
   EXPECT_EQ(other.service_seconds(), 50);
   reader_.emplace(path());
-}
-
-TEST_F(RetentionJournalTest, WhatAJobTakesIsMeasuredOnceItHasEnded) {
-  const auto job = create();
-  const auto before = reader_->bytes_of_owner("");
-  EXPECT_GT(before, 0);
-  EXPECT_THAT(reader_->jobs_to_measure(10), IsEmpty());
-  add_sample(job, sample(1));
-  change(job, v1::Job::CANCELLED);
-  EXPECT_THAT(reader_->jobs_to_measure(10), ElementsAre(job));
-  journal_->set_measured({{job, 5'000'000}});
-  EXPECT_THAT(reader_->jobs_to_measure(10), IsEmpty());
-  EXPECT_GT(reader_->bytes_of_owner(""), before + 5'000'000);
-  EXPECT_EQ(reader_->ended_totals().count, 1);
-  EXPECT_EQ(reader_->ended_totals().bytes, reader_->bytes_of_owner(""));
-  journal_->delete_job(job);
-  EXPECT_EQ(reader_->bytes_of_owner(""), 0);
-}
-
-TEST_F(RetentionJournalTest, ASweepHasEndedWithTheLastOfItsJobs) {
-  const auto made = make_sweep(3);
-  SweepReader sweeps(path());
-  journal_->cancel_waiting({made.jobs[0], made.jobs[1]});
-  EXPECT_FALSE(sweeps.end_of(made.sweep).has_ended);
-  uptime_ += 60;
-  journal_->cancel_waiting({made.jobs[2]});
-  EXPECT_TRUE(sweeps.end_of(made.sweep).has_ended);
-  EXPECT_EQ(sweeps.end_of(made.sweep).ended_at, 60);
-  EXPECT_EQ(sweeps.end_of(made.sweep).totals.count, 3);
 }
 
 TEST_F(RetentionJournalTest, ASweepIsDeletedOnlyWhenAllItsJobsHaveEndedAndNamesThoseThatHaveNot) {

@@ -7,7 +7,6 @@
 #include "jobs/deletion.h"
 #include "server/journal_fixture.h"
 #include "store/data_folder.h"
-#include "store/journal_check.h"
 #include "store/sweep_reader.h"
 
 namespace cellcrush::store {
@@ -86,28 +85,6 @@ TEST_F(SweepJournalTest, WhatDecidesTheOrderOfWaitingJobsSurvivesReopening) {
   EXPECT_EQ(waiting[3].element_steps, 42);
   EXPECT_EQ(waiting[3].priority, 12);
   EXPECT_EQ(waiting[3].sweep, 0);
-}
-
-TEST_F(SweepJournalTest, ARetryStaysOnItsExecutor) {
-  auto jobs = three_jobs();
-  for (auto& job : jobs) job.job.set_executor("slurm/test");
-  const auto made = journal_->create_sweep({}, jobs, "", "");
-  change(made.jobs[1], v1::Job::FAILED);
-  const auto retried = journal_->retry_failed(made.sweep);
-  ASSERT_EQ(retried.size(), 1U);
-  EXPECT_EQ(retried[0].executor, "slurm/test");
-  EXPECT_EQ(reader_->find_job(retried[0].job)->job.executor(), "slurm/test");
-  EXPECT_EQ(SweepReader(path()).rows(made.sweep).rows[1].result().executor(), "slurm/test");
-}
-
-TEST_F(SweepJournalTest, ARequestIdMakesOneSweep) {
-  const auto first = journal_->create_sweep({}, three_jobs(), "id", "hash");
-  const auto second = journal_->create_sweep({}, three_jobs(), "id", "hash");
-  EXPECT_TRUE(first.is_new);
-  EXPECT_FALSE(second.is_new);
-  EXPECT_EQ(second.sweep, first.sweep);
-  EXPECT_THROW(journal_->create_sweep({}, three_jobs(), "id", "another"), ServiceError);
-  EXPECT_EQ(reader_->queued_jobs(v1::Job::PENDING).size(), 3U) << "The others made no jobs.";
 }
 
 TEST_F(SweepJournalTest, WaitingJobsAreCancelledTogetherAndDeletedOnesLeaveTheSweep) {

@@ -34,23 +34,6 @@ class SweepSourceTest : public WatchFixture {
   store::Journal::CreatedSweep made_ = journal_.create_sweep({}, std::vector<store::SweepJob>(3), "", "");
 };
 
-TEST_F(SweepSourceTest, TheSweepComesFirstThenEveryJobInItsOrderThenTheEnd) {
-  for (const std::int64_t job : made_.jobs) run(job, 600);
-  auto source = this->source();
-  const auto first = source.next();
-  EXPECT_TRUE(first->job().empty());
-  EXPECT_EQ(first->snapshot().jobs_size(), 3);
-  std::map<std::string, std::int64_t> seen;
-  std::map<std::string, int> snapshots;
-  while (const auto response = source.next()) {
-    if (response->event().has_snapshot()) ++snapshots[response->job()];
-    EXPECT_EQ(snapshots[response->job()], 1) << "Nothing comes before a job's snapshot.";
-    note(*response, seen);
-  }
-  for (const std::int64_t job : made_.jobs) EXPECT_EQ(seen["jobs/" + std::to_string(job)], 603);
-  EXPECT_TRUE(source.ended());
-}
-
 TEST_F(SweepSourceTest, EveryTokenContinuesWithoutLossAndWithoutRepetition) {
   for (const std::int64_t job : made_.jobs) run(job, 5);
   auto whole = source();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace cellcrush::testing {
 
@@ -17,5 +19,11 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// All of a file.
+std::string text_of_file(const std::filesystem::path& path);
+
+/// Changes bits of the byte at `offset`, as a bad disk would.
+void flip_bits(const std::filesystem::path& path, std::uintmax_t offset, unsigned bits = 1);
 
 }  // namespace cellcrush::testing

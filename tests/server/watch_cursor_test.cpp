@@ -32,18 +32,6 @@ class WatchCursorTest : public WatchFixture {
   std::int64_t job_ = journal_.create_job({}, "", "").job;
 };
 
-TEST_F(WatchCursorTest, ASnapshotThenEverythingInOrderThenTheEnd) {
-  change(v1::Job::RUNNING);
-  add_samples(600);
-  change(v1::Job::SUCCEEDED);
-  auto cursor = this->cursor();
-  EXPECT_TRUE(cursor.next()->has_snapshot());
-  std::int64_t last = 0;
-  while (const auto event = cursor.next()) EXPECT_EQ(event->sequence(), ++last);
-  EXPECT_EQ(last, 603);
-  EXPECT_TRUE(cursor.ended());
-}
-
 TEST_F(WatchCursorTest, WhatIsAtHandIsGivenWithoutAnotherLookIntoTheJournal) {
   change(v1::Job::RUNNING);
   add_samples(3);
@@ -93,6 +81,10 @@ TEST_F(WatchCursorTest, AMeshThatIsBuiltDuringTheWatchPrecedesTheSamplesAndComes
   EXPECT_TRUE(cursor.next()->has_sample());
   EXPECT_TRUE(cursor.next()->has_sample());
   journal_.begin_again(job_, "Restarted.");
+  EXPECT_EQ(reader_.find_job(job_)->job.attempt(), 1);
+  EXPECT_EQ(reader_.find_job(job_)->job.begun_again_sequence(), 5);
+  EXPECT_EQ(reader_.last_sampled_step(job_), -1);
+  EXPECT_FALSE(reader_.mesh(job_));
   reported_.discard(job_);
   channel->forget();
   EXPECT_TRUE(cursor.next()->has_state());
@@ -106,16 +98,6 @@ TEST_F(WatchCursorTest, AMeshThatIsBuiltDuringTheWatchPrecedesTheSamplesAndComes
     if (event->has_state() || event->has_sample()) numbers.push_back(event->sequence());
   }
   EXPECT_EQ(numbers, (std::vector<std::int64_t>{1, 2, 5})) << "The samples do not count any more.";
-}
-
-TEST_F(WatchCursorTest, AnEndedJobSendsItsMeshToALateWatchBeforeItEnds) {
-  change(v1::Job::RUNNING);
-  journal_.set_mesh(job_, v1::Mesh());
-  change(v1::Job::SUCCEEDED);
-  auto cursor = this->cursor(3);
-  EXPECT_TRUE(cursor.next()->has_snapshot());
-  EXPECT_TRUE(cursor.next()->has_mesh());
-  EXPECT_TRUE(cursor.ended());
 }
 
 TEST_F(WatchCursorTest, AFrameWakesOnlyThoseWhoWantFrames) {
@@ -138,26 +120,6 @@ TEST_F(WatchCursorTest, AFrameWakesOnlyThoseWhoWantFrames) {
   EXPECT_FALSE(channel->is_watched());
 }
 
-TEST_F(WatchCursorTest, GoesOnBehindTheNumberItIsGiven) {
-  change(v1::Job::RUNNING);
-  add_samples(10);
-  change(v1::Job::FAILED);
-  auto cursor = this->cursor(11);
-  EXPECT_EQ(cursor.next()->sequence(), 11);
-  EXPECT_EQ(cursor.next()->sequence(), 12);
-  EXPECT_EQ(cursor.next()->state().state(), v1::Job::FAILED);
-  EXPECT_TRUE(cursor.ended());
-  auto done = this->cursor(13);
-  EXPECT_FALSE(done.ended());
-  EXPECT_TRUE(done.next()->has_snapshot());
-  EXPECT_TRUE(done.ended());
-}
-
-TEST_F(WatchCursorTest, ANumberThatIsNotThereIsRefused) {
-  EXPECT_THROW(cursor(2), ServiceError);
-  EXPECT_THROW(cursor(-1), ServiceError);
-}
-
 TEST_F(WatchCursorTest, TheNewestFrameWinsAndTheGapIsTold) {
   const auto channel = hub_.open(job_);
   auto cursor = this->cursor();
@@ -170,21 +132,6 @@ TEST_F(WatchCursorTest, TheNewestFrameWinsAndTheGapIsTold) {
   EXPECT_EQ(newest->frame().frame().index(), 4);
   EXPECT_EQ(newest->frame().skipped(), 3);
   EXPECT_FALSE(cursor.next());
-}
-
-TEST_F(WatchCursorTest, TheLastFrameComesBeforeTheLastEvent) {
-  const auto channel = hub_.open(job_);
-  change(v1::Job::RUNNING);
-  auto cursor = this->cursor();
-  channel->publish(frame(7));
-  change(v1::Job::SUCCEEDED);
-  bool seen = false;
-  while (const auto event = cursor.next()) {
-    seen = seen || event->has_frame();
-    const bool last = event->has_state() && event->state().state() == v1::Job::SUCCEEDED;
-    EXPECT_TRUE(seen || !last);
-  }
-  EXPECT_TRUE(cursor.ended());
 }
 
 TEST_F(WatchCursorTest, FramesAreSentOnlyToThoseWhoAsk) {
@@ -270,26 +217,6 @@ TEST_F(WatchCursorTest, OnlySomeJobsAreKept) {
   const auto then = hub_.recent().reads();
   EXPECT_EQ(look(job_), 1U);
   EXPECT_EQ(hub_.recent().reads(), then + 1) << "The job used least recently was dropped.";
-}
-
-TEST(FrameChunks, AreTheFrameAgainWhenAppended) {
-  v1::FieldFrame frame;
-  frame.set_index(3);
-  for (int i = 0; i < 26; ++i) frame.add_position_mm(static_cast<float>(i));
-  for (int i = 0; i < 9; ++i) frame.add_plastic_fraction(static_cast<float>(i) / 10.0F);
-  const auto chunks = chunks_of(frame, 40);
-  ASSERT_EQ(chunks.size(), 4U);
-  v1::FieldFrame again;
-  again.set_index(3);
-  int part = 0;
-  for (const auto& chunk : chunks) {
-    EXPECT_EQ(chunk.part(), part++);
-    EXPECT_EQ(chunk.part_count(), 4);
-    EXPECT_LE(chunk.frame().position_mm_size() + chunk.frame().plastic_fraction_size(), 10);
-    again.mutable_position_mm()->MergeFrom(chunk.frame().position_mm());
-    again.mutable_plastic_fraction()->MergeFrom(chunk.frame().plastic_fraction());
-  }
-  EXPECT_EQ(again.SerializeAsString(), frame.SerializeAsString());
 }
 
 }  // namespace

@@ -103,8 +103,15 @@ TEST_F(WatchSweepTest, AnIdleWatchGetsBookmarksAndAWrongTokenIsRefused) {
   auto client = this->client();
   const std::string running = client.create(endless_case());
   const auto sweep = create(client, sweep_of(small_case(), kSpeed, {50.0}));
-  v1::WatchSweepRequest request;
-  request.set_name(sweep.name());
+  const auto job_context = bounded_context();
+  const auto job_reader = client.jobs->WatchJob(job_context.get(), named<v1::WatchJobRequest>(sweep.jobs(0)));
+  v1::JobEvent event;
+  do {
+    ASSERT_TRUE(job_reader->Read(&event));
+  } while (!event.has_bookmark());
+  EXPECT_EQ(event.sequence(), 1);
+  job_context->TryCancel();
+  const auto request = named<v1::WatchSweepRequest>(sweep.name());
   const auto context = bounded_context();
   const auto reader = client.sweeps->WatchSweep(context.get(), request);
   v1::WatchSweepResponse response;

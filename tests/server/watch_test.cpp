@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -56,6 +57,14 @@ TEST_F(WatchTest, AWatchIsCompleteAndEndsWhenTheResultCanBeRead) {
   }
   const store::ResultReader result(data_folder() / job / "result.h5");
   EXPECT_EQ(last_frame, static_cast<int>(result.frame_times().size()) - 1) << "The last frame is not missed.";
+  EXPECT_NEAR(result.history().back().strain(), 0.5, 0.01);
+  for (const auto& sample : result.history()) {
+    for (const double value : {sample.time_s(), sample.travel_mm(), sample.stress_impact_mpa(),
+                               sample.stress_support_mpa(), sample.energy_kinetic_mj(), sample.energy_elastic_mj(),
+                               sample.energy_plastic_mj(), sample.energy_contact_mj(), sample.energy_friction_mj(),
+                               sample.energy_damping_mj(), sample.work_external_mj(), sample.energy_residual_mj()})
+      ASSERT_TRUE(std::isfinite(value)) << sample.DebugString();
+  }
   const auto events = numbered(watched.events);
   EXPECT_GE(events.size(), 93U);
   EXPECT_EQ(events[0].state().state(), v1::Job::PENDING);
@@ -105,6 +114,7 @@ TEST_F(WatchTest, AWatchGoesOnWhereAnotherWasCutOff) {
   EXPECT_TRUE(nothing.status.ok());
   EXPECT_EQ(nothing.events.size(), 2U) << "The snapshot and the mesh.";
   EXPECT_EQ(client.watch(job, 1'000'000).status.error_code(), grpc::StatusCode::OUT_OF_RANGE);
+  EXPECT_EQ(client.watch(job, -1).status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
 }
 
 TEST_F(WatchTest, ManyWatchersLeaveRoomForOtherCalls) {
@@ -163,26 +173,6 @@ TEST_F(WatchTest, AWatchOfWhichNothingIsReadIsClosedAndGoesOnWhereItWas) {
   for (const auto& later : rest.events) contract.see(later);
   contract.end(rest.status);
   EXPECT_THAT(contract.broken(), ::testing::IsEmpty());
-}
-
-TEST_F(WatchTest, AnIdleWatchGetsBookmarks) {
-  auto options = default_options();
-  options.watch_times.bookmark_interval = milliseconds(200);
-  options.workers = 1;
-  start(options);
-  auto client = this->client();
-  client.create(endless_case());
-  const std::string waiting = client.create(small_case());
-  v1::WatchJobRequest request;
-  request.set_name(waiting);
-  const auto context = bounded_context();
-  const auto reader = client.jobs->WatchJob(context.get(), request);
-  v1::JobEvent event;
-  do {
-    ASSERT_TRUE(reader->Read(&event));
-  } while (!event.has_bookmark());
-  EXPECT_EQ(event.sequence(), 1);
-  context->TryCancel();
 }
 
 }  // namespace

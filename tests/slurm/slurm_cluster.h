@@ -8,10 +8,29 @@
 
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
-#include "slurm/kept_daemon.h"
 #include "slurm/slurm_conf.h"
 
 namespace cellcrush::testing {
+
+/// A daemon_keeper with the daemon below it; both end with the object, and with the thread that made it.
+using KeptDaemon = std::unique_ptr<e2e::Process>;
+
+/// A free port of 127.0.0.1 that only a daemon of this test is given. Daemons that set SO_REUSEADDR can bind to it, as
+/// this object does not listen.
+class ReservedPort {
+ public:
+  /// Throws std::runtime_error when no port is free.
+  ReservedPort();
+  ~ReservedPort();
+  ReservedPort(const ReservedPort&) = delete;
+  ReservedPort& operator=(const ReservedPort&) = delete;
+
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int socket_ = -1;
+  int number_ = 0;
+};
 
 /// Whether the programs of Slurm and munge that a SlurmCluster needs are here. A test without them is skipped:
 ///   if (!slurm_is_installed()) GTEST_SKIP() << kSlurmIsMissing;

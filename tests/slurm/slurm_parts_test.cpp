@@ -299,15 +299,5 @@ TEST_F(MirrorTest, PutsTheResultBeforeTheReportThatAnnouncesItAndACheckpointAfte
   EXPECT_EQ(content(to_.previous_checkpoint()), "checkpoint 1");
 }
 
-TEST_F(MirrorTest, RepeatsWhatFailed) {
-  store::ReportLog(from_.reports()).append(progress(1));
-  const store::JobFolder absent(temporary_.path() / "absent");
-  Mirror mirror(from_, absent, 0);
-  EXPECT_THROW(mirror.pass(), ServiceError);
-  fs::create_directory(absent.root());
-  EXPECT_TRUE(mirror.pass());
-  EXPECT_EQ(content(absent.reports()), content(from_.reports()));
-}
-
 }  // namespace
 }  // namespace cellcrush::slurm
