@@ -282,6 +282,8 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       // Of a sweep: paths of fields in a case, and what the daemon writes itself and takes from nobody.
       "SweepAxis.field", "SweepPoint.FieldsEntry.key", "Sweep.name", "Sweep.jobs", "Sweep.owner",
       "Sweep.StateCountsEntry.key", "Problem.field", "Problem.value", "Problem.message", "Problem.remedy",
+      "CaseWords.lattice", "CaseWords.loading", "CaseWords.theory_note", "CaseWords.Fact.heading",
+      "CaseWords.Fact.text",
       // Of a case: its title and the ids of a frame.
       "Case.title", "Frame.Node.id", "Frame.Beam.start", "Frame.Beam.end", "Frame.Support.node", "Frame.NodalLoad.node",
       "Frame.NodalMotion.node", "Frame.InitialVelocity.node", "Frame.RigidWall.id", "Frame.watched_nodes"};
