@@ -33,8 +33,9 @@ TEST(Explain, PrintsAFieldWithoutADaemon) {
       run_program({"explain", "material.plane"}).output,
       {"  Default  PLANE_STRESS\n", "Values:\n  PLANE_STRESS  Walls are free to contract along the depth.\n"});
   EXPECT_THAT(run_program({"explain", "loading"}).output,
-              HasSubstr("\n  speed_m_per_s  Speed V of the impact plate.\n"));
-  EXPECT_THAT(run_program({"explain"}).output, HasSubstr("\n  loading            How the plates move.\n"));
+              HasSubstr("\n  speed_m_per_s       Speed V of the impact plate.\n"));
+  EXPECT_THAT(run_program({"explain"}).output,
+              HasSubstr("\n  loading            What presses on the lattice, and when the run ends.\n"));
 }
 
 TEST(Explain, AnUnknownPathIsRefusedWithTheNearest) {

@@ -122,10 +122,10 @@ TEST_F(DaemonTest, AnUnknownOptionIsRefusedWithTheNearest) {
     return daemon.errors();
   };
   EXPECT_THAT(errors_of({"--wokers", "3"}),
-              HasSubstr("cellcrushd: --wokers is not an option. Did you mean \"--workers\"?"));
+              HasSubstr("cellcrushd: unknown option \"--wokers\"; did you mean \"--workers\"?"));
   EXPECT_THAT(errors_of({"token", "anna", "--scope", "read", "--scopes=admin"}),
-              HasSubstr("Did you mean \"--scope\"?"));
-  EXPECT_THAT(errors_of({"--colour=red"}), HasSubstr("--colour is not an option.\n`cellcrushd --help`"));
+              HasSubstr("did you mean \"--scope\"?"));
+  EXPECT_THAT(errors_of({"--colour=red"}), HasSubstr("unknown option \"--colour\"\nSee `cellcrushd --help`"));
 }
 
 constexpr const char* kForgery = "x\n[2030-01-01 00:00:00.000] [cellcrushd] [info] jobs/9 deleted by root";

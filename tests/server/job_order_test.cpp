@@ -8,7 +8,7 @@
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
-#include "store/sqlite.h"
+#include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -154,7 +154,7 @@ TEST_F(JobOrderTest, AQueueIsToldOfAlsoWhenASampleOfAJobInItCannotBeRead) {
   const std::string damaged = create_with_samples(client, endless_case(), 5);
   ASSERT_TRUE(client.suspend(damaged).ok());
   const std::string running = client.create(endless_case(), v1::Job::RUNNING);
-  store::Database(data_folder() / "journal.sqlite").execute("UPDATE events SET payload = x'ff' WHERE kind = 2");
+  flip_bits(data_folder() / damaged / "reports", 40);
   ASSERT_TRUE(client.resume(damaged).ok());
   const auto queue = client.queue();
   ASSERT_EQ(queue.entries_size(), 1);
