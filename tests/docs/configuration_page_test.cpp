@@ -40,7 +40,7 @@ std::string plain_numbers(const std::string& text) {
   std::istringstream words(text);
   std::string out;
   for (std::string word; words >> word;) {
-    if (std::isdigit(static_cast<unsigned char>(word.front())) != 0) word = fmt::format("{:.0f}", std::stod(word));
+    if (std::isdigit(static_cast<unsigned char>(word.front())) != 0) word = fmt::format("{}", std::stod(word));
     out += (out.empty() ? "" : " ") + word;
   }
   return out;

@@ -111,7 +111,7 @@ TEST_F(DamagedCheckpointTest, BothDamagedTheJobBeginsAnew) {
     EXPECT_THAT(log, HasSubstr(job + ": checkpoint.previous is damaged"));
     EXPECT_THAT(log, Not(HasSubstr(job + " resumes at step")));
   }
-  std::cout << count << " times both checkpoints damaged, each time begun anew with the same bits\n";
+  std::cout << count << " times both checkpoints damaged, each time begun again with the same bits\n";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the log tells of calls: those that changed something, and those that were refused.
+// What the log says about calls: those that changed something, and those that were refused.
 #include <gmock/gmock.h>
 
 #include "log_format.h"

@@ -1,4 +1,4 @@
-// What a worker tells of its time and progress.
+// What a worker reports of its time and progress.
 #include <gtest/gtest.h>
 
 #include "worker/processor_time.h"
