@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "error.h"
-#include "store/job_conditions.h"
+#include "store/job_filter.h"
 #include "store/journal_reader.h"
 
 namespace cellcrush::store {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "store/change_reader.h"
-#include "store/job_inserter.h"
+#include "store/job_rows.h"
 #include "store/journal.h"
 #include "store/resource_name.h"
 

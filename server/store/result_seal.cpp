@@ -18,7 +18,7 @@
 #include "error.h"
 #include "mutex.h"
 #include "store/durable_file.h"
-#include "store/result_dataset.h"
+#include "store/result_layout.h"
 
 namespace cellcrush::store {
 namespace {

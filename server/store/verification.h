@@ -5,7 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "store/sample_reader.h"
+#include "store/sqlite.h"
+
 namespace cellcrush::store {
+
+/// Result of checking every row of a journal.
+struct JournalFindings {
+  std::vector<std::string> problems;      ///< one or two sentences each, with the remedy
+  std::vector<std::int64_t> with_result;  ///< ended jobs with a summary, and therefore a result.h5, ascending
+  std::vector<SampleRange> with_history;  ///< the last samples of other ended jobs that have some
+  std::int64_t jobs = 0;
+  std::int64_t sweeps = 0;
+};
+
+/// Checks a journal against the daemon's assumptions: SQLite's own checks of pages, indexes and references, then every
+/// row of every table. Changes nothing and sees one moment, so that it may run beside a daemon. Throws ServiceError:
+/// failed_precondition for a later version, data_loss if the file cannot be read at all.
+JournalFindings check_journal(Database& database);
 
 /// Problems of a backup or data folder, and its contents.
 struct Verification {

@@ -12,8 +12,8 @@
 #include "server/daemon_process.h"
 #include "server/held_point.h"
 #include "server/journal_fixture.h"
-#include "store/journal_check.h"
 #include "store/sweep_reader.h"
+#include "store/verification.h"
 
 namespace cellcrush::store {
 namespace {

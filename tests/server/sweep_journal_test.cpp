@@ -7,8 +7,8 @@
 #include "jobs/deletion.h"
 #include "server/journal_fixture.h"
 #include "store/data_folder.h"
-#include "store/journal_check.h"
 #include "store/sweep_reader.h"
+#include "store/verification.h"
 
 namespace cellcrush::store {
 namespace {
