@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -75,7 +74,8 @@ class FileBackup {
     }
     std::error_code none;
     std::filesystem::remove(target_ / name_of(job) / "result.h5", none);
-    if (is_there(job)) {
+    // A job's rows are deleted before its folder.
+    if (has_job(live_, job)) {
       manifest.lost.push_back(name_of(job) + " has no result in this backup: " + problem);
       return;
     }
@@ -98,11 +98,6 @@ class FileBackup {
     file.path = name_of(job) + "/" + name;
     manifest.files.push_back(std::move(file));
     return true;
-  }
-
-  // A job's rows are deleted before its folder.
-  bool is_there(std::int64_t job) {
-    return Statement(live_, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
   }
 
   const std::filesystem::path& data_folder_;
@@ -193,8 +188,7 @@ BackupManifest take_backup(const std::filesystem::path& data_folder, const std::
 
 void restore_backup(const std::filesystem::path& backup, const std::filesystem::path& data_folder) {
   StagedFolder staged(data_folder);
-  std::ifstream file(backup / kManifestName, std::ios::binary);
-  const auto manifest = parse_manifest({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+  const auto manifest = read_manifest(backup);
   for (const auto& wanted : manifest.files) copy_whole(backup, wanted, staged.path());
   const auto path = staged.path() / "journal.sqlite";
   settle_jobs(path, manifest.created);

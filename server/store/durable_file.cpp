@@ -12,6 +12,18 @@
 
 namespace cellcrush::store {
 
+namespace {
+
+void synchronize(const std::filesystem::path& path, int flags) {
+  const int file = open(path.c_str(), flags | O_CLOEXEC);
+  if (file < 0) throw_file_error(path, "written", errno);
+  const int error = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  if (error != 0) throw_file_error(path, "written", error);
+}
+
+}  // namespace
+
 void throw_file_error(const std::filesystem::path& path, std::string_view used, int error) {
   const std::string message =
       path.string() + " cannot be " + std::string(used) + ": " + std::generic_category().message(error) + ".";
@@ -29,18 +41,6 @@ int open_to_read(const std::filesystem::path& path) {
   throw ServiceError(ServiceError::Kind::internal,
                      path.string() + " cannot be read: it is not a regular file. Move it away.");
 }
-
-namespace {
-
-void synchronize(const std::filesystem::path& path, int flags) {
-  const int file = open(path.c_str(), flags | O_CLOEXEC);
-  if (file < 0) throw_file_error(path, "written", errno);
-  const int error = fsync(file) == 0 ? 0 : errno;
-  close(file);
-  if (error != 0) throw_file_error(path, "written", error);
-}
-
-}  // namespace
 
 bool synchronize_file(const std::filesystem::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);

@@ -26,6 +26,10 @@ void add_state(Database& database, std::int64_t number, const v1::Job& job, std:
   update.bind(1, number).bind(2, job.state()).bind_blob(3, bytes).bind(4, sequence).run();
 }
 
+bool has_job(Database& database, std::int64_t job) {
+  return Statement(database, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
+}
+
 void remove_rows(Database& database, std::int64_t job) {
   for (const char* sql : {"DELETE FROM events WHERE job = ?1", "DELETE FROM meshes WHERE job = ?1",
                           "DELETE FROM sweep_jobs WHERE job = ?1", "DELETE FROM job_labels WHERE job = ?1",

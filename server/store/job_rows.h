@@ -16,6 +16,9 @@ std::string job_bytes(v1::Job job);
 /// ServiceError.
 void add_state(Database& database, std::int64_t number, const v1::Job& job, std::int64_t sequence);
 
+/// Whether the job exists. Throws ServiceError.
+bool has_job(Database& database, std::int64_t job);
+
 /// Deletes all rows of a job. REQUIRES: a transaction is open. Throws ServiceError.
 void remove_rows(Database& database, std::int64_t job);
 

@@ -63,8 +63,29 @@ std::int64_t move_samples(Database& database, const SampledJob& job, const std::
 }
 
 std::int64_t count_samples(Database& database, std::int64_t job) {
-  Statement count(database, "SELECT COUNT(*) FROM events WHERE job = ?1 AND kind = 2");
-  return count.bind(1, job).step() ? count.integer(0) : 0;
+  return Statement(database, "SELECT COUNT(*) FROM events WHERE job = ?1 AND kind = 2").bind(1, job).number();
+}
+
+// Version 6 had the samples as events. Those of an ended job go to its `history`; those of other jobs are in their
+// reports. A repetition begins anew.
+void upgrade_from_version_6(Database& database, const std::filesystem::path& data_folder) {
+  database.execute(
+      "ALTER TABLE jobs ADD COLUMN samples INTEGER NOT NULL DEFAULT 0;"
+      "ALTER TABLE jobs ADD COLUMN begun_again INTEGER NOT NULL DEFAULT 0;");
+  for (const SampledJob& job : find_sampled(database)) {
+    const std::int64_t count =
+        job.has_ended ? move_samples(database, job, data_folder) : count_samples(database, job.number);
+    Statement update(database, "UPDATE jobs SET samples = ?2, begun_again = ?3 WHERE number = ?1");
+    update.bind(1, job.number).bind(2, count).bind(3, job.begun_again_sequence).run();
+  }
+  database.execute(
+      "DROP TRIGGER note_state;"
+      "DELETE FROM events WHERE kind = 2;"
+      "ALTER TABLE events DROP COLUMN kind;"
+      "CREATE TRIGGER note_state AFTER INSERT ON events BEGIN"
+      "  INSERT INTO changes (kind, resource, sequence) VALUES (1, new.job, new.sequence);"
+      "END;"
+      "PRAGMA user_version = 7;");
 }
 
 constexpr std::int64_t kVersion = 7;
@@ -181,10 +202,7 @@ END;
 )sql";
 
 // 0 without tables.
-std::int64_t journal_version(Database& database) {
-  Statement read(database, "PRAGMA user_version");
-  return read.step() ? read.integer(0) : 0;
-}
+std::int64_t journal_version(Database& database) { return Statement(database, "PRAGMA user_version").number(); }
 
 // A killed daemon has recorded too little time. The latest end of a job then shows how far the clock was.
 std::int64_t read_service_clock(Database& database) {
@@ -195,26 +213,6 @@ std::int64_t read_service_clock(Database& database) {
 }
 
 }  // namespace
-
-void upgrade_from_version_6(Database& database, const std::filesystem::path& data_folder) {
-  database.execute(
-      "ALTER TABLE jobs ADD COLUMN samples INTEGER NOT NULL DEFAULT 0;"
-      "ALTER TABLE jobs ADD COLUMN begun_again INTEGER NOT NULL DEFAULT 0;");
-  for (const SampledJob& job : find_sampled(database)) {
-    const std::int64_t count =
-        job.has_ended ? move_samples(database, job, data_folder) : count_samples(database, job.number);
-    Statement update(database, "UPDATE jobs SET samples = ?2, begun_again = ?3 WHERE number = ?1");
-    update.bind(1, job.number).bind(2, count).bind(3, job.begun_again_sequence).run();
-  }
-  database.execute(
-      "DROP TRIGGER note_state;"
-      "DELETE FROM events WHERE kind = 2;"
-      "ALTER TABLE events DROP COLUMN kind;"
-      "CREATE TRIGGER note_state AFTER INSERT ON events BEGIN"
-      "  INSERT INTO changes (kind, resource, sequence) VALUES (1, new.job, new.sequence);"
-      "END;"
-      "PRAGMA user_version = 7;");
-}
 
 void require_known_version(Database& database) {
   const std::int64_t version = journal_version(database);

@@ -82,16 +82,12 @@ std::vector<std::int64_t> JournalReader::jobs_to_measure(int limit) {
   const MutexLock lock(mutex_);
   Statement read(database_,
                  "SELECT number FROM jobs WHERE measured = 0 AND ended_at IS NOT NULL ORDER BY number LIMIT ?1");
-  read.bind(1, limit);
-  std::vector<std::int64_t> out;
-  while (read.step()) out.push_back(read.integer(0));
-  return out;
+  return read.bind(1, limit).numbers();
 }
 
 std::int64_t JournalReader::bytes_of_owner(const std::string& owner) {
   const MutexLock lock(mutex_);
-  Statement read(database_, "SELECT COALESCE(SUM(bytes), 0) FROM jobs WHERE owner = ?1");
-  return read.bind_text(1, owner).step() ? read.integer(0) : 0;
+  return Statement(database_, "SELECT COALESCE(SUM(bytes), 0) FROM jobs WHERE owner = ?1").bind_text(1, owner).number();
 }
 
 }  // namespace cellcrush::store

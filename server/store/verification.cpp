@@ -1,8 +1,6 @@
 #include "store/verification.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "cellcrush/v1/event.pb.h"
@@ -10,11 +8,13 @@
 #include "cellcrush/v1/sweeps_service.pb.h"
 #include "error.h"
 #include "store/backup_manifest.h"
+#include "store/job_rows.h"
 #include "store/job_state.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
 #include "store/resource_name.h"
 #include "store/result_seal.h"
+#include "store/sample_reader.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -22,6 +22,17 @@ namespace {
 
 constexpr std::size_t kMostProblems = 1000;
 
+// Result of checking every row of a journal.
+struct JournalFindings {
+  std::vector<std::string> problems;
+  std::vector<std::int64_t> with_result;  // ended jobs with a summary, and therefore a result.h5, ascending
+  std::vector<SampleRange> with_history;  // the last samples of other ended jobs that have some
+  std::int64_t jobs = 0;
+  std::int64_t sweeps = 0;
+};
+
+// Checks a journal against the daemon's assumptions: SQLite's own checks of pages, indexes and references, then every
+// row of every table. Sees one moment, so that it may run beside a daemon.
 class JournalCheck {
  public:
   explicit JournalCheck(Database& database) : database_(database) {}
@@ -127,11 +138,6 @@ class JournalCheck {
 
 std::string result_path(std::int64_t job) { return name_of(job) + "/result.h5"; }
 
-BackupManifest manifest_in(const std::filesystem::path& folder) {
-  std::ifstream file(folder / kManifestName, std::ios::binary);
-  return parse_manifest({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
-}
-
 // Checks that every file of the manifest exists with its bytes.
 void check_files(const std::filesystem::path& folder, const BackupManifest& manifest, Verification& out) {
   for (const auto& wanted : manifest.files) {
@@ -163,10 +169,6 @@ bool has_history(const std::filesystem::path& folder, const SampleRange& last) {
   } catch (const ServiceError&) {
     return false;
   }
-}
-
-bool has_job(Database& journal, std::int64_t job) {
-  return Statement(journal, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
 }
 
 void check_results(const std::filesystem::path& folder, Database& journal, const JournalFindings& found,
@@ -205,8 +207,6 @@ void note_strangers(const std::filesystem::path& folder, Database& journal, Veri
 
 }  // namespace
 
-JournalFindings check_journal(Database& database) { return JournalCheck(database).run(); }
-
 Verification verify_folder(const std::filesystem::path& folder) {
   Verification out;
   const auto path = folder / "journal.sqlite";
@@ -220,7 +220,7 @@ Verification verify_folder(const std::filesystem::path& folder) {
   }
   std::set<std::string> lost;
   if (out.is_backup) {
-    const auto manifest = manifest_in(folder);
+    const auto manifest = read_manifest(folder);
     out.created = manifest.created;
     check_files(folder, manifest, out);
     for (const auto& sentence : manifest.lost) {
@@ -231,7 +231,7 @@ Verification verify_folder(const std::filesystem::path& folder) {
   }
   try {
     Database journal(path, Database::Access::read_only);
-    auto found = check_journal(journal);
+    auto found = JournalCheck(journal).run();
     out.jobs = found.jobs;
     out.sweeps = found.sweeps;
     out.problems = std::move(found.problems);
