@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "chart/palette.h"
+#include "chart/colour_map.h"
 #include "plots/job_curves.h"
 #include "results/energy_terms.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "chart/palette.h"
+#include "chart/colour_map.h"
 #include "chart/smoothing.h"
 #include "terminal/number_text.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "chart/palette.h"
+#include "chart/colour_map.h"
 #include "plots/job_curves.h"
 
 namespace cellcrush::client {

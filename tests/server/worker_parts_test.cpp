@@ -1,7 +1,6 @@
 // What a worker tells of its time and progress.
 #include <gtest/gtest.h>
 
-#include "worker/processor_time.h"
 #include "worker/progress_meter.h"
 #include "worker/stage_timer.h"
 
