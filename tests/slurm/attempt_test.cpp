@@ -10,6 +10,7 @@
 
 #include "server/small_case.h"
 #include "server/temporary_folder.h"
+#include "slurm/attempt_exit.h"
 #include "slurm/attempt_folder.h"
 #include "slurm/attempt_run.h"
 #include "slurm/executor_run.h"
