@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "case_file/parse_case.h"
 #include "case_file/set_field.h"
 #include "command_error.h"
 #include "connection/connection.h"

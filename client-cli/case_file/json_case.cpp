@@ -4,8 +4,8 @@
 #include <regex>
 #include <sstream>
 
+#include "case_file/case_source.h"
 #include "case_file/field_names.h"
-#include "case_file/parse_case.h"
 #include "command_error.h"
 
 namespace cellcrush::client {

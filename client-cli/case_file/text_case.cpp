@@ -8,8 +8,8 @@
 #include <regex>
 #include <utility>
 
+#include "case_file/case_source.h"
 #include "case_file/field_names.h"
-#include "case_file/parse_case.h"
 #include "command_error.h"
 
 namespace cellcrush::client {

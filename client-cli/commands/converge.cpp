@@ -6,7 +6,6 @@
 #include "commands/commands.h"
 #include "commands/sweep_axis.h"
 #include "commands/watch.h"
-#include "terminal/convergence_text.h"
 #include "terminal/number_text.h"
 #include "terminal/sweep_text.h"
 #include "terminal/terminal.h"

@@ -8,7 +8,7 @@
 
 #include "commands/commands.h"
 #include "commands/history_csv.h"
-#include "connection/pages.h"
+#include "connection/connection.h"
 #include "terminal/case_text.h"
 #include "terminal/number_text.h"
 #include "terminal/output_file.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "commands/commands.h"
-#include "connection/pages.h"
+#include "connection/connection.h"
 #include "terminal/sweep_text.h"
 #include "terminal/table.h"
 #include "terminal/terminal.h"

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "commands/commands.h"
+#include "connection/connection.h"
 #include "connection/frames.h"
-#include "connection/pages.h"
 #include "plots/job_picture.h"
 #include "terminal/output_file.h"
 #include "terminal/terminal.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "commands/commands.h"
-#include "connection/interruption.h"
+#include "connection/streams.h"
 #include "terminal/job_list_text.h"
 #include "terminal/terminal.h"
 

@@ -4,7 +4,7 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
-#include "connection/pages.h"
+#include "connection/connection.h"
 #include "terminal/case_text.h"
 #include "terminal/job_list_text.h"
 #include "terminal/job_text.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "commands/commands.h"
-#include "connection/pages.h"
+#include "connection/connection.h"
 #include "terminal/job_text.h"
 #include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_table.h"

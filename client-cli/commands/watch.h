@@ -5,7 +5,7 @@
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sweep.pb.h"
 #include "commands/commands.h"
-#include "connection/interruption.h"
+#include "connection/streams.h"
 
 namespace cellcrush::client {
 

@@ -16,7 +16,6 @@
 #include "usage/suggestion.h"
 
 namespace cellcrush::client {
-
 namespace {
 
 constexpr std::string_view kPreset = "preset:";
@@ -182,6 +181,26 @@ void Connection::require_server() {
     if (!connected_) reason = last_failure();
   }
   if (!connected_) throw CommandError(ExitCode::no_connection, connection_failure_text(address_, credentials_, reason));
+}
+
+v1::GetHistoryResponse fetch_history(Connection& connection, const std::string& job) {
+  v1::GetHistoryRequest request;
+  request.set_name(job);
+  return call_for_pages(connection, connection.jobs(), &v1::Jobs::Stub::GetHistory, request);
+}
+
+v1::Job fetch_job(Connection& connection, const std::string& name) {
+  return connection.call_for(name, connection.jobs(), &v1::Jobs::Stub::GetJob);
+}
+
+v1::Sweep fetch_sweep(Connection& connection, const std::string& name) {
+  return connection.call_for(name, connection.sweeps(), &v1::Sweeps::Stub::GetSweep);
+}
+
+v1::SweepTable fetch_table(Connection& connection, const std::string& sweep) {
+  v1::GetSweepTableRequest request;
+  request.set_name(sweep);
+  return call_for_pages(connection, connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
 }
 
 }  // namespace cellcrush::client

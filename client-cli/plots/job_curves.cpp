@@ -3,16 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "chart/palette.h"
+#include "chart/colour_map.h"
 #include "chart/smoothing.h"
+#include "results/energy_terms.h"
 #include "terminal/number_text.h"
 
 namespace cellcrush::client {
-
 namespace {
+
+constexpr double kJoulePerMillijoule = 1e-3;
+
+// Of the terms in turn; once all are used they come again, dashed. Plastic work, the first, is red.
+LineStyle style_of(std::size_t term) {
+  constexpr std::array<std::size_t, 6> kColours = {1, 0, 2, 3, 4, 5};
+  static_assert(kColours.size() == kSeriesColours.size());
+  const bool again = term >= kColours.size();
+  return {kSeriesColours[kColours[term % kColours.size()]], 1.8, again ? std::vector{6.0, 3.0} : std::vector<double>{}};
+}
 
 constexpr double kSmoothingWindow = 0.02;
 struct PlateCurves {
@@ -89,7 +103,99 @@ std::string theory_name(const char* theory, double stress, const Chart& chart) {
   return fmt::format("{}: {} MPa{}", theory, number_text(stress), stress > chart.y.high ? ", beyond the chart" : "");
 }
 
+// A curve in its own colour, dashed once all colours are used.
+void add_curve(Chart& chart, std::vector<double> x, std::vector<double> y, std::string name) {
+  const std::size_t index = chart.curves.size();
+  std::vector<double> dashes;
+  if (index >= kSeriesColours.size()) dashes = {6.0, 3.0};
+  chart.curves.push_back(
+      {std::move(x), std::move(y), {kSeriesColours[index % kSeriesColours.size()], 1.8, dashes}, std::move(name)});
+}
+
+std::vector<double> times_of(const JobHistory& history) {
+  std::vector<double> times;
+  for (const v1::Sample& sample : history.samples) times.push_back(1e3 * sample.time_s());
+  return times;
+}
+
+void add_motion(Chart& chart, const JobHistory& history, double (v1::WatchedNode::*value)() const, const char* name) {
+  int watched = 0;
+  for (const v1::Sample& sample : history.samples) watched = std::max(watched, sample.watched_size());
+  for (int node = 0; node < watched; ++node) {
+    std::vector<double> x;
+    std::vector<double> y;
+    std::string id;
+    for (const v1::Sample& sample : history.samples) {
+      if (node >= sample.watched_size()) continue;
+      id = sample.watched(node).node();
+      x.push_back(1e3 * sample.time_s());
+      y.push_back((sample.watched(node).*value)());
+    }
+    if (std::any_of(y.begin(), y.end(), [](double moved) { return moved != 0.0; })) {
+      add_curve(chart, std::move(x), std::move(y), name + (" of " + id));
+    }
+  }
+}
+
+void add_energy(Chart& chart, const JobHistory& history, double (v1::Sample::*value)() const, const char* name) {
+  std::vector<double> y;
+  for (const v1::Sample& sample : history.samples) y.push_back((sample.*value)());
+  add_curve(chart, times_of(history), std::move(y), name);
+}
+
+// Fits an axis to the data, including 0.
+void fit_axes(Chart& chart) {
+  double low = 0.0;
+  double high = 0.0;
+  double end = 0.0;
+  for (const Curve& curve : chart.curves) {
+    for (const double value : curve.y) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    for (const double time : curve.x) end = std::isfinite(time) ? std::max(end, time) : end;
+  }
+  const double room = high > low ? 0.06 * (high - low) : 1.0;
+  chart.y.low = low < 0.0 ? low - room : 0.0;
+  chart.y.high = high + room;
+  chart.x = {0.0, end > 0.0 ? end : 1.0, "time (ms)"};
+}
+
 }  // namespace
+
+Chart build_energy_chart(const JobHistory& history) {
+  Chart chart;
+  double low = 0.0;
+  double high = 0.0;
+  double strain = 0.0;
+  const auto add = [&](const std::string& name, const LineStyle& style, bool even_if_zero, const auto& energy) {
+    Curve curve{{}, {}, style, name};
+    bool any = even_if_zero;
+    for (const v1::Sample& sample : history.samples) {
+      const double value = kJoulePerMillijoule * energy(sample);
+      if (!std::isfinite(sample.strain() + value)) continue;
+      curve.x.push_back(sample.strain());
+      curve.y.push_back(value);
+      any = any || value != 0.0;
+      low = std::min(low, value);
+      high = std::max(high, value);
+      strain = std::max(strain, sample.strain());
+    }
+    if (any) chart.curves.push_back(std::move(curve));
+  };
+  add("work of the plates", {kInk, 2.0, {}}, false, [](const v1::Sample& sample) { return sample.work_external_mj(); });
+  std::size_t number = 0;
+  for (const EnergyTerm& term : energy_terms_of(*v1::Sample::descriptor()))
+    add(term.label, style_of(number++), false, [&](const v1::Sample& sample) { return term.value(sample); });
+  add("residual", {kMutedInk, 1.4, {2.0, 3.0}}, true,
+      [](const v1::Sample& sample) { return sample.energy_residual_mj(); });
+  chart.x = {0.0, std::max(strain, 0.01), "nominal strain"};
+  const double room = high > low ? 0.06 * (high - low) : 1.0;
+  chart.y = {low < 0.0 ? low - room : 0.0, high + room, "energy (J)"};
+  chart.note = "totals since the start; the work equals the sum of the other curves";
+  return chart;
+}
 
 std::string picture_name(const v1::Job& job) {
   const std::string& title = job.case_().title();
@@ -178,6 +284,26 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
   for (const Curve& curve : curves) add_overshoot(chart, curve.x, curve.y, curve.style.colour);
   chart.note += "; solid: impact plate, dashed: support plate";
   chart.curves = std::move(curves);
+  return chart;
+}
+
+Chart build_node_chart(const JobHistory& history) {
+  Chart chart;
+  add_motion(chart, history, &v1::WatchedNode::ux_mm, "x");
+  add_motion(chart, history, &v1::WatchedNode::uy_mm, "y");
+  chart.y.label = "displacement (mm)";
+  if (chart.curves.empty()) {
+    add_motion(chart, history, &v1::WatchedNode::rotation_rad, "rotation");
+    chart.y.label = "rotation (rad)";
+  }
+  if (chart.curves.empty()) {
+    add_energy(chart, history, &v1::Sample::energy_kinetic_mj, "kinetic");
+    add_energy(chart, history, &v1::Sample::energy_elastic_mj, "elastic");
+    add_energy(chart, history, &v1::Sample::energy_plastic_mj, "plastic");
+    add_energy(chart, history, &v1::Sample::work_external_mj, "work done on the frame");
+    chart.y.label = "energy (mJ)";
+  }
+  fit_axes(chart);
   return chart;
 }
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "chart/palette.h"
+#include "chart/colour_map.h"
 #include "command_error.h"
 #include "results/field_value.h"
 #include "results/sweep_results.h"

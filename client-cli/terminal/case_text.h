@@ -7,6 +7,10 @@
 
 namespace cellcrush::client {
 
+/// Predicted cost and error of a case at each fidelity, as a table with a line about the errors; empty without
+/// fidelities.
+std::string fidelity_text(const v1::CheckCaseResponse& check, int width);
+
 /// Summary of a case in one line: "hexagons, 74 x 21 cells, crushed along X at 100 m/s to strain 0.8".
 std::string scene_text(const v1::CaseWords& words);
 

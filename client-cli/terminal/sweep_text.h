@@ -17,4 +17,10 @@ std::string description_text(const v1::Sweep& sweep, int width = terminal_width(
 /// One row per sweep, with a heading; common values follow the table.
 std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps, int width = terminal_width());
 
+/// "1 run", "15 runs".
+std::string run_count_text(int count);
+
+/// The estimates of each quantity by mesh, what the errors are, and the mesh that meets the wanted error.
+std::string convergence_text(const v1::Convergence& convergence, int width);
+
 }  // namespace cellcrush::client

@@ -1,15 +1,19 @@
 #include "command_line/daemon_flags.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <istream>
 #include <memory>
 #include <stdexcept>
 
 #include "access/token_file.h"
-#include "command_line/checked_config.h"
 #include "slurm/cluster_options.h"
+#include "usage/command_entries.h"
+#include "usage/suggestion.h"
 
 namespace cellcrush {
 namespace {
@@ -37,6 +41,35 @@ std::string cluster_problem(const std::string& text) {
     return "cannot be used: " + std::string(problem.what());
   }
 }
+
+// Reads a TOML file of options and rejects a key that is not an option. Otherwise a misspelt key would silently leave a
+// default in force.
+class CheckedConfig final : public CLI::ConfigTOML {
+ public:
+  // `app` defines the options and outlives this object.
+  explicit CheckedConfig(const CLI::App& app) : app_(app) {}
+
+  std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+    auto found = CLI::ConfigTOML::from_config(input);
+    for (const auto& item : found) {
+      const std::string key = item.fullname();
+      // How the reader represents the start and end of a table.
+      const bool is_mark = item.name == "++" || item.name == "--";
+      if (is_mark || (item.parents.empty() && app_.get_option_no_throw("--" + key) != nullptr)) continue;
+      std::vector<std::string> names;
+      for (const OptionEntry& option : option_entries(app_)) names.push_back(option.names.back().substr(2));
+      const std::string nearest = find_nearest(key, names);
+      const std::string remedy =
+          nearest.empty() ? "cellcrushd --help lists all options." : fmt::format("Did you mean \"{}\"?", nearest);
+      throw CLI::ConfigError(fmt::format("the --config file sets \"{}\", which is not an option. {}", key, remedy),
+                             CLI::ExitCodes::ConfigError);
+    }
+    return found;
+  }
+
+ private:
+  const CLI::App& app_;
+};
 
 }  // namespace
 

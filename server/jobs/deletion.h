@@ -54,7 +54,7 @@ class Deletion {
 };
 
 /// Deletes ended jobs that are too old or too many, oldest first. A sweep is kept or deleted as a whole and ends with
-/// its last job. Ages follow the service clock (store/service_clock.h). Therefore neither a wrong wall clock nor time
+/// its last job. Ages follow the service clock (store::ServiceClock). Therefore neither a wrong wall clock nor time
 /// without a daemon ages anything. Not thread-safe.
 class Retention {
  public:

@@ -7,7 +7,7 @@
 #include "store/result_writer.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
-#include "translate/fidelities.h"
+#include "translate/measured_errors.h"
 #include "translate/presets.h"
 
 namespace cellcrush::rpc {

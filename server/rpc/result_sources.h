@@ -10,7 +10,7 @@
 #include "jobs/frame_series.h"
 #include "rpc/service_parts.h"
 #include "rpc/stream_state.h"
-#include "store/input_file.h"
+#include "store/durable_file.h"
 #include "store/result_reader.h"
 
 namespace cellcrush::rpc {

@@ -1,5 +1,6 @@
 #include "store/backup_manifest.h"
 
+#include <absl/strings/escaping.h>
 #include <fcntl.h>
 #include <google/protobuf/util/time_util.h>
 #include <openssl/evp.h>
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <string_view>
@@ -31,13 +34,7 @@ class Digest {
     std::string digest(EVP_MAX_MD_SIZE, '\0');
     unsigned size = 0;
     EVP_DigestFinal_ex(context_.get(), reinterpret_cast<unsigned char*>(digest.data()), &size);
-    constexpr const char* kDigitsOfBytes = "0123456789abcdef";
-    std::string out;
-    for (const char byte : digest.substr(0, size)) {
-      out.push_back(kDigitsOfBytes[static_cast<unsigned char>(byte) >> 4U]);
-      out.push_back(kDigitsOfBytes[static_cast<unsigned char>(byte) & 0xFU]);
-    }
-    return out;
+    return absl::BytesToHexString(digest.substr(0, size));
   }
 
  private:
@@ -96,7 +93,9 @@ std::string text_of(const BackupManifest& manifest) {
   return out + "end " + digest_of_text(out) + "\n";
 }
 
-BackupManifest parse_manifest(const std::string& text) {
+BackupManifest read_manifest(const std::filesystem::path& backup) {
+  std::ifstream stream(backup / kManifestName, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   const auto end = text.rfind("end ");
   if (end == std::string::npos || text.substr(end) != "end " + digest_of_text(text.substr(0, end)) + "\n")
     throw damaged_manifest();

@@ -26,8 +26,8 @@ inline constexpr const char* kManifestName = "MANIFEST";
 
 std::string text_of(const BackupManifest& manifest);
 
-/// Throws ServiceError (data_loss) for a text that text_of did not write.
-BackupManifest parse_manifest(const std::string& text);
+/// Reads the manifest of a backup. Throws ServiceError (data_loss) for a text that text_of did not write.
+BackupManifest read_manifest(const std::filesystem::path& backup);
 
 /// SHA-256 of a file, in hexadecimal, and its size. Also copies the file to `copy` unless that is empty. Throws
 /// ServiceError.

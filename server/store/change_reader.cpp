@@ -19,8 +19,7 @@ bool ChangeReader::has_after(std::int64_t change, const Stamp& stamp) {
 }
 
 std::int64_t ChangeReader::read_last() {
-  Statement read(database_, "SELECT COALESCE(MAX(number), 0) FROM changes");
-  return read.step() ? read.integer(0) : 0;
+  return Statement(database_, "SELECT COALESCE(MAX(number), 0) FROM changes").number();
 }
 
 bool ChangeReader::has_all_after(std::int64_t change) {

@@ -1,5 +1,7 @@
 #include "store/epoch.h"
 
+#include <fmt/format.h>
+
 #include <random>
 
 namespace cellcrush::store {
@@ -17,11 +19,8 @@ void set_fact(Database& database, const std::string& name, const std::string& va
 
 // Sixteen hexadecimal digits.
 std::string random_id() {
-  constexpr const char* kHexadecimal = "0123456789abcdef";
   std::random_device random;
-  std::string out;
-  for (int i = 0; i < 16; ++i) out.push_back(kHexadecimal[random() % 16U]);
-  return out;
+  return fmt::format("{:08x}{:08x}", random(), random());
 }
 
 }  // namespace

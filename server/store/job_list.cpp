@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "error.h"
-#include "store/job_conditions.h"
+#include "store/job_filter.h"
 #include "store/journal_reader.h"
 
 namespace cellcrush::store {
@@ -71,8 +71,7 @@ std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool n
 
 std::int64_t JournalReader::newest_number() {
   const MutexLock lock(mutex_);
-  Statement read(database_, "SELECT COALESCE(MAX(number), 0) FROM jobs");
-  return read.step() ? read.integer(0) : 0;
+  return Statement(database_, "SELECT COALESCE(MAX(number), 0) FROM jobs").number();
 }
 
 }  // namespace cellcrush::store

@@ -1,5 +1,13 @@
 #include "store/job_rows.h"
 
+#include <google/protobuf/util/time_util.h>
+
+#include <memory>
+#include <utility>
+
+#include "store/job_filter.h"
+#include "store/queued_job.h"
+
 namespace cellcrush::store {
 
 std::string job_bytes(v1::Job job) {
@@ -18,11 +26,51 @@ void add_state(Database& database, std::int64_t number, const v1::Job& job, std:
   update.bind(1, number).bind(2, job.state()).bind_blob(3, bytes).bind(4, sequence).run();
 }
 
+bool has_job(Database& database, std::int64_t job) {
+  return Statement(database, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
+}
+
 void remove_rows(Database& database, std::int64_t job) {
   for (const char* sql : {"DELETE FROM events WHERE job = ?1", "DELETE FROM meshes WHERE job = ?1",
                           "DELETE FROM sweep_jobs WHERE job = ?1", "DELETE FROM job_labels WHERE job = ?1",
                           "DELETE FROM jobs WHERE number = ?1"})
     Statement(database, sql).bind(1, job).run();
+}
+
+JobInserter::JobInserter(Database& database)
+    : database_(database),
+      job_(database,
+           "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence, priority, "
+           "submission, element_steps, owner, title, bytes, executor) "
+           "VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8, ?9, ?10, ?11, ?12)"),
+      event_(database, "INSERT INTO events (job, sequence, payload) VALUES (?1, 1, ?2)"),
+      label_(database, "INSERT INTO job_labels (key, value, job) VALUES (?1, ?2, ?3)") {}
+
+std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
+  job.set_state(v1::Job::PENDING);
+  if (job.executor().empty()) job.set_executor(kLocalExecutor);
+  *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  // Removed temporarily, so that the bytes are made without copying it.
+  const std::unique_ptr<v1::Case> submitted(job.release_case_());
+  if (submitted) job.set_title(submitted->title());
+  const std::string bytes = job_bytes(job);
+  const std::string case_bytes = submitted ? submitted->SerializeAsString() : "";
+  job_.bind(1, v1::Job::PENDING).bind_blob(2, bytes).bind_blob(3, case_bytes);
+  if (entry.request_id.empty()) {
+    job_.bind_null(4).bind_null(5);
+  } else {
+    job_.bind_text(4, entry.request_id).bind_text(5, entry.request_hash);
+  }
+  job_.bind(6, job.priority()).bind(8, entry.element_steps).bind_text(9, job.owner());
+  job_.bind_text(10, submitted ? folded_title(submitted->title()) : "");
+  job_.bind(11, static_cast<std::int64_t>(case_bytes.size() + 2 * bytes.size()));
+  job_.bind_text(12, executor_column(job.executor()));
+  entry.submission ? job_.bind(7, *entry.submission) : job_.bind_null(7);
+  job_.run();
+  const std::int64_t number = database_.last_number();
+  event_.bind(1, number).bind_blob(2, bytes).run();
+  for (const auto& [key, value] : job.labels()) label_.bind_text(1, key).bind_text(2, value).bind(3, number).run();
+  return number;
 }
 
 }  // namespace cellcrush::store

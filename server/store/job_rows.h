@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "cellcrush/v1/job.pb.h"
@@ -15,7 +16,33 @@ std::string job_bytes(v1::Job job);
 /// ServiceError.
 void add_state(Database& database, std::int64_t number, const v1::Job& job, std::int64_t sequence);
 
+/// Whether the job exists. Throws ServiceError.
+bool has_job(Database& database, std::int64_t job);
+
 /// Deletes all rows of a job. REQUIRES: a transaction is open. Throws ServiceError.
 void remove_rows(Database& database, std::int64_t job);
+
+/// What the journal stores about a new job beside the job itself.
+struct JobEntry {
+  std::string request_id;  ///< empty: no id
+  std::string request_hash;
+  std::optional<std::int64_t> submission;  ///< first job submitted with it; nothing: this one
+  std::int64_t element_steps = 0;          ///< elements times steps of the run
+};
+
+/// Adds PENDING jobs with their first event to the journal. Prepares its statements once. Lives within a transaction.
+class JobInserter {
+ public:
+  explicit JobInserter(Database& database);
+
+  /// Returns the new job's number. A job that names no executor is local.
+  std::int64_t insert(v1::Job job, const JobEntry& entry);
+
+ private:
+  Database& database_;
+  Statement job_;
+  Statement event_;
+  Statement label_;
+};
 
 }  // namespace cellcrush::store

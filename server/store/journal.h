@@ -15,15 +15,33 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sweep.pb.h"
+#include "clocks.h"
 #include "mutex.h"
 #include "store/epoch.h"
 #include "store/group_commit.h"
 #include "store/journal_upkeep.h"
 #include "store/queued_job.h"
-#include "store/service_clock.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
+
+/// Seconds during which daemons have served a journal. It advances with the machine's uptime while a daemon serves, and
+/// stands still otherwise. The wall clock does not affect it, so that a wrong clock makes nothing old. Thread-safe.
+class ServiceClock {
+ public:
+  /// `before`: seconds counted by earlier daemons.
+  ServiceClock(std::int64_t before, Clocks::Source uptime)
+      : before_(before), uptime_(std::move(uptime)), start_(uptime_()) {}
+
+  [[nodiscard]] std::int64_t seconds() const {
+    return before_ + std::chrono::duration_cast<std::chrono::seconds>(uptime_() - start_).count();
+  }
+
+ private:
+  std::int64_t before_;
+  Clocks::Source uptime_;
+  std::chrono::nanoseconds start_;
+};
 
 /// A change of a job's state, with its details. Fields that do not apply stay empty.
 struct StateChange {
@@ -142,7 +160,7 @@ class Journal {
 
   [[nodiscard]] const Epoch& epoch() const { return epoch_; }
 
-  /// Seconds of the service clock (service_clock.h).
+  /// Seconds of the service clock (ServiceClock).
   [[nodiscard]] std::int64_t service_seconds() const { return clock_.seconds(); }
 
   /// Makes the service clock durable. A daemon that is killed loses the time served since the last call.

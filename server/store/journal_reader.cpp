@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "error.h"
+#include "store/job_rows.h"
 #include "store/journal_mending.h"
 #include "store/resource_name.h"
 
@@ -78,15 +79,12 @@ std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
 
 bool JournalReader::has_job(std::int64_t job) {
   const MutexLock lock(mutex_);
-  return Statement(database_, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
+  return store::has_job(database_, job);
 }
 
 std::vector<std::int64_t> JournalReader::deleted_jobs() {
   const MutexLock lock(mutex_);
-  Statement read(database_, "SELECT number FROM deleted_jobs ORDER BY number");
-  std::vector<std::int64_t> out;
-  while (read.step()) out.push_back(read.integer(0));
-  return out;
+  return Statement(database_, "SELECT number FROM deleted_jobs ORDER BY number").numbers();
 }
 
 JournalReader::Numbers JournalReader::numbers_of(std::int64_t job) {

@@ -11,7 +11,6 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "mutex.h"
-#include "store/ended_job.h"
 #include "store/epoch.h"
 #include "store/job_filter.h"
 #include "store/page_room.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "store/change_reader.h"
-#include "store/job_inserter.h"
+#include "store/job_rows.h"
 #include "store/journal.h"
 #include "store/resource_name.h"
 
@@ -210,10 +210,7 @@ std::vector<std::int64_t> Journal::jobs_of_sweep_in(std::int64_t sweep, v1::Job:
   Statement read(database_,
                  "SELECT jobs.number FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
                  "WHERE sweep_jobs.sweep = ?1 AND jobs.state = ?2 ORDER BY sweep_jobs.position");
-  read.bind(1, sweep).bind(2, state);
-  std::vector<std::int64_t> out;
-  while (read.step()) out.push_back(read.integer(0));
-  return out;
+  return read.bind(1, sweep).bind(2, state).numbers();
 }
 
 std::vector<std::int64_t> Journal::cancel_waiting(const std::vector<std::int64_t>& jobs) {

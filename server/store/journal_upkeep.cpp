@@ -17,17 +17,14 @@ constexpr int kCheckpointPatience = 200;
 
 constexpr std::int64_t kLargestRewritten = 256 * 1024 * 1024;
 
-std::int64_t value_of(Database& database, const char* pragma) {
-  Statement read(database, pragma);
-  return read.step() ? read.integer(0) : 0;
-}
-
 }  // namespace
 
 void prepare_giving_back(Database& database) {
   constexpr std::int64_t kIncremental = 2;
-  if (value_of(database, "PRAGMA auto_vacuum") == kIncremental) return;
-  if (value_of(database, "PRAGMA page_count") * value_of(database, "PRAGMA page_size") > kLargestRewritten) return;
+  if (Statement(database, "PRAGMA auto_vacuum").number() == kIncremental) return;
+  if (Statement(database, "PRAGMA page_count").number() * Statement(database, "PRAGMA page_size").number() >
+      kLargestRewritten)
+    return;
   try {
     database.execute("PRAGMA auto_vacuum=INCREMENTAL; VACUUM;");
   } catch (const std::exception& error) {
@@ -54,15 +51,15 @@ void JournalUpkeep::run(const std::stop_token& stop, std::chrono::milliseconds i
 }
 
 void JournalUpkeep::give_back_pages(const std::stop_token& stop) {
-  const std::int64_t page = value_of(database_, "PRAGMA page_size");
-  while (!stop.stop_requested() && value_of(database_, "PRAGMA freelist_count") * page > kKeptBytes) {
-    const std::int64_t before = value_of(database_, "PRAGMA page_count");
+  const std::int64_t page = Statement(database_, "PRAGMA page_size").number();
+  while (!stop.stop_requested() && Statement(database_, "PRAGMA freelist_count").number() * page > kKeptBytes) {
+    const std::int64_t before = Statement(database_, "PRAGMA page_count").number();
     {
       Statement vacuum(database_, kSomePages);
       while (vacuum.step()) continue;
     }
     // A journal of an earlier version cannot return its pages.
-    if (value_of(database_, "PRAGMA page_count") >= before) return;
+    if (Statement(database_, "PRAGMA page_count").number() >= before) return;
     give_back_wal();
   }
 }

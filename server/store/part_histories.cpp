@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "store/result_dataset.h"
 #include "store/result_layout.h"
 
 namespace cellcrush::store {

@@ -1,5 +1,5 @@
-// The waiting and running jobs, with what the scheduler needs. Those of a hidden sweep belong to an interrupted
-// creation and do not run.
+// The jobs as the scheduler, retention and quotas see them. Those of a hidden sweep belong to an interrupted creation and
+// do not run.
 #include <string>
 
 #include "store/journal_reader.h"
@@ -55,6 +55,39 @@ std::vector<std::string> JournalReader::executors_in_use() {
   std::vector<std::string> out;
   while (read.step()) out.push_back(executor_in(read.bytes(0)));
   return out;
+}
+
+EndedTotals JournalReader::ended_totals() {
+  const MutexLock lock(mutex_);
+  Statement read(database_, "SELECT COUNT(*), COALESCE(SUM(bytes), 0) FROM jobs WHERE ended_at IS NOT NULL");
+  read.step();
+  return {read.integer(0), read.integer(1)};
+}
+
+std::vector<EndedJob> JournalReader::ended_jobs(const EndedJob& after, int limit) {
+  const MutexLock lock(mutex_);
+  Statement read(database_,
+                 "SELECT jobs.number, jobs.ended_at, jobs.bytes, sweep_jobs.sweep FROM jobs "
+                 "LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
+                 "WHERE jobs.ended_at IS NOT NULL AND (jobs.ended_at, jobs.number) > (?1, ?2) "
+                 "ORDER BY jobs.ended_at, jobs.number LIMIT ?3");
+  read.bind(1, after.ended_at).bind(2, after.job).bind(3, limit);
+  std::vector<EndedJob> out;
+  // Without a sweep the last column is null and reads as 0.
+  while (read.step()) out.push_back({read.integer(0), read.integer(1), read.integer(2), read.integer(3)});
+  return out;
+}
+
+std::vector<std::int64_t> JournalReader::jobs_to_measure(int limit) {
+  const MutexLock lock(mutex_);
+  Statement read(database_,
+                 "SELECT number FROM jobs WHERE measured = 0 AND ended_at IS NOT NULL ORDER BY number LIMIT ?1");
+  return read.bind(1, limit).numbers();
+}
+
+std::int64_t JournalReader::bytes_of_owner(const std::string& owner) {
+  const MutexLock lock(mutex_);
+  return Statement(database_, "SELECT COALESCE(SUM(bytes), 0) FROM jobs WHERE owner = ?1").bind_text(1, owner).number();
 }
 
 }  // namespace cellcrush::store

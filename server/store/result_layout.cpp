@@ -1,12 +1,66 @@
 #include "store/result_layout.h"
 
+#include <google/protobuf/message.h>
+
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <string_view>
+
+#include "store/hdf5.h"
 
 namespace cellcrush::store {
 namespace {
+
+constexpr double kGreatestDeflation = 1032.0;           // bytes that one deflated byte can represent
+constexpr double kMostChunkBytes = 16.0 * 1024 * 1024;  // the writer's have half a MiB
+
+double product(const std::vector<hsize_t>& extents) {
+  return std::accumulate(extents.begin(), extents.end(), 1.0,
+                         [](double so_far, hsize_t extent) { return so_far * static_cast<double>(extent); });
+}
+
+// A soft link could form a cycle; an external one could name any file.
+bool is_hard_link(hid_t group, const std::string& name) {
+  H5L_info_t info{};
+  return H5Lget_info(group, name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
+}
+
+// Whether the filters are the writer's; HDF5 would load others from plugins.
+bool has_known_filters(hid_t properties) {
+  const int count = H5Pget_nfilters(properties);
+  for (int i = 0; i < count; ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    unsigned settings = 0;
+    const auto filter =
+        H5Pget_filter2(properties, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, &settings);
+    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE) return false;
+  }
+  return count >= 0 && count <= 2;
+}
+
+// Chunks lie in this file; virtual datasets and external storage lie in others.
+bool has_known_storage(hid_t properties, int rank, double item_bytes) {
+  std::vector<hsize_t> chunk(static_cast<std::size_t>(rank));
+  return H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_external_count(properties) == 0 &&
+         has_known_filters(properties) && H5Pget_chunk(properties, rank, chunk.data()) == rank &&
+         product(chunk) * item_bytes <= kMostChunkBytes;
+}
+
+bool is_of_type(hid_t dataset, hid_t type) {
+  const Hdf5Handle stored(H5Dget_type(dataset), H5Tclose, "Reading a type");
+  return H5Tequal(stored.id(), type) > 0;
+}
+
+bool has_room_for(hid_t file, hid_t dataset, double bytes) {
+  hsize_t file_bytes = 0;
+  check_hdf5(H5Fget_filesize(file, &file_bytes), "Reading a size");
+  const hsize_t stored = H5Dget_storage_size(dataset);
+  return stored <= file_bytes && bytes <= kGreatestDeflation * static_cast<double>(stored);
+}
 
 using google::protobuf::FieldDescriptor;
 
@@ -20,7 +74,63 @@ void add_columns(const google::protobuf::Descriptor& message, FieldDescriptor::C
   }
 }
 
+// "V" of CRUSH_MODE_V.
+std::string mode_name(v1::Summary::CrushMode mode) {
+  constexpr std::size_t kPrefix = std::string_view("CRUSH_MODE_").size();
+  return v1::Summary::CrushMode_Name(mode).substr(kPrefix);
+}
+
+// An attribute for each double of the message that is present.
+void write_numbers(hid_t file, const std::string& prefix, const google::protobuf::Message& message) {
+  const auto& descriptor = *message.GetDescriptor();
+  const auto& reflection = *message.GetReflection();
+  for (int i = 0; i < descriptor.field_count(); ++i) {
+    const auto& field = *descriptor.field(i);
+    if (field.cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE) continue;
+    if (field.has_presence() && !reflection.HasField(message, &field)) continue;
+    write_attribute(file, (prefix + std::string(field.name())).c_str(), reflection.GetDouble(message, &field));
+  }
+}
+
+void write_collapse(hid_t file, const v1::Summary& summary) {
+  write_attribute(file, "crush_mode", mode_name(summary.crush_mode()));
+  if (summary.has_shock_error_relative())
+    write_attribute(file, "theory_shock_error_relative", summary.shock_error_relative());
+  if (summary.has_front()) write_numbers(file, "front_", summary.front());
+  if (summary.has_quasi_static()) write_numbers(file, "quasi_static_", summary.quasi_static());
+}
+
+void write_warnings(hid_t file, const v1::Summary& summary) {
+  std::string lines;
+  for (const v1::Warning& warning : summary.warnings())
+    lines += (lines.empty() ? "" : "\n") + v1::Warning::Kind_Name(warning.kind()) + ": " + warning.message();
+  if (!lines.empty()) write_attribute(file, "warnings", lines);
+}
+
 }  // namespace
+
+ServiceError damaged_result(const std::string& what) {
+  return {ServiceError::Kind::data_loss,
+          "The result is damaged: " + what + ". Submit its case again; its summary is still available."};
+}
+
+Hdf5Handle open_result_dataset(hid_t file, const std::string& group, const std::string& name, hid_t type, int rank) {
+  const std::string path = "/" + group + "/" + name;
+  const std::string what = "Opening the dataset " + path;
+  if (!is_hard_link(file, group)) throw damaged_result("the group " + group + " is missing");
+  const Hdf5Handle folder(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose, what);
+  if (!is_hard_link(folder.id(), name)) throw damaged_result(path + " is missing");
+  Hdf5Handle out(H5Dopen2(folder.id(), name.c_str(), H5P_DEFAULT), H5Dclose, what);
+  const Hdf5Handle properties(H5Dget_create_plist(out.id()), H5Pclose, what);
+  const auto item_bytes = static_cast<double>(H5Tget_size(type));
+  // In this order: querying the shape of a virtual dataset opens its source files.
+  if (!has_known_storage(properties.id(), rank, item_bytes) || !is_of_type(out.id(), type))
+    throw damaged_result(path + " has a different storage layout from the one written");
+  const auto shape = shape_of(out.id());
+  if (shape.size() != static_cast<std::size_t>(rank) || !has_room_for(file, out.id(), product(shape) * item_bytes))
+    throw damaged_result(path + " has a different shape from the one written");
+  return out;
+}
 
 double HistoryColumn::get(const v1::Sample& sample) const {
   if (is_of_front && !sample.has_front()) return std::numeric_limits<double>::quiet_NaN();
@@ -50,6 +160,22 @@ const std::vector<HistoryColumn>& history_columns() {
     return out;
   }();
   return columns;
+}
+
+void write_summary_attributes(hid_t file, const v1::Summary& summary) {
+  // The error of a theory is written with those of the theory.
+  v1::Summary own = summary;
+  own.clear_shock_error_relative();
+  write_numbers(file, "", own);
+  if (summary.has_plateau_stress_impact_mpa())
+    write_attribute(file, "plateau_stress_mpa", summary.plateau_stress_impact_mpa());
+  write_attribute(file, "step_count", static_cast<std::int64_t>(summary.step_count()));
+  write_attribute(file, "theory_gibson_ashby_mpa", summary.theory().gibson_ashby_mpa());
+  write_attribute(file, "theory_shock_mpa", summary.theory().shock_mpa());
+  write_warnings(file, summary);
+  write_collapse(file, summary);
+  write_numbers(file, "ledger_", summary.ledger());
+  write_numbers(file, "stage_", summary.stage_times());
 }
 
 }  // namespace cellcrush::store

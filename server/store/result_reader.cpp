@@ -7,7 +7,6 @@
 
 #include "error.h"
 #include "store/part_histories.h"
-#include "store/result_dataset.h"
 #include "store/result_layout.h"
 #include "store/result_seal.h"
 

@@ -12,7 +12,7 @@
 namespace cellcrush::store {
 
 /// Reads one complete result.h5 (result_format.md). Refuses a file whose bytes have changed since it was written before
-/// HDF5 opens it (result_seal.h), and a dataset that ResultWriter did not write before reading it (result_dataset.h).
+/// HDF5 opens it (result_seal.h), and a dataset that ResultWriter did not write before reading it (result_layout.h).
 /// Not thread-safe. Failures throw ServiceError.
 class ResultReader {
  public:

@@ -18,7 +18,7 @@
 #include "error.h"
 #include "mutex.h"
 #include "store/durable_file.h"
-#include "store/result_dataset.h"
+#include "store/result_layout.h"
 
 namespace cellcrush::store {
 namespace {
@@ -110,6 +110,10 @@ class WholeFiles {
   std::deque<SealedFile::Identity> files_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
+void throw_if_broken(Seal seal) {
+  if (seal == Seal::broken) throw damaged_result("its contents do not match its checksum");
+}
+
 }  // namespace
 
 void seal_result(const std::filesystem::path& path) {
@@ -128,14 +132,6 @@ Seal read_seal(const std::filesystem::path& path) {
   if (is_settled(identity)) whole.add(identity);
   return Seal::whole;
 }
-
-namespace {
-
-void throw_if_broken(Seal seal) {
-  if (seal == Seal::broken) throw damaged_result("its contents do not match its checksum");
-}
-
-}  // namespace
 
 void check_seal(const std::filesystem::path& path) {
   const Seal seal = read_seal(path);

@@ -66,7 +66,7 @@ Database::Database(const std::filesystem::path& path, Access access) {
   set_patience(kPatience);
   if (access == Access::shared) {
     // Only a file created with this setting can return free pages (JournalUpkeep).
-    if (is_empty()) execute("PRAGMA auto_vacuum=INCREMENTAL;");
+    if (Statement(*this, "PRAGMA page_count").number() == 0) execute("PRAGMA auto_vacuum=INCREMENTAL;");
     idle_.clear();
     // The log keeps its size when closed, so that the next start needs no room on a full disk. A journal_size_limit
     // would truncate it.
@@ -76,11 +76,6 @@ Database::Database(const std::filesystem::path& path, Access access) {
   }
   if (access == Access::single_file) execute("PRAGMA journal_mode=DELETE;");
   execute("PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
-}
-
-bool Database::is_empty() {
-  Statement count(*this, "PRAGMA page_count");
-  return count.step() && count.integer(0) == 0;
 }
 
 void Database::set_patience(std::chrono::milliseconds patience) {
@@ -168,6 +163,14 @@ bool Statement::step() {
 void Statement::run() {
   step();
   sqlite3_reset(handle_.get());
+}
+
+std::int64_t Statement::number() { return step() ? integer(0) : 0; }
+
+std::vector<std::int64_t> Statement::numbers() {
+  std::vector<std::int64_t> out;
+  while (step()) out.push_back(integer(0));
+  return out;
 }
 
 std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(handle_.get(), column); }

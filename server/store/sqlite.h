@@ -46,7 +46,6 @@ class Database {
 
  private:
   friend class Statement;
-  bool is_empty();
 
   struct Close {
     void operator()(sqlite3* handle) const;
@@ -82,6 +81,10 @@ class Statement {
   bool step();
   /// Runs a statement without result rows, and resets it.
   void run();
+
+  /// First column of the next row, 0 without one; and of all further rows.
+  std::int64_t number();
+  std::vector<std::int64_t> numbers();
 
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] std::string bytes(int column) const;

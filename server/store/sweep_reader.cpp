@@ -38,10 +38,7 @@ std::vector<std::int64_t> SweepReader::list_sweeps(std::int64_t before, int limi
   const MutexLock lock(mutex_);
   Statement read(database_,
                  "SELECT number FROM sweeps WHERE number < ?1 AND deleting = 0 ORDER BY number DESC LIMIT ?2");
-  read.bind(1, before).bind(2, limit);
-  std::vector<std::int64_t> out;
-  while (read.step()) out.push_back(read.integer(0));
-  return out;
+  return read.bind(1, before).bind(2, limit).numbers();
 }
 
 SweepEnd SweepReader::end_of(std::int64_t sweep) {
@@ -55,19 +52,12 @@ SweepEnd SweepReader::end_of(std::int64_t sweep) {
 
 std::vector<std::int64_t> SweepReader::sweeps_in_deletion() {
   const MutexLock lock(mutex_);
-  Statement read(database_, "SELECT number FROM sweeps WHERE deleting = 1 ORDER BY number");
-  std::vector<std::int64_t> out;
-  while (read.step()) out.push_back(read.integer(0));
-  return out;
+  return Statement(database_, "SELECT number FROM sweeps WHERE deleting = 1 ORDER BY number").numbers();
 }
 
 std::vector<std::int64_t> SweepReader::jobs_of(std::int64_t sweep) {
   const MutexLock lock(mutex_);
-  Statement read(database_, "SELECT job FROM sweep_jobs WHERE sweep = ?1 ORDER BY position");
-  read.bind(1, sweep);
-  std::vector<std::int64_t> out;
-  while (read.step()) out.push_back(read.integer(0));
-  return out;
+  return Statement(database_, "SELECT job FROM sweep_jobs WHERE sweep = ?1 ORDER BY position").bind(1, sweep).numbers();
 }
 
 StoredRows SweepReader::rows(std::int64_t sweep, std::int64_t after, PageRoom room) {

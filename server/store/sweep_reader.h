@@ -7,8 +7,8 @@
 
 #include "cellcrush/v1/sweep.pb.h"
 #include "mutex.h"
-#include "store/ended_job.h"
 #include "store/page_room.h"
+#include "store/queued_job.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {

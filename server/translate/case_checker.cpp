@@ -1,8 +1,8 @@
 #include "translate/case_checker.h"
 
 #include "cellcrush/spec_checker.h"
-#include "translate/case_size.h"
 #include "translate/case_to_spec.h"
+#include "translate/check_case.h"
 #include "translate/loads_places.h"
 #include "translate/problems.h"
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cellcrush/scene_spec.h"
+#include "translate/check_case.h"
 
 namespace cellcrush::translate {
 
@@ -23,5 +24,11 @@ std::vector<std::string> fields_beside_measured(const SceneSpec& spec);
 
 /// Errors of a spec that differs in no such field, with a mesh. Between two measured speeds the larger error counts.
 std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int elements_per_wall);
+
+/// Adds what a sound case would take and be worth at each fidelity to the answer of its check. `step_cost`: seconds of
+/// one core for a step of an element. A case that asks for a fidelity is predicted by it. Meshes that the check knows
+/// are not rebuilt. Adds none to a frame, for which nothing was measured. Throws std::bad_alloc when a mesh does not
+/// fit.
+void add_fidelities(const v1::Case& submitted, double step_cost, CaseCheck& check);
 
 }  // namespace cellcrush::translate

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +9,20 @@
 #include "store/report.pb.h"
 #include "translate/results.h"
 
+namespace cellcrush {
+struct Scene;
+}
+
 namespace cellcrush::worker {
+
+/// The scene of the order's case. Throws std::runtime_error if this version rejects the case.
+std::shared_ptr<const Scene> scene_of(const Order& order);
+
+/// The origin of the bits that a run of this order produces here.
+Checkpoint::Origin origin_of(const Order& order);
+
+/// The first origin that differs from `origin` among earlier workers in the folder.
+std::optional<Checkpoint::Origin> find_other_origin(const store::JobFolder& folder, const Checkpoint::Origin& origin);
 
 /// Makes a checkpoint durable under a temporary name, then renames it; the previous one is kept. A complete checkpoint
 /// remains whenever the process is killed. Throws ServiceError: storage_full or internal.

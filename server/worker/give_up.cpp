@@ -5,7 +5,6 @@
 
 #include "shortage.h"
 #include "worker/checkpoint_file.h"
-#include "worker/origin.h"
 #include "worker/run_output.h"
 
 namespace cellcrush::worker {

@@ -16,8 +16,6 @@
 #include "worker/checkpoint_file.h"
 #include "worker/give_up.h"
 #include "worker/large_pages.h"
-#include "worker/origin.h"
-#include "worker/processor_time.h"
 #include "worker/run_output.h"
 #include "worker/stage_timer.h"
 

@@ -1,7 +1,5 @@
 #include "worker/stage_timer.h"
 
-#include "worker/processor_time.h"
-
 namespace cellcrush::worker {
 
 void StageTimer::begin(Stage stage) {

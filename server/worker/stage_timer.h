@@ -2,10 +2,19 @@
 
 #include <array>
 #include <cstdint>
+#include <ctime>
 
 #include "cellcrush/stage.h"
 
 namespace cellcrush::worker {
+
+/// Processor time, s: CLOCK_THREAD_CPUTIME_ID for this thread, CLOCK_PROCESS_CPUTIME_ID for the process. Other load on
+/// the machine is not included.
+inline double processor_seconds(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 /// Processor time of a run by stage, sampled: reading the clock takes about 200 ns, which would slow the steps of a
 /// small lattice. A run that advances in pieces passes the same timer each time. Not thread-safe; it times the thread

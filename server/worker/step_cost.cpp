@@ -2,7 +2,7 @@
 
 #include "cellcrush/simulation.h"
 #include "translate/presets.h"
-#include "worker/processor_time.h"
+#include "worker/stage_timer.h"
 
 namespace cellcrush::worker {
 namespace {

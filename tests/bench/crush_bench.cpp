@@ -19,7 +19,7 @@
 #include "cellcrush/stage.h"
 #include "cellcrush/state.h"
 #include "chart/chart.h"
-#include "chart/palette.h"
+#include "chart/colour_map.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"

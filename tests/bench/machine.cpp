@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "worker/processor_time.h"
+#include "worker/stage_timer.h"
 
 namespace cellcrush::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "chart/palette.h"
+#include "chart/colour_map.h"
 
 namespace cellcrush::bench {
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "case_file/parse_case.h"
+#include "case_file/case_source.h"
 #include "case_file/set_field.h"
 #include "commands/sweep_axis.h"
 #include "expect_text.h"

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "chart/display_text.h"
-#include "terminal/fidelity_text.h"
 #include "terminal/job_text.h"
 
 namespace cellcrush::client {

@@ -5,7 +5,7 @@
 
 #include "fake_server.h"
 #include "program.h"
-#include "terminal/convergence_text.h"
+#include "terminal/sweep_text.h"
 
 namespace cellcrush::client::testing {
 namespace {

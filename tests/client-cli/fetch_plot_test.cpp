@@ -10,7 +10,7 @@
 #include <fstream>
 #include <set>
 
-#include "case_file/parse_case.h"
+#include "case_file/case_source.h"
 #include "fake_server.h"
 #include "program.h"
 #include "synthetic_crush.h"

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "case_file/parse_case.h"
+#include "case_file/case_source.h"
 #include "cellcrush/v1/cases_service.pb.h"
 #include "fake_server.h"
 #include "program.h"

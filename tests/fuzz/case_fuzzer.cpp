@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "case_file/parse_case.h"
+#include "case_file/case_source.h"
 #include "command_error.h"
 #include "fuzz/size_bound.h"
 #include "translate/check_case.h"

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "worker/processor_time.h"
+#include "worker/stage_timer.h"
 
 namespace cellcrush::load {
 

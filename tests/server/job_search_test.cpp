@@ -3,7 +3,7 @@
 
 #include "error.h"
 #include "server/journal_fixture.h"
-#include "store/job_conditions.h"
+#include "store/job_filter.h"
 
 namespace cellcrush::store {
 namespace {

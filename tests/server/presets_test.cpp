@@ -7,7 +7,6 @@
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
-#include "translate/fidelities.h"
 #include "translate/measured_errors.h"
 #include "translate/spec_to_case.h"
 

@@ -8,6 +8,7 @@
 #include "server/journal_fixture.h"
 #include "store/data_folder.h"
 #include "store/sweep_reader.h"
+#include "store/verification.h"
 
 namespace cellcrush::store {
 namespace {

@@ -10,7 +10,7 @@
 #include "server/small_case.h"
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
-#include "translate/fidelities.h"
+#include "translate/measured_errors.h"
 #include "translate/results.h"
 #include "translate/spec_to_case.h"
 

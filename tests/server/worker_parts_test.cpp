@@ -1,8 +1,7 @@
 // What a worker reports of its time and progress.
 #include <gtest/gtest.h>
 
-#include "worker/processor_time.h"
-#include "worker/progress_meter.h"
+#include "worker/run_output.h"
 #include "worker/stage_timer.h"
 
 namespace cellcrush::worker {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "bench/csv_table.h"
-#include "chart/palette.h"
+#include "chart/colour_map.h"
 #include "chart/smoothing.h"
 #include "validation/course.h"
 #include "validation/options.h"
