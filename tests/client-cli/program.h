@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "e2e/process.h"
 #include "expect_text.h"
+#include "programs/process.h"
 
 namespace cellcrush::client::testing {
 

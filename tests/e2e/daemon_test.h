@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "e2e/process.h"
+#include "programs/process.h"
 
 namespace cellcrush::e2e {
 

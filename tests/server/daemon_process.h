@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "e2e/process.h"
+#include "programs/process.h"
 
 namespace cellcrush::testing {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "server/certificates.h"
+#include "programs/certificates.h"
 #include "server/daemon_fixture.h"
 
 namespace cellcrush::testing {

@@ -68,7 +68,7 @@ TEST_F(JobListTest, AFilterFindsStatesLabelsAndTitles) {
   EXPECT_THAT(found(R"(label."batch"="a \"b\""  AND title:"of \"TWO\"" AND title : words)"), ElementsAre("jobs/4"));
 }
 
-TEST_F(JobListTest, PagesStayInPlaceWhenJobsAreMadeAndDeleted) {
+TEST_F(JobListTest, PagesAreNewestFirstAndStayInPlaceWhenJobsAreMadeAndDeleted) {
   for (int i = 0; i < 5; ++i) create("case", "one");
   v1::ListJobsRequest newest;
   newest.set_page_size(2);

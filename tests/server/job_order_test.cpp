@@ -5,10 +5,10 @@
 #include <iostream>
 #include <thread>
 
+#include "programs/temporary_folder.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
-#include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
 namespace {

@@ -14,7 +14,7 @@
 #include "listen_address.h"
 #include "net/acceptor.h"
 #include "net/port_probe.h"
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::testing {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "error.h"
+#include "programs/temporary_folder.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 #include "store/case_hash.h"
 #include "store/result_reader.h"
 #include "store/result_seal.h"

@@ -14,12 +14,12 @@
 #include "error_table.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "programs/temporary_folder.h"
 #include "rpc/export_source.h"
 #include "rpc/source_stream.h"
 #include "rpc/stream_limits.h"
 #include "server/daemon_process.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 #include "store/journal.h"
 #include "store/resource_name.h"
 

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "error.h"
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 #include "slurm/attempt_folder.h"
 #include "slurm/batcher.h"
 #include "slurm/cluster_options.h"
