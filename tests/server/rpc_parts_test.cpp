@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <future>
 #include <new>
 #include <optional>
-#include <thread>
 
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "error.h"
@@ -19,6 +17,7 @@
 #include "rpc/source_stream.h"
 #include "rpc/stream_limits.h"
 #include "server/daemon_process.h"
+#include "server/held_point.h"
 #include "server/small_case.h"
 #include "store/journal.h"
 #include "store/resource_name.h"
@@ -107,9 +106,9 @@ TEST(StreamLimits, BoundTheBytesThatNobodyHasRead) {
   EXPECT_EQ(refusal([&] { second.hold(100); }), "") << "What was refused is not counted.";
 }
 
-/// What the test sees of a source of a thousand messages, of which the first takes half a second.
+/// What the test sees of a source of a thousand messages, of which the first is held.
 struct Tap {
-  std::atomic<int> begun = 0;
+  testing::HeldPoint first;
   std::atomic<int> given = 0;
   std::atomic<bool> is_open = false;
 };
@@ -123,7 +122,7 @@ class TapSource {
   void open(const std::function<void()>&) { tap_.is_open = true; }
   void close() { tap_.is_open = false; }
   std::optional<Message> next() {
-    if (tap_.begun++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    tap_.first.stand();
     ++tap_.given;
     return Message();
   }
@@ -148,10 +147,9 @@ TEST(SourceStream, CancellingWaitsForNoBatchThatIsBeingMade) {
   auto promise = std::make_shared<std::promise<Batch>>();
   auto batch = promise->get_future();
   stream->ask([promise = std::move(promise)](Batch made) { promise->set_value(std::move(made)); });
-  ASSERT_TRUE(wait_until([&] { return tap.begun == 1; }));
-  const auto before = std::chrono::steady_clock::now();
+  ASSERT_TRUE(tap.first.wait());
   stream->cancel();
-  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::milliseconds(400));
+  tap.first.open();
   EXPECT_TRUE(wait_until([&] { return !tap.is_open && limits.count() == 0; }));
   EXPECT_EQ(tap.given, 1) << "The rest of the batch was not made.";
   EXPECT_THROW(batch.get(), std::future_error) << "Nothing was delivered.";
