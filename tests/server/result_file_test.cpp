@@ -104,7 +104,7 @@ TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
     EXPECT_EQ(shape(file_.id(), row[1]), wanted) << row[1];
     EXPECT_TRUE(is_type(file_.id(), row[1], types.at(row[3]))) << row[1];
   }
-  for (const HistoryColumn& column : history_columns()) EXPECT_TRUE(found.contains("/history/" + column.name));
+  for (const HistoryColumn& column : history_columns()) EXPECT_TRUE(found.contains("/" + column.path));
   EXPECT_EQ(found.size(), 34U) << "Names never change.";
 }
 
