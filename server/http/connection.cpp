@@ -233,7 +233,6 @@ std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::
     incoming.decode = [&](google::protobuf::Message& message) { return decode(body, encoding.json, message); };
     incoming.encode = encode_for(encoding);
     call_ = std::make_shared<Call>(stream_.get_executor(), method.open(incoming), timeout);
-    return grpc::Status::OK;
   });
   if (call_) watch_client();
   return call_;

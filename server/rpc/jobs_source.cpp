@@ -59,7 +59,6 @@ JobsSource::WatchedJob::WatchedJob(store::JournalReader& journal, watch::Hub& hu
     check_epoch(journal.epoch(), request.epoch());
     source_.emplace(journal, hub, job, request.after_sequence(),
                     watch::WatchCursor::Wanted{request.frames(), true, request.encoding()});
-    return grpc::Status::OK;
   });
   if (!status.ok()) refused_ = status;
 }
@@ -78,10 +77,7 @@ std::optional<v1::WatchJobsResponse> JobsSource::WatchedJob::next() {
   if (refused_) return end(*std::exchange(refused_, std::nullopt));
   if (!source_) return std::nullopt;
   std::optional<v1::JobEvent> event;
-  const auto status = answer([&] {
-    event = source_->next();
-    return grpc::Status::OK;
-  });
+  const auto status = answer([&] { event = source_->next(); });
   if (!status.ok()) return end(status);
   if (!event) return source_->ended() ? std::optional(end(grpc::Status::OK)) : std::nullopt;
   v1::WatchJobsResponse out;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "access/gate.h"
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
@@ -35,5 +37,12 @@ struct ServiceParts {
   int owner_max_running = 0;  ///< jobs of one owner that run at once on one executor; 0: no limit
   StreamParts streams;
 };
+
+// Each adds the calls of one service. `parts` outlives the table.
+void add_cases_methods(MethodTable& table, const ServiceParts& parts);
+void add_jobs_methods(MethodTable& table, const ServiceParts& parts);
+void add_sweeps_methods(MethodTable& table, const ServiceParts& parts);
+/// `drain`: called once a client has asked for it.
+void add_admin_methods(MethodTable& table, const ServiceParts& parts, std::function<void()> drain);
 
 }  // namespace cellcrush::rpc
