@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "jobs/local_process.h"
-#include "rpc/reflection_services.h"
 
 namespace cellcrush {
 namespace {
