@@ -143,9 +143,10 @@ export class JobPage implements View {
 
   private followState(job: Job): void {
     const { lattice, loading } = job.case ?? {};
-    const ofFrame = lattice?.kind.case === "frame" ? lattice.kind.value.endTimeS : undefined;
+    const walls = lattice?.kind.value;
+    const ofWalls = walls && "endTimeS" in walls ? walls.endTimeS : undefined;
     if (job.words?.plates ?? true) this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
-    else this.setAxis(timeAxis(loading?.endTimeS ?? ofFrame ?? 1));
+    else this.setAxis(timeAxis(loading?.endTimeS ?? ofWalls ?? 1));
     const isLive = !hasEnded(job);
     if (isLive && !this.wasLive && this.wantedStrain === undefined) this.player.follow();
     // An ended crush opens half way, where there is something to see.

@@ -53,9 +53,9 @@ export class FieldInput {
 
   showProblem(problem: Problem | undefined): void {
     if (!problem) return this.show("", this.limits);
-    const kind = problem.kind === Problem_Kind.IMPLAUSIBLE ? "warning" : "error";
     const message = `${problem.message} ${problem.remedy}`.trim();
-    this.show(kind, message.charAt(0).toUpperCase() + message.slice(1));
+    this.show(problem.kind === Problem_Kind.IMPLAUSIBLE ? "warning" : "error",
+              message.charAt(0).toUpperCase() + message.slice(1));
   }
 
   private show(kind: string, text: string): void {

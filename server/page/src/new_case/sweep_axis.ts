@@ -4,8 +4,7 @@ import { SweepAxisSchema, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb
 import { button, h, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { showHint } from "./field_input";
-import { fieldAt } from "./fields";
-import { labelOf, unitOf } from "./words";
+import { choicesOf, labelOf, unitOf } from "./words";
 
 /** The axis that a text describes, or what is wrong with the text. */
 export function axisOf(field: string, text: string): SweepAxis | string {
@@ -116,7 +115,7 @@ export class SweepInput {
   }
 
   setPaths(paths: string[]): void {
-    this.paths = paths.filter((path) => fieldAt(path).field.fieldKind === "scalar");
+    this.paths = paths.filter((path) => choicesOf(path).length === 0);
     if (this.axes.length === 0 && this.paths.length > 0) {
       const first = this.append();
       const speed = "loading.speed_m_per_s";

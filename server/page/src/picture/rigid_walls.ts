@@ -12,10 +12,11 @@ export interface Face { x: number; y: number; normalX: number; normalY: number }
 
 const kThickness = 0.014; // of the diagonal of the view
 
-function facesOf(submitted: Case | undefined): Face[] {
-  const kind = submitted?.lattice?.kind;
-  const ofFrame = kind?.case === "frame" ? kind.value.rigidWalls : [];
-  return [...ofFrame, ...submitted?.loading?.rigidWalls ?? []].map((wall) => {
+/** The faces at the start, of the rigid walls of the loading or of the lattice. */
+export function facesOf(submitted: Case | undefined): Face[] {
+  const lattice = submitted?.lattice?.kind.value;
+  const ofLattice = lattice && "rigidWalls" in lattice ? lattice.rigidWalls : [];
+  return [...ofLattice, ...submitted?.loading?.rigidWalls ?? []].map((wall) => {
     const [x, y] = [wall.normalX ?? 0, wall.normalY ?? 0];
     const length = Math.hypot(x, y) || 1;
     return { x: wall.xMm ?? 0, y: wall.yMm ?? 0, normalX: x / length, normalY: y / length };
