@@ -78,9 +78,7 @@ test("values of a sweep: a list, ranges, seeds", () => {
   assert.equal(count("seeds:5"), 5);
   assert.equal(typeof axisOf("f", "fast"), "string");
   assert.equal(typeof axisOf("f", ""), "string");
-});
-
-test("a sweep over several fields has a job for each combination", () => {
+  // Each combination of several fields is a job.
   assert.equal(jobCount([axisOf("a", "1, 2, 3"), axisOf("b", "seeds:5")]), 15);
 });
 

@@ -15,6 +15,11 @@ export function isAway(error: unknown): boolean {
   return unreachable || failure.code === Code.Unavailable;
 }
 
+/** An answer that a view can do without; the watch says if the daemon is away. */
+export function ifAny<T>(answer: Promise<T>): Promise<T | undefined> {
+  return answer.catch(() => undefined);
+}
+
 export function isNotFound(error: unknown): boolean {
   return ConnectError.from(error).code === Code.NotFound;
 }

@@ -2,7 +2,7 @@
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import { h } from "../dom/element";
 import { count, duration, number, percent, strainText } from "../dom/format";
-import { fieldHelp } from "../help";
+import { fieldHelp } from "../new_case/words";
 
 /** A number of a summary for tables: its path in the message, and its text in the unit of the name. */
 export interface SummaryNumber {

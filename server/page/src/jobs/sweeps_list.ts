@@ -2,7 +2,7 @@
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { api } from "../api/clients";
-import { errorText } from "../api/errors";
+import { errorText, ifAny } from "../api/errors";
 import { byNumber, idOf, pathOf } from "../api/names";
 import { watch } from "../api/watch";
 import { Later } from "../dom/calls";
@@ -54,14 +54,10 @@ export class SweepsList {
   private async refresh(): Promise<void> {
     const names = [...this.pending];
     this.pending.clear();
-    try {
-      for (const sweep of await Promise.all(names.map((name) => api.sweeps.getSweep({ name })))) {
-        this.sweeps.set(sweep.name, sweep);
-      }
-      this.show();
-    } catch {
-      // A sweep that was deleted meanwhile disappears by its own event.
+    for (const sweep of await Promise.all(names.map((name) => ifAny(api.sweeps.getSweep({ name }))))) {
+      if (sweep) this.sweeps.set(sweep.name, sweep);
     }
+    this.show();
   }
 
   private async load(isMore: boolean): Promise<void> {

@@ -2,13 +2,12 @@
 import { create } from "@bufbuild/protobuf";
 import { LatticeSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
 import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
-import { h, replaceChildren, setText } from "../dom/element";
+import { h, labelled, replaceChildren, setText } from "../dom/element";
 import { iconButton } from "../dom/icons";
-import { fieldHelp } from "../help";
 import { FieldInput } from "./field_input";
 import { groupsOf, isListed, kLatticeKinds, linesOf, pathsBeside, readField, writeField, type Group,
          type LatticeKind } from "./fields";
-import { defaultOf, helpOf, labelOf } from "./words";
+import { defaultOf, fieldHelp, helpOf, labelOf } from "./words";
 
 export class CaseForm {
   readonly element = h("div", { class: "case-form" });
@@ -16,9 +15,9 @@ export class CaseForm {
   readonly unreadable = new Set<string>();
   private inputs = new Map<string, FieldInput>();
   private beside = new Map<string, HTMLElement>(); // where their problems are told
-  private readonly title = h("input", { type: "text", id: "case-title", maxlength: 200, autocomplete: "off" });
+  private readonly title = h("input", { type: "text", maxlength: 200, autocomplete: "off" });
   private readonly kinds = kLatticeKinds.filter((kind) => !isListed(kind));
-  private readonly kind = h("select", { id: "case-kind" }, ...this.kinds.map(({ name }) =>
+  private readonly kind = h("select", {}, ...this.kinds.map(({ name }) =>
     h("option", { value: name }, fieldHelp("Lattice", name).replace(/\.$/, "") || name)));
   private value!: Case;
 
@@ -55,8 +54,7 @@ export class CaseForm {
     const beside = pathsBeside(this.value, this.paths);
     this.beside = new Map(beside.map((path) => [path, h("div", { class: "bad" })]));
     replaceChildren(this.element,
-      h("div", { class: "field wide" }, h("label", { for: "case-title" }, "Title"), this.title),
-      !isListed(kind) && h("div", { class: "field wide" }, h("label", { for: "case-kind" }, "Cells"), this.kind),
+      labelled("Title", this.title), !isListed(kind) && labelled("Cells", this.kind),
       beside.length > 0 && h("dl", { class: "facts beside" }, ...beside.map((path) => this.rowBeside(path))), ...groups);
   }
 

@@ -35,10 +35,8 @@ export class Preview {
       const { mesh } = await api.cases.previewCase({ case: value }, { signal: abort.signal });
       if (!mesh || abort.signal.aborted) return;
       setText(this.note, "");
-      const lattice = latticeOf(mesh);
-      this.picture.setLattice(lattice);
-      const plastic = new Float32Array(lattice.thickness.length);
-      this.picture.show({ position: lattice.undeformed, plastic }, 0, facesOf(value));
+      this.picture.setLattice(latticeOf(mesh));
+      this.picture.showUndeformed(facesOf(value));
     } catch {
       this.shownKey = ""; // the check has told the problem; the next change draws again
     }

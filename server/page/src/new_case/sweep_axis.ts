@@ -1,7 +1,7 @@
 // The fields that a sweep varies, and their values: a list, or a range as "10:200:8" or "10:200:8:log".
 import { create } from "@bufbuild/protobuf";
 import { SweepAxisSchema, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
-import { button, h, replaceChildren } from "../dom/element";
+import { button, h, labelled, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { showHint } from "./field_input";
 import { choicesOf, labelOf, unitOf } from "./words";
@@ -39,8 +39,6 @@ export function jobCount(axes: SweepAxis[]): number {
   return axes.reduce((product, axis) => product * valueCount(axis), 1);
 }
 
-let count = 0;
-
 class AxisInput {
   readonly element: HTMLElement;
   private readonly field = h("select");
@@ -49,19 +47,14 @@ class AxisInput {
   readonly remove: HTMLButtonElement;
 
   constructor(changed: () => void, removed: () => void) {
-    this.field.id = `axis-field-${++count}`;
-    this.values.id = `axis-values-${count}`;
-    this.hint.id = `axis-hint-${count}`;
-    this.values.setAttribute("aria-describedby", this.hint.id);
     this.field.addEventListener("change", () => {
       this.values.value = this.isSeed ? "seeds:5" : "";
       changed();
     });
     this.values.addEventListener("input", changed);
     this.remove = iconButton("minus", "Remove field", removed);
-    this.element = h("div", { class: "axis" },
-      h("div", { class: "field" }, h("label", { for: this.field.id }, "Varied field"), this.field),
-      h("div", { class: "field" }, h("label", { for: this.values.id }, "Values"), this.values, this.hint), this.remove);
+    this.element = h("div", { class: "axis" }, labelled("Varied field", this.field),
+      labelled("Values", this.values, this.hint), this.remove);
   }
 
   private get isSeed(): boolean {

@@ -1,8 +1,26 @@
 // Labels, units, limits and help of the fields, from their names, and the options and comments of the protos.
 import { getOption, ScalarType } from "@bufbuild/protobuf";
 import { rules, type FieldRules } from "../../gen/cellcrush/v1/field_pb";
-import { fieldHelp, nameOf, valueHelp } from "../help";
+import help from "../../gen/help.json";
 import { fieldAt } from "./fields";
+
+const messages: Record<string, Record<string, string>> = help.messages;
+const enums: Record<string, Record<string, string>> = help.enums;
+
+/** Help of a field; `message` is its name without the package, such as "Lattice.Hexagon". */
+export function fieldHelp(message: string, field: string): string {
+  return messages[message]?.[field] ?? "";
+}
+
+const kUnits: [RegExp, string][] = [[/_kg_per_m3$/, "kg/m³"], [/_m_per_s2$/, "m/s²"], [/_m_per_s$/, "m/s"],
+                                    [/_mpa$/, "MPa"], [/_mm$/, "mm"], [/_per_s$/, "1/s"], [/_s$/, "s"]];
+
+/** The last name of a path in words, and its unit: "wall thickness" in "mm". The unit may be empty. */
+export function nameOf(path: string): { words: string; unit: string } {
+  const name = path.slice(path.lastIndexOf(".") + 1);
+  const [pattern, unit] = kUnits.find(([ending]) => ending.test(name)) ?? [/$/, ""];
+  return { words: name.replace(pattern, "").replaceAll("_", " "), unit };
+}
 
 const kLabels: Record<string, string> = {
   youngs_modulus_mpa: "Young’s modulus", poissons_ratio: "Poisson’s ratio",
@@ -69,5 +87,5 @@ export function choicesOf(path: string): Choice[] {
   if (field.fieldKind !== "enum") return [];
   const of = messageName(field.enum.typeName);
   return field.enum.values.filter((value) => value.number !== 0).map(({ name }) =>
-    ({ value: name, label: name.toLowerCase().replaceAll("_", " "), help: valueHelp(of, name) }));
+    ({ value: name, label: name.toLowerCase().replaceAll("_", " "), help: enums[of]?.[name] ?? "" }));
 }

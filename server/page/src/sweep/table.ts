@@ -3,10 +3,10 @@ import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { idOf, pathOf } from "../api/names";
-import { csvBlob } from "../dom/download";
 import { button, h, replaceChildren } from "../dom/element";
 import { kSummaryNumbers } from "../job/results";
 import { setChip, stateChip } from "../jobs/states";
+import { csvBlob } from "../take_away/menus";
 import { axisName } from "./points";
 
 const kRowsAtFirst = 300;
