@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
-import { CaseSchema, Frame_RigidWallSchema, Lattice_HexagonSchema, Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
+import { CaseSchema, Frame_RigidWallSchema, Lattice_HexagonSchema,
+         Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
 import { caseValues, fieldAt, groupsOf, kLatticeKinds, linesOf, pathsBeside, readField,
          writeField } from "../src/new_case/fields";
 import { labelsOf } from "../src/new_case/order";

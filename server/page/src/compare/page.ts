@@ -1,6 +1,6 @@
 // Up to six jobs: their curves in one chart, their pictures at equal strain.
-import { errorText, isNotFound } from "../api/errors";
-import { idOf, pathOf } from "../api/names";
+import { errorText, isNotFound } from "../api/clients";
+import { idOf, pathOf } from "../dom/format";
 import { Chart } from "../charts/chart";
 import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";

@@ -1,12 +1,11 @@
 // Several jobs side by side: their smoothed stresses over one axis of strain, their numbers, and all fields in which
 // their cases differ.
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
-import { idOf, pathOf } from "../api/names";
 import type { ChartData, Series } from "../charts/chart_data";
 import { indexBefore, strainAxis } from "../charts/curves";
 import { kSmoothing, smoothedStress, stressTop, type StressCurves } from "../charts/stress";
 import { h } from "../dom/element";
-import { number } from "../dom/format";
+import { idOf, number, pathOf } from "../dom/format";
 import type { JobData } from "../job/job_data";
 import { kSummaryNumbers } from "../job/results";
 import { caseValues } from "../new_case/fields";

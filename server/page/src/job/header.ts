@@ -2,9 +2,8 @@
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import { isExported } from "../api/exported";
-import { idOf, pathOf } from "../api/names";
 import { h, replaceChildren, setBanner, setText } from "../dom/element";
-import { clock, count, duration, fullTime, strainText } from "../dom/format";
+import { clock, count, duration, fullTime, idOf, pathOf, strainText } from "../dom/format";
 import { icon } from "../dom/icons";
 import { actionsOf, attempt } from "../jobs/actions";
 import { causeWords, hasEnded, setChip, stateChip, titleOf, whereOf } from "../jobs/states";

@@ -4,8 +4,7 @@ import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb"
 import type { JobEvent } from "../../gen/cellcrush/v1/event_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import { FieldFrame_Encoding, type Sample } from "../../gen/cellcrush/v1/sample_pb";
-import { api } from "../api/clients";
-import { ifAny, isAway } from "../api/errors";
+import { api, ifAny, isAway } from "../api/clients";
 import { Later, Listeners } from "../dom/calls";
 import { watch, type WatchedJob } from "../api/watch";
 import { FrameStore } from "../frames/frame_store";

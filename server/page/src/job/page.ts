@@ -1,9 +1,9 @@
 // The page of a job: the crush, its curves and its numbers, with one cursor through all.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
-import { errorText, isAway, isNotFound } from "../api/errors";
+import { errorText, isAway, isNotFound } from "../api/clients";
 import { isExported } from "../api/exported";
-import { idOf } from "../api/names";
+import { idOf } from "../dom/format";
 import { Chart } from "../charts/chart";
 import { strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";

@@ -1,12 +1,10 @@
 // The page of all jobs and sweeps, live.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
-import { api } from "../api/clients";
-import { errorText } from "../api/errors";
-import { idOf } from "../api/names";
+import { api, errorText } from "../api/clients";
 import { watch } from "../api/watch";
 import { Later } from "../dom/calls";
 import { button, h, setText } from "../dom/element";
-import { plural } from "../dom/format";
+import { idOf, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
 import { QueuePanel } from "./queue";
 import { hasEnded, kActiveStates, kStates, stateWord, titleOf } from "./states";

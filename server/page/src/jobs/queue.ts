@@ -1,7 +1,6 @@
 // Why jobs wait: the order of the queue, and the shortages that hold it.
 import type { Queue_Entry, Queue_Hold } from "../../gen/cellcrush/v1/admin_service_pb";
-import { api } from "../api/clients";
-import { ifAny } from "../api/errors";
+import { api, ifAny } from "../api/clients";
 import { Later } from "../dom/calls";
 import { h, replaceChildren } from "../dom/element";
 import { clock } from "../dom/format";

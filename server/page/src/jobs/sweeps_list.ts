@@ -1,13 +1,11 @@
 // The sweeps, newest first, each with the states of its jobs as a bar.
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
-import { api } from "../api/clients";
-import { errorText, ifAny } from "../api/errors";
-import { byNumber, idOf, pathOf } from "../api/names";
+import { api, errorText, ifAny } from "../api/clients";
 import { watch } from "../api/watch";
 import { Later } from "../dom/calls";
 import { button, h, replaceChildren } from "../dom/element";
-import { clock, fullTime, plural } from "../dom/format";
+import { byNumber, clock, fullTime, idOf, pathOf, plural } from "../dom/format";
 import { stateBar, titleOfSweep, variedFields } from "./states";
 
 const kPage = 6;

@@ -105,7 +105,7 @@ export function caseValues(value: Case): Map<string, string> {
   return values;
 }
 
-/** The paths of what a case has beside the title and the fields of a form: lists, and messages of none of its fields. */
+/** The paths of what a case has beside the title and the fields of a form: of messages, if they have none of these. */
 export function pathsBeside(value: Case, inForm: string[]): string[] {
   const walk = (message: ReflectMessage, prefix: string): string[] => message.fields.flatMap((field) => {
     const path = prefix + field.name;

@@ -55,7 +55,8 @@ export class CaseForm {
     this.beside = new Map(beside.map((path) => [path, h("div", { class: "bad" })]));
     replaceChildren(this.element,
       labelled("Title", this.title), !isListed(kind) && labelled("Cells", this.kind),
-      beside.length > 0 && h("dl", { class: "facts beside" }, ...beside.map((path) => this.rowBeside(path))), ...groups);
+      beside.length > 0 && h("dl", { class: "facts beside" }, ...beside.map((path) => this.rowBeside(path))),
+      ...groups);
   }
 
   // What has no field is kept as it is, or removed.

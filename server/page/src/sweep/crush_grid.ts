@@ -13,6 +13,7 @@ import { isSeed } from "./points";
 const kMostCells = 24;
 const kLoads = 2; // at once, as browsers allow six connections to a host
 const kAgainMs = 5000; // for the frames of running jobs
+const kFirstStrain = 0.4;
 const kUrlMs = 400;
 
 export class CrushGrid {
@@ -25,12 +26,15 @@ export class CrushGrid {
   private cellsKey = "";
   private loads = 0;
   private again = 0;
-  private readonly url = new Later(() => keepInUrl({ strain: String(Number(this.player.value.toFixed(3))) }), kUrlMs);
+  private readonly url = new Later(() => {
+    const strain = Number(this.player.value.toFixed(3));
+    keepInUrl({ strain: strain === kFirstStrain ? undefined : String(strain) });
+  }, kUrlMs);
   private readonly observer = new IntersectionObserver((entries) => this.see(entries), { rootMargin: "200px" });
 
   /** `strain` is that of the URL. */
-  constructor(strain: number) {
-    this.player.wanted = strain;
+  constructor(strain: number | undefined) {
+    this.player.wanted = strain ?? kFirstStrain;
     this.bar = new PlayerBar(this.player, {
       neighbour: (direction) => this.player.value + 0.01 * direction,
       text: (value) => `strain ${value.toFixed(2)}`,

@@ -1,9 +1,8 @@
 // Other sweeps over the same field, in the chart of a sweep: which of them, and why not others.
 import type { Sweep, SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { api } from "../api/clients";
-import { errorText, ifAny, isNotFound } from "../api/errors";
+import { api, errorText, ifAny, isNotFound } from "../api/clients";
 import { Later, Listeners } from "../dom/calls";
-import { idOf, pathOf } from "../api/names";
+import { idOf, pathOf } from "../dom/format";
 import { watch } from "../api/watch";
 import { h, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";

@@ -1,15 +1,13 @@
 // The page of a sweep: plateau stresses against the varied field, filling in as jobs end.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sweep, SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { api } from "../api/clients";
-import { errorText, ifAny, isNotFound } from "../api/errors";
-import { idOf } from "../api/names";
+import { api, errorText, ifAny, isNotFound } from "../api/clients";
 import { watch } from "../api/watch";
 import { Chart } from "../charts/chart";
 import { Later } from "../dom/calls";
 import { ask } from "../dom/dialog";
 import { button, h, replaceChildren, setBanner, setText } from "../dom/element";
-import { clock, plural } from "../dom/format";
+import { clock, idOf, plural } from "../dom/format";
 import { icon, type IconName } from "../dom/icons";
 import { attempt } from "../jobs/actions";
 import { hasEnded, kStates, stateBar, stateWord, titleOfSweep, variedFields } from "../jobs/states";
@@ -45,7 +43,7 @@ export class SweepPage implements View {
 
   constructor(private readonly name: string, query: URLSearchParams) {
     this.overlay = new SweepOverlay(name, (query.get("with") ?? "").split(","));
-    this.crushes = new CrushGrid(Number(query.get("strain") ?? 0.4));
+    this.crushes = new CrushGrid(query.has("strain") ? Number(query.get("strain")) : undefined);
     this.title = `Sweep ${idOf(name)}`;
     this.axisChoice.addEventListener("change", () => this.draw());
     this.chart.addTools(this.axisChoice, saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`));

@@ -2,7 +2,7 @@
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { idOf, pathOf } from "../api/names";
+import { idOf, pathOf } from "../dom/format";
 import { button, h, replaceChildren } from "../dom/element";
 import { kSummaryNumbers } from "../job/results";
 import { setChip, stateChip } from "../jobs/states";

@@ -1,7 +1,7 @@
 // Buttons that save what the page shows.
 import { api } from "../api/clients";
 import { isExported } from "../api/exported";
-import { idOf } from "../api/names";
+import { idOf } from "../dom/format";
 import type { Chart } from "../charts/chart";
 import { say } from "../dom/dialog";
 import { button, h, setText } from "../dom/element";
