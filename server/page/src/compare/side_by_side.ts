@@ -7,7 +7,7 @@ import { kSmoothing, smoothedStress, stressTop, type StressCurves } from "../cha
 import { h } from "../dom/element";
 import { idOf, number, pathOf } from "../dom/format";
 import type { JobData } from "../job/job_data";
-import { kSummaryNumbers } from "../job/results";
+import { kSummaryNumbers, summaryText } from "../job/results";
 import { caseValues } from "../new_case/fields";
 
 const kPoints = 1200;
@@ -42,7 +42,7 @@ export function comparisonChart(jobs: JobData[], names: string[], end: number): 
 }
 
 const kNumbers: [string, (s: Summary) => string][] = [
-  ...kSummaryNumbers.map(({ name, value, text }): [string, (s: Summary) => string] => [name, (s) => text(value(s))]),
+  ...kSummaryNumbers.map((of): [string, (s: Summary) => string] => [of.name, (s) => summaryText(of, s)]),
   ["Gibson-Ashby, MPa", (s) => number(s.theory?.gibsonAshbyMpa)],
   ["Crush mode", (s) => s.crushModeWords || "–"],
 ];

@@ -2,7 +2,6 @@
 import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { Problem_Kind } from "../../gen/cellcrush/v1/problem_pb";
 import { h, labelled, setText } from "../dom/element";
-import { fieldAt } from "./fields";
 import { choicesOf, defaultOf, helpOf, labelOf, limitsOf, unitOf } from "./words";
 
 /** Shows below an input of a form what it may be, or why its text is no value. */
@@ -17,7 +16,7 @@ export class FieldInput {
   private readonly line = h("div", { class: "limits" });
   private readonly limits: string;
 
-  constructor(readonly path: string, on: { changed(text: string): void; focused(path: string): void }) {
+  constructor(path: string, on: { changed(text: string): void; focused(path: string): void }) {
     this.limits = limitsOf(path);
     const choices = choicesOf(path);
     if (choices.length) {
@@ -39,10 +38,8 @@ export class FieldInput {
     this.input.value = text;
   }
 
-  /** Whether the text cannot be a value of the field. */
-  showUnreadable(isUnreadable: boolean): void {
-    if (isUnreadable) this.show("error", fieldAt(this.path).field.fieldKind === "scalar" ? "This is not a number."
-      : "This is not a value.");
+  showUnreadable(): void {
+    this.show("error", "This is not a number.");
   }
 
   showProblem(problem: Problem | undefined): void {

@@ -93,8 +93,8 @@ export class CaseForm {
     const isValue = writeField(this.value, path, text);
     if (isValue) this.unreadable.delete(path);
     else this.unreadable.add(path);
-    input.showProblem(undefined);
-    input.showUnreadable(!isValue);
+    if (isValue) input.showProblem(undefined);
+    else input.showUnreadable();
     this.on.changed();
   }
 
