@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "error.h"
@@ -17,9 +18,9 @@
 #include "server/refuses.h"
 #include "server/small_case.h"
 #include "store/case_hash.h"
-#include "store/result_reader.h"
 #include "store/result_seal.h"
 #include "store/result_writer.h"
+#include "store/sample_reader.h"
 
 namespace cellcrush::store {
 namespace {
@@ -48,6 +49,7 @@ double number_attribute(hid_t file, const char* name) {
 class ResultFileTest : public ::testing::Test {
  protected:
   void SetUp() override {
+    std::filesystem::create_directories(path_.parent_path());
     const auto mesh =
         testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25]");
     ResultWriter writer(path_, mesh);
@@ -79,7 +81,7 @@ class ResultFileTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
-  std::filesystem::path path_ = folder_.path() / "result.h5";
+  std::filesystem::path path_ = folder_.path() / "jobs/1/result.h5";
   Hdf5Handle file_;
 };
 
@@ -99,7 +101,7 @@ TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
     EXPECT_EQ(shape(file_.id(), row[1]), wanted) << row[1];
     EXPECT_TRUE(is_type(file_.id(), row[1], types.at(row[3]))) << row[1];
   }
-  for (const HistoryColumn& column : history_columns()) EXPECT_TRUE(found.contains("/history/" + column.name));
+  for (const HistoryColumn& column : history_columns()) EXPECT_TRUE(found.contains("/" + column.path));
   EXPECT_EQ(found.size(), 34U) << "Names never change.";
 }
 
@@ -233,13 +235,24 @@ TEST_F(ChangedResultTest, OneChangedByteAnywhereIsFoundBeforeHdf5ReadsIt) {
 
 TEST_F(ChangedResultTest, AFileThatWasFoundWholeIsReadAgainOnceItChanges) {
   file_ = Hdf5Handle();
-  static_cast<void>(ResultReader(path_));
+  SampleReader samples(folder_.path());
+  const SampleRange last{1, 0, kSamples - 1, 2};
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // a younger file is read each time
+  for (int i = 0; i < 2; ++i) {
+    const auto found = samples.read(last, {});
+    ASSERT_EQ(found.samples.size(), 1U);
+    EXPECT_TRUE(found.is_cut);
+    EXPECT_EQ(found.samples.front().step(), 7 * last.first);
+    EXPECT_GT(found.samples.front().strain(), 0.0);
+  }
+  replace("/history/strain", [](hid_t) {});
+  EXPECT_EQ(samples.read(last, {}).samples.front().strain(), 0.0);
   std::filesystem::resize_file(path_, 1000);
-  EXPECT_THROW(ResultReader{path_}, ServiceError);
+  EXPECT_THROW(samples.read(last, {}), ServiceError);
 }
 
 TEST_F(ChangedResultTest, NoLinkLeadsToAnotherFileOrDataset) {
-  std::filesystem::copy(path_, folder_.path() / "other.h5");
+  std::filesystem::copy(path_, path_.parent_path() / "other.h5");
   replace("/frames/strain", [](hid_t file) {
     H5Lcreate_external("other.h5", "/frames/strain", file, "/frames/strain", H5P_DEFAULT, H5P_DEFAULT);
   });
@@ -253,7 +266,7 @@ TEST_F(ChangedResultTest, NoLinkLeadsToAnotherFileOrDataset) {
 }
 
 TEST_F(ChangedResultTest, NoDatasetIsMadeOfOtherFiles) {
-  std::filesystem::copy(path_, folder_.path() / "other.h5");
+  std::filesystem::copy(path_, path_.parent_path() / "other.h5");
   const hsize_t four = 4;
   const Hdf5Handle space(H5Screate_simple(1, &four, nullptr), H5Sclose, "space");
   for (const bool is_virtual : {true, false}) {
@@ -261,7 +274,7 @@ TEST_F(ChangedResultTest, NoDatasetIsMadeOfOtherFiles) {
     if (is_virtual)
       H5Pset_virtual(storage.id(), space.id(), "other.h5", "/frames/strain", space.id());
     else
-      H5Pset_external(storage.id(), (folder_.path() / "other.h5").c_str(), 0, 32);
+      H5Pset_external(storage.id(), (path_.parent_path() / "other.h5").c_str(), 0, 32);
     replace("/frames/strain", [&](hid_t file) {
       const Hdf5Handle made(
           H5Dcreate2(file, "/frames/strain", H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, storage.id(), H5P_DEFAULT),

@@ -9,7 +9,7 @@
 #include "error.h"
 #include "server/refuses.h"
 #include "server/watch_fixture.h"
-#include "watch/frame_chunks.h"
+#include "watch/sent_frame.h"
 
 namespace cellcrush::watch {
 namespace {
