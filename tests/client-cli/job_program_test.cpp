@@ -189,8 +189,9 @@ TEST(Queue, IsATableInTheOrderOfTheStartsAndJson) {
   v1::Queue& queue = script.queue.emplace();
   const FakeServer empty(script);
   EXPECT_EQ(empty.run({"queue"}).output, "the queue is empty\n");
-  queue = from_text<v1::Queue>(R"(entries { job: "jobs/7" reason: "All 2 workers are busy." seconds_until_start: 64 }
-                                  entries { job: "jobs/12" reason: "All 2 workers are busy." seconds_until_start: 64 })");
+  queue = from_text<v1::Queue>(R"(
+    entries { job: "jobs/7" reason: "All 2 workers are busy." seconds_until_start: 64 }
+    entries { job: "jobs/12" reason: "All 2 workers are busy." seconds_until_start: 64 })");
   const FakeServer server(script);
   EXPECT_EQ(server.run({"queue"}).output,
             "JOB       STARTS IN  REASON\n"

@@ -16,7 +16,8 @@ v1::Case small_case() {
 
 v1::Case tiny_case() {
   return with_text(small_case(), R"(
-    lattice { hexagon { columns: 4 rows: 3 } } loading { end_strain: 0.3 } output { sample_count: 20 frame_count: 2 })");
+    lattice { hexagon { columns: 4 rows: 3 } } loading { end_strain: 0.3 }
+    output { sample_count: 20 frame_count: 2 })");
 }
 
 v1::Case case_of_seconds() {
