@@ -27,11 +27,10 @@ double depth_of(const Scene& scene, const State& state, const TouchMemory& touch
          std::min(2.0 * scene.radius[ball], element.thickness);
 }
 
-/// l / l_0 up to which a wall stretches evenly: until it yields, and then until its true stress reaches H (Considere).
-double even_stretch(const Material& material) {
+/// l / l_0 up to which a wall stretches evenly: until it yields, and then as its law says.
+double even_stretch(const LawFacts& law, const Material& material) {
   const double elastic = 1.0 + material.yield_stress / material.youngs_modulus;
-  const double hardening = material.law.hardening_modulus_mpa;
-  return hardening > material.yield_stress ? elastic * std::exp(1.0 - material.yield_stress / hardening) : elastic;
+  return elastic * std::exp(law.even_strain(material.yield_stress, material.law));
 }
 
 /// Calls visit(wall, elongation) for all walls: by how much their elements are longer than they can be stretched
@@ -42,7 +41,8 @@ void visit_elongations(const Scene& scene, const State& state, const Visit& visi
   for (const WallBlock& block : walls.blocks) {
     for (int w = 0; w < block.walls; ++w) {
       const int wall = block.first_wall + w;
-      const double even = even_stretch(scene.materials[walls.material[wall]]) * walls.undeformed_length[wall];
+      const double even =
+          even_stretch(Laws::kFacts[scene.law], scene.materials[walls.material[wall]]) * walls.undeformed_length[wall];
       double elongation = 0.0;
       for (int j = 0; j < block.elements; ++j) {
         elongation += std::max(0.0, state.length[block.first_element + j * block.walls + w] - even);
