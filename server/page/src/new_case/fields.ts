@@ -1,6 +1,6 @@
 // The fields of the form, and access to them by their paths in the protos.
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
-import { CaseSchema, LatticeSchema } from "../../gen/cellcrush/v1/case_pb";
+import { CaseSchema, LatticeSchema, MaterialSchema } from "../../gen/cellcrush/v1/case_pb";
 import { create, type DescField, type DescMessage } from "@bufbuild/protobuf";
 import { reflect, type ReflectMessage } from "@bufbuild/protobuf/reflect";
 
@@ -15,16 +15,16 @@ export const kLatticeKinds = LatticeSchema.oneofs.find(({ name }) => name === "k
 /** The groups of the form for a kind of lattice; rarely changed fields are folded away. */
 export function groupsOf(kind: LatticeKind): Group[] {
   const sizes = kind.message.fields.map(({ name }) => `lattice.${kind.name}.${name}`);
+  const material = ["youngs_modulus_mpa", "yield_stress_mpa", "density_kg_per_m3", "hardening_modulus_mpa"];
+  const further = MaterialSchema.fields.map(({ name }) => name).filter((name) => !material.includes(name));
   return [
     { title: "Lattice", isOpen: true, paths: [...sizes, "depth_mm"] },
-    { title: "Material", isOpen: true, paths: ["youngs_modulus_mpa", "yield_stress_mpa", "density_kg_per_m3",
-      "hardening_modulus_mpa"].map((name) => `material.${name}`) },
+    { title: "Material", isOpen: true, paths: material.map((name) => `material.${name}`) },
     { title: "Crush", isOpen: true, paths: ["loading.direction", "loading.speed_m_per_s", "loading.end_strain",
       "loading.ramp_strain", "plates.friction"] },
     { title: "Imperfection", isOpen: false, paths: ["amplitude_mm", "seed", "bow_mm"].map((name) =>
       `lattice.imperfection.${name}`) },
-    { title: "Material, further", isOpen: false, paths: ["isotropic_fraction", "plane", "poissons_ratio"].map((name) =>
-      `material.${name}`) },
+    { title: "Material, further", isOpen: false, paths: further.map((name) => `material.${name}`) },
     { title: "Mesh and section", isOpen: false, paths: ["numerics.fidelity", "elements_per_wall",
       "section.formulation", "section.axial_points", "section.depth_points", "section.depth_rule",
       "section.area_rule"] },
