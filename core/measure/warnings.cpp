@@ -10,7 +10,7 @@
 namespace cellcrush {
 namespace {
 
-constexpr const char* kShorterStep =
+constexpr const char* kCompareShorterStep =
     "Use a shorter numerics.time_step_s, or 0 for an automatic step, and check whether the stresses change.";
 
 /// Overlap of the touching pair `t`, over the thickness of the thinner wall.
@@ -78,7 +78,7 @@ void add_drift(std::span<const Sample> samples, Warning::Kind kind, const std::s
     warnings.push_back({kind, first->step, first->strain,
                         what + " more than 1 % of the work done, from " + moment_of(first->step, first->time) +
                             " on; the maximum is " + percent_of(greatest) + ".",
-                        kShorterStep});
+                        kCompareShorterStep});
   }
 }
 
@@ -89,7 +89,7 @@ Warning warn_of_depth(const Scene& scene, const State& state, double strain) {
           "Walls had overlapped by " + percent_of(state.contact_totals.deepest_penetration) +
               " of the thinner wall's thickness by " + moment_of(state.step, state.time) + deepest_place(scene, state) +
               ".",
-          std::string(kShorterStep) + " A larger contact.stiffness_factor reduces the overlap of slow walls."};
+          std::string(kCompareShorterStep) + " A larger contact.stiffness_factor reduces the overlap of slow walls."};
 }
 
 Warning warn_of_borders(const State& state, double strain) {
