@@ -1,6 +1,7 @@
 #include "terminal/summary_text.h"
 
 #include <gmock/gmock.h>
+#include <google/protobuf/unknown_field_set.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -82,6 +83,9 @@ TEST(SummaryText, OfAFrameIsTheLedgerWithWhatItStartedWith) {
   const std::string text = summary_text(job, 120);
   EXPECT_THAT(text, ContainsRegex("initial energy +1.50 J +75.00 %"));
   EXPECT_THAT(text, Not(HasSubstr("plateau")));
+  auto* ledger = summary.mutable_ledger();
+  ledger->GetReflection()->MutableUnknownFields(ledger)->AddFixed64(99, 1);
+  EXPECT_THAT(summary_text(job, 120), ContainsRegex("initial energy less terms of a newer server +1.50 J"));
 }
 
 JobHistory history_with_damping() {

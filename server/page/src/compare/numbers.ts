@@ -25,6 +25,9 @@ function* valuesOf(message: ReflectMessage, prefix: string): Generator<[string, 
       yield [path, String(message.get(field))];
     }
   }
+  for (const { no, data } of message.getUnknown() ?? []) {
+    yield [`${prefix}${no} (of a newer server)`, data.join(" ")];
+  }
 }
 
 /** The value of every field of a case, by its path; a title names a job and is none of them. */

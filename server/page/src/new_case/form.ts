@@ -36,10 +36,6 @@ export class CaseForm {
     this.build();
   }
 
-  private get isFrame(): boolean {
-    return this.value.lattice?.kind.case === "frame";
-  }
-
   /** The numeric fields of the form, for the axis of a sweep. */
   get paths(): string[] {
     return [...this.inputs.keys()];
@@ -48,15 +44,15 @@ export class CaseForm {
   private build(): void {
     this.inputs = new Map();
     this.unreadable.clear();
-    const isOwnGeometry = this.isFrame;
     const kind = kLatticeKinds.find(({ localName }) => localName === this.value.lattice?.kind.case);
+    const isOwnGeometry = this.value.lattice && !kind; // a frame, or a lattice of a newer server
     if (kind) this.kind.value = kind.localName;
     const groups = groupsOf(kind ?? kLatticeKinds[0]).filter((group) =>
       !isOwnGeometry || !["Lattice", "Crush", "Imperfection"].includes(group.title));
     replaceChildren(this.element,
       h("div", { class: "field wide" }, h("label", { for: "case-title" }, "Title"), this.title),
       isOwnGeometry ? h("p", { class: "banner warning" },
-        "This case is a frame of beams. Its geometry, loads and motions stay as they are.")
+        "This form does not show the lattice of this case. Its geometry, loads and motions stay as they are.")
         : h("div", { class: "field wide" }, h("label", { for: "case-kind" }, "Cells"), this.kind),
       ...groups.map((group) => this.groupOf(group.title, group.paths, group.isOpen)));
   }
