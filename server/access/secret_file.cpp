@@ -2,31 +2,18 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <system_error>
 
 #include "error.h"
+#include "open_file.h"
 
 namespace cellcrush::access {
 namespace {
 
 constexpr std::size_t kLargestNamedFile = 1024 * 1024;
-
-// A descriptor that closes itself.
-struct OpenFile {
-  explicit OpenFile(const std::filesystem::path& path)
-      : descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~OpenFile() {
-    if (descriptor >= 0) close(descriptor);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  int descriptor;
-};
 
 std::string reason() { return "cannot be read: " + std::generic_category().message(errno) + "."; }
 
@@ -37,10 +24,10 @@ void refuse_file(const std::string& option, const std::filesystem::path& path, c
 }
 
 std::string read_named_file(const std::string& option, const std::filesystem::path& path, Secrecy secrecy) {
-  const OpenFile file(path);
+  const OpenFile file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   // Checked on the open descriptor, so that the file cannot be replaced in between.
-  if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0) refuse_file(option, path, reason());
+  if (!file || fstat(file.get(), &status) != 0) refuse_file(option, path, reason());
   if (!S_ISREG(status.st_mode)) refuse_file(option, path, "is not a regular file.");
   if (secrecy == Secrecy::secret && (status.st_mode & S_IROTH) != 0)
     refuse_file(option, path, "is readable by other users. Run chmod 600 " + path.string());
@@ -49,7 +36,7 @@ std::string read_named_file(const std::string& option, const std::filesystem::pa
   std::string text;
   std::array<char, 65536> buffer{};
   ssize_t count = 0;
-  while ((count = read(file.descriptor, buffer.data(), buffer.size())) > 0) {
+  while ((count = read(file.get(), buffer.data(), buffer.size())) > 0) {
     text.append(buffer.data(), static_cast<std::size_t>(count));
     if (text.size() > kLargestNamedFile) refuse_file(option, path, "is larger than 1 MiB. Is it the right file?");
   }

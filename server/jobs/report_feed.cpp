@@ -1,9 +1,7 @@
 #include "jobs/report_feed.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <utility>
 
 #include "store/durable_file.h"
@@ -12,9 +10,7 @@ namespace cellcrush::jobs {
 namespace {
 
 const std::filesystem::path& existing(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600);
-  if (file < 0) store::throw_file_error(path, "written", errno);
-  close(file);
+  store::open_file(path, O_WRONLY | O_CREAT | O_NONBLOCK);
   return path;
 }
 

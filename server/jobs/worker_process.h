@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "open_file.h"
 #include "store/job_folder.h"
 
 namespace cellcrush::jobs {
@@ -34,7 +35,7 @@ class WorkerProcess {
 
   [[nodiscard]] pid_t number() const { return process_; }
   /// Becomes readable when the process ends.
-  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] int descriptor() const { return descriptor_.get(); }
 
   void send(int signal) const;
   [[nodiscard]] bool has_ended() const { return ends_within(std::chrono::milliseconds(0)); }
@@ -49,7 +50,7 @@ class WorkerProcess {
 
   pid_t process_;
   bool is_child_;
-  int descriptor_;
+  OpenFile descriptor_;
 };
 
 }  // namespace cellcrush::jobs

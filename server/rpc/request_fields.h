@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "store/epoch.h"
 #include "store/journal_reader.h"
+#include "store/journal_schema.h"
 #include "store/page_room.h"
 
 namespace cellcrush::rpc {

@@ -14,6 +14,7 @@
 #include "error.h"
 #include "slurm/small_file.h"
 #include "store/durable_file.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -80,7 +81,7 @@ void AttemptFolder::look_again() const {
 // A hard link is created by one caller only, on NFS too, where exclusive creation of a file may be repeated by the
 // client. If the answer of the server was lost, the number of links tells whether it was made.
 bool AttemptFolder::claim(const Claim& claim) const {
-  const auto own = file((std::string(kClaim) + "." + random_name()).c_str());
+  const auto own = file((std::string(kClaim) + "." + store::random_name()).c_str());
   if (!exists()) return false;
   try {
     write_small_file(own, claim.SerializeAsString());
@@ -163,7 +164,7 @@ void prepare_shared_folder(const ClusterOptions& options, const fs::path& data_f
   make_folder(options.folder / "attempts");
   make_folder(options.folder / "batches");
   if (!found) {
-    const std::string identity = random_name();
+    const std::string identity = store::random_name();
     write_small_file(own, identity);
     write_small_file(marker, identity);
   }

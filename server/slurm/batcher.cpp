@@ -17,6 +17,7 @@
 #include "slurm/cluster_view.h"
 #include "slurm/small_file.h"
 #include "store/durable_file.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -171,7 +172,7 @@ void Batcher::submit_pack(Pack pack, const std::vector<Gathered>& gathered) {
   std::erase_if(pack.tasks, [](const Share& task) { return task.empty(); });
   if (pack.tasks.empty()) return;
   Submission::State state;
-  const std::string batch = random_name();
+  const std::string batch = store::random_name();
   try {
     const auto arguments = prepare(batch, pack, gathered);
     const Submitted answer = commands_.sbatch(arguments);

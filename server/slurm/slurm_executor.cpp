@@ -14,6 +14,7 @@
 #include "slurm/small_file.h"
 #include "store/durable_file.h"
 #include "store/report_log.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -100,7 +101,7 @@ Need SlurmExecutor::predict(const worker::Order& order) {
 
 std::shared_ptr<Submission> SlurmExecutor::open_attempt(const store::JobFolder& folder, const worker::Order& order) {
   Attempt attempt;
-  attempt.set_id(random_name());
+  attempt.set_id(store::random_name());
   const Need need = predict(order);
   const AttemptFolder shared = folder_of(attempt);
   require_marker(options_.folder);

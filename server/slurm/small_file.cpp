@@ -1,12 +1,10 @@
 #include "slurm/small_file.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <random>
 #include <string_view>
 #include <system_error>
 
@@ -70,11 +68,6 @@ void copy_durably(const std::filesystem::path& from, const std::filesystem::path
     store::throw_file_error(to, "written", error.value());
   }
   store::publish_file(partial, to);
-}
-
-std::string random_name() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}", random(), random());
 }
 
 std::optional<std::string> read_small_file(const std::filesystem::path& path) {

@@ -23,9 +23,6 @@ void make_durable(const std::filesystem::path& path);
 /// Copies a file durably under its final name. Throws ServiceError.
 void copy_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// A random name of 16 hexadecimal digits.
-std::string random_name();
-
 /// Nothing if the file is absent. Throws ServiceError if it cannot be read for another reason.
 std::optional<std::string> read_small_file(const std::filesystem::path& path);
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "open_file.h"
+
 namespace cellcrush::slurm {
 
 /// What a task of a Slurm job is given.
@@ -29,7 +31,7 @@ class ScratchFolder {
 
  private:
   std::filesystem::path path_;
-  int lock_ = -1;
+  OpenFile lock_;
 };
 
 /// Computes the attempts of one task of a batch, one after the other, on this node: `cellcrushd task`, in a script that

@@ -8,7 +8,6 @@
 
 #include "error.h"
 #include "store/durable_file.h"
-#include "store/epoch.h"
 #include "store/job_folder.h"
 #include "store/job_rows.h"
 #include "store/job_state.h"

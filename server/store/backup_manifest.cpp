@@ -4,10 +4,8 @@
 #include <fcntl.h>
 #include <google/protobuf/util/time_util.h>
 #include <openssl/evp.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <fstream>
 #include <iterator>
@@ -40,30 +38,6 @@ class Digest {
  private:
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
-
-// A descriptor that closes itself.
-class OpenFile {
- public:
-  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
-  ~OpenFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  [[nodiscard]] int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
-void write_all(int file, std::string_view bytes, const std::filesystem::path& path) {
-  while (!bytes.empty()) {
-    const auto count = write(file, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw_file_error(path, "written", errno);
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-}
 
 std::string digest_of_text(std::string_view text) {
   Digest digest;
@@ -122,21 +96,15 @@ BackupManifest read_manifest(const std::filesystem::path& backup) {
 }
 
 BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy) {
-  const OpenFile from(open_to_read(file));
-  const OpenFile to(copy.empty() ? -1 : open(copy.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (!copy.empty() && to.get() < 0) throw_file_error(copy, "written", errno);
+  const OpenFile from = open_to_read(file);
+  const OpenFile to = copy.empty() ? OpenFile() : open_file(copy, O_WRONLY | O_CREAT | O_EXCL);
   BackupFile out;
   Digest digest;
   std::string part(kCopiedAtOnce, '\0');
-  while (true) {
-    const auto count = read(from.get(), part.data(), part.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw_file_error(file, "read", errno);
-    if (count == 0) break;
-    const auto size = static_cast<std::size_t>(count);
+  while (const std::size_t size = read_at(from, file, part.data(), part.size(), out.size)) {
     digest.add(part.data(), size);
     out.size += size;
-    if (to.get() >= 0) write_all(to.get(), {part.data(), size}, copy);
+    if (to) write_all(to, copy, {part.data(), size});
   }
   out.sha256 = digest.hexadecimal();
   return out;

@@ -47,17 +47,14 @@ int error_of_folder(const JobFolder& folder) {
     }
   }
   const auto probe = folder.root() / "probe";
-  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600);
-  if (file < 0) return errno;
-  close(file);
+  if (!OpenFile(open(probe.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600))) return errno;
   return unlink(probe.c_str()) == 0 ? 0 : errno;
 }
 
 // False if there is no room.
 bool keep_file(const std::filesystem::path& path, off_t bytes) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600);
-  const int error = file < 0 ? errno : posix_fallocate(file, 0, bytes);
-  if (file >= 0) close(file);
+  const OpenFile file(open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600));
+  const int error = file ? posix_fallocate(file.get(), 0, bytes) : errno;
   if (error == 0) return true;
   unlink(path.c_str());
   if (shortage_of_errno(error) != Shortage::full_disk) throw_file_error(path, "written", error);
@@ -75,18 +72,18 @@ void warn_of_readers(const std::filesystem::path& root) {
 }
 
 // An exiting daemon still holds the lock for a moment after it stops listening.
-bool lock_within(int file, std::chrono::milliseconds limit) {
+bool lock_within(const OpenFile& file, std::chrono::milliseconds limit) {
   const auto end = std::chrono::steady_clock::now() + limit;
-  while (flock(file, LOCK_EX | LOCK_NB) != 0) {
+  while (flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return true;
 }
 
-std::string read_text(int file) {
+std::string read_text(const OpenFile& file) {
   std::array<char, 32> buffer{};
-  const auto count = pread(file, buffer.data(), buffer.size(), 0);
+  const auto count = pread(file.get(), buffer.data(), buffer.size(), 0);
   return count > 0 ? std::string(buffer.data(), static_cast<std::size_t>(count)) : "unknown";
 }
 
@@ -99,12 +96,9 @@ void remove_file(const std::filesystem::path& path) {
 }  // namespace
 
 std::optional<std::string> daemon_of(const std::filesystem::path& root) {
-  const int lock = open((root / "lock").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (lock < 0) return std::nullopt;
-  std::optional<std::string> out;
-  if (flock(lock, LOCK_SH | LOCK_NB) != 0) out = read_text(lock);
-  close(lock);
-  return out;
+  const OpenFile lock(open((root / "lock").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!lock || flock(lock.get(), LOCK_SH | LOCK_NB) == 0) return std::nullopt;
+  return read_text(lock);
 }
 
 DataFolder::DataFolder(const std::filesystem::path& root) {
@@ -115,27 +109,18 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
   warn_of_readers(root_);
   make_private_folder(root_ / "jobs");
   const auto lock_path = root_ / "lock";
-  lock_ = open(lock_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (lock_ < 0) throw_file_error(lock_path, "used", errno);
+  lock_ = open_file(lock_path, O_RDWR | O_CREAT, "used");
   if (!lock_within(lock_, kToEnd)) {
-    const std::string owner = read_text(lock_);
-    close(lock_);
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "The data folder " + root_.string() + " is in use by a running daemon (process " + owner +
-                           "). Stop that daemon, or use another folder with --data.");
+                       "The data folder " + root_.string() + " is in use by a running daemon (process " +
+                           read_text(lock_) + "). Stop that daemon, or use another folder with --data.");
   }
   if (free_bytes() < kStartBallastBytes) unlink(start_ballast().c_str());
   // Rewrites the first page before truncating the file: that needs no room.
   const std::string process = std::to_string(getpid());
-  const auto written = pwrite(lock_, process.data(), process.size(), 0);
-  if (written < 0 ? errno != ENOSPC : ftruncate(lock_, written) != 0) {
-    const int reason = errno;
-    close(lock_);
-    throw_file_error(lock_path, "used", reason);
-  }
+  const auto written = pwrite(lock_.get(), process.data(), process.size(), 0);
+  if (written < 0 ? errno != ENOSPC : ftruncate(lock_.get(), written) != 0) throw_file_error(lock_path, "used", errno);
 }
-
-DataFolder::~DataFolder() { close(lock_); }
 
 void DataFolder::make_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);

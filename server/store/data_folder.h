@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "open_file.h"
 #include "store/job_folder.h"
 
 namespace cellcrush::store {
@@ -25,9 +26,6 @@ class DataFolder {
   /// Creates the folder if it is absent, readable for its owner only, and takes the lock. Throws ServiceError:
   /// failed_precondition if another daemon holds the lock, internal if the folder is unusable.
   explicit DataFolder(const std::filesystem::path& root);
-  ~DataFolder();
-  DataFolder(const DataFolder&) = delete;
-  DataFolder& operator=(const DataFolder&) = delete;
 
   [[nodiscard]] std::filesystem::path journal() const { return root_ / "journal.sqlite"; }
   [[nodiscard]] JobFolder job_folder(std::int64_t job) const { return JobFolder(root_ / "jobs" / std::to_string(job)); }
@@ -79,7 +77,7 @@ class DataFolder {
   void set_aside(std::int64_t job, const std::string& reason) const;
 
   std::filesystem::path root_;
-  int lock_ = -1;
+  OpenFile lock_;
 };
 
 }  // namespace cellcrush::store

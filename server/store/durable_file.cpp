@@ -2,24 +2,17 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
 
-#include "error.h"
-
 namespace cellcrush::store {
-
 namespace {
 
 void synchronize(const std::filesystem::path& path, int flags) {
-  const int file = open(path.c_str(), flags | O_CLOEXEC);
-  if (file < 0) throw_file_error(path, "written", errno);
-  const int error = fsync(file) == 0 ? 0 : errno;
-  close(file);
-  if (error != 0) throw_file_error(path, "written", error);
+  const OpenFile file = open_file(path, flags);
+  if (fsync(file.get()) != 0) throw_file_error(path, "written", errno);
 }
 
 }  // namespace
@@ -32,22 +25,45 @@ void throw_file_error(const std::filesystem::path& path, std::string_view used, 
   throw ServiceError(ServiceError::Kind::internal, message);
 }
 
-int open_to_read(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) throw_file_error(path, "read", errno);
+OpenFile open_file(const std::filesystem::path& path, int flags, std::string_view used) {
+  OpenFile file(open(path.c_str(), flags | O_CLOEXEC, 0600));
+  if (!file) throw_file_error(path, used, errno);
+  return file;
+}
+
+OpenFile open_to_read(const std::filesystem::path& path, ServiceError::Kind otherwise) {
+  OpenFile file = open_file(path, O_RDONLY | O_NONBLOCK, "read");
   struct stat status {};
-  if (fstat(file, &status) == 0 && S_ISREG(status.st_mode)) return file;
-  close(file);
-  throw ServiceError(ServiceError::Kind::internal,
-                     path.string() + " cannot be read: it is not a regular file. Move it away.");
+  if (fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode)) return file;
+  throw ServiceError(otherwise, path.string() + " cannot be read: it is not a regular file. Move it away.");
+}
+
+std::size_t read_at(const OpenFile& file, const std::filesystem::path& path, void* to, std::size_t most,
+                    std::uint64_t offset) {
+  std::size_t done = 0;
+  while (done < most) {
+    const auto count = pread(file.get(), static_cast<char*>(to) + done, most - done, static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw_file_error(path, "read", errno);
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  return done;
+}
+
+void write_all(const OpenFile& file, const std::filesystem::path& path, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const auto count = write(file.get(), bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw_file_error(path, "written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
 }
 
 bool synchronize_file(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0 && shortage_of_errno(errno) != Shortage::descriptors) return false;
-  const int error = file >= 0 && fdatasync(file) == 0 ? 0 : errno;
-  if (file >= 0) close(file);
-  if (error != 0) throw_file_error(path, "written", error);
+  const OpenFile file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!file && shortage_of_errno(errno) != Shortage::descriptors) return false;
+  if (!file || fdatasync(file.get()) != 0) throw_file_error(path, "written", errno);
   return true;
 }
 
@@ -60,33 +76,12 @@ void publish_file(const std::filesystem::path& from, const std::filesystem::path
 }
 
 InputFile::InputFile(const std::filesystem::path& path)
-    : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-  if (descriptor_ < 0) throw_file_error(path_, "read", errno);
-  struct stat status {};
-  const int error = fstat(descriptor_, &status) == 0 ? 0 : errno;
-  if (error == 0 && S_ISREG(status.st_mode)) {
-    size_ = status.st_size;
-    return;
-  }
-  close(descriptor_);
-  if (error != 0) throw_file_error(path_, "read", error);
-  throw ServiceError(ServiceError::Kind::data_loss, path_.string() + " cannot be read: it is not a regular file.");
-}
-
-InputFile::~InputFile() { close(descriptor_); }
+    : path_(path), file_(open_to_read(path, ServiceError::Kind::data_loss)), size_(lseek(file_.get(), 0, SEEK_END)) {}
 
 std::string InputFile::read(std::int64_t offset, std::size_t most) const {
   std::string out(std::min(most, static_cast<std::size_t>(size_ - offset)), '\0');
-  std::size_t done = 0;
-  while (done < out.size()) {
-    const auto count =
-        pread(descriptor_, out.data() + done, out.size() - done, offset + static_cast<std::int64_t>(done));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw_file_error(path_, "read", errno);
-    if (count == 0)
-      throw ServiceError(ServiceError::Kind::data_loss, path_.string() + " was truncated while being read.");
-    done += static_cast<std::size_t>(count);
-  }
+  if (read_at(file_, path_, out.data(), out.size(), static_cast<std::uint64_t>(offset)) < out.size())
+    throw ServiceError(ServiceError::Kind::data_loss, path_.string() + " was truncated while being read.");
   return out;
 }
 

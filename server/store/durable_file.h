@@ -6,15 +6,28 @@
 #include <string>
 #include <string_view>
 
+#include "error.h"
+#include "open_file.h"
+
 namespace cellcrush::store {
 
 /// Throws that `path` cannot be `used` (used, written), with the reason of `error`, an errno. ServiceError: with the
 /// shortage that the errno means, else internal.
 [[noreturn]] void throw_file_error(const std::filesystem::path& path, std::string_view used, int error);
 
-/// Opens a regular file for reading; never blocks, as opening a FIFO would. Returns the descriptor, owned by the
-/// caller. Throws ServiceError: internal for another kind of file, or if it cannot be opened.
-int open_to_read(const std::filesystem::path& path);
+/// Opens a file with these flags and O_CLOEXEC; a new one is its owner's only. Throws that it cannot be `used`.
+OpenFile open_file(const std::filesystem::path& path, int flags, std::string_view used = "written");
+
+/// Opens a regular file for reading; never blocks, as opening a FIFO would. Throws ServiceError: of this kind for
+/// anything but a regular file, and the errors of throw_file_error.
+OpenFile open_to_read(const std::filesystem::path& path, ServiceError::Kind otherwise = ServiceError::Kind::internal);
+
+/// Reads `most` bytes at `offset`; fewer only at the end of the file. Throws the errors of throw_file_error.
+std::size_t read_at(const OpenFile& file, const std::filesystem::path& path, void* to, std::size_t most,
+                    std::uint64_t offset);
+
+/// Writes all bytes where the file stands. Throws the errors of throw_file_error.
+void write_all(const OpenFile& file, const std::filesystem::path& path, std::string_view bytes);
 
 /// Makes the bytes of a file durable, whoever wrote them. False if there is no such file that can be read. Throws the
 /// errors of throw_file_error.
@@ -24,14 +37,11 @@ bool synchronize_file(const std::filesystem::path& path);
 /// names are in the same folder. Throws the errors of throw_file_error.
 void publish_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// A regular file open for reading, closed on destruction. Thread-safe. Failures throw ServiceError.
+/// A regular file open for reading. Thread-safe. Failures throw ServiceError.
 class InputFile {
  public:
-  /// Also throws for anything but a regular file, such as a FIFO, without blocking.
+  /// Throws data_loss for anything but a regular file, such as a FIFO, without blocking.
   explicit InputFile(const std::filesystem::path& path);
-  ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
 
   /// Size when it was opened.
   [[nodiscard]] std::int64_t size() const { return size_; }
@@ -41,7 +51,7 @@ class InputFile {
 
  private:
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  OpenFile file_;
   std::int64_t size_ = 0;
 };
 

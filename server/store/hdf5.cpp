@@ -121,9 +121,9 @@ std::string read_text_attribute(hid_t object, const char* name) {
   return out;
 }
 
-Hdf5Handle make_growing_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& row_shape,
-                                const std::vector<hsize_t>& chunk) {
-  const std::string what = std::string("Creating the dataset ") + name;
+Hdf5Handle make_growing_dataset(hid_t folder, const std::string& path, hid_t type,
+                                const std::vector<hsize_t>& row_shape, const std::vector<hsize_t>& chunk) {
+  const std::string what = "Creating the dataset " + path;
   std::vector<hsize_t> shape{0};
   std::vector<hsize_t> limit{H5S_UNLIMITED};
   shape.insert(shape.end(), row_shape.begin(), row_shape.end());
@@ -132,8 +132,10 @@ Hdf5Handle make_growing_dataset(hid_t folder, const char* name, hid_t type, cons
   check_hdf5(H5Pset_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data()), what);
   check_hdf5(H5Pset_shuffle(properties.id()), what);
   check_hdf5(H5Pset_deflate(properties.id(), 4), what);
+  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
+  check_hdf5(H5Pset_create_intermediate_group(links.id(), 1), what);
   const Hdf5Handle space = dataspace(shape, limit);
-  return {H5Dcreate2(folder, name, type, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Dclose, what};
+  return {H5Dcreate2(folder, path.c_str(), type, space.id(), links.id(), properties.id(), H5P_DEFAULT), H5Dclose, what};
 }
 
 void append_rows(hid_t dataset, hid_t type, hsize_t rows, const void* data) {

@@ -42,10 +42,10 @@ void write_attribute(hid_t object, const char* name, std::int64_t value);
 
 std::string read_text_attribute(hid_t object, const char* name);
 
-/// A dataset that grows along its first dimension; chunked, shuffled, deflated. `row_shape`: extents of the other
-/// dimensions; `chunk`: extents of a chunk in all dimensions.
-Hdf5Handle make_growing_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& row_shape,
-                                const std::vector<hsize_t>& chunk);
+/// A dataset that grows along its first dimension; chunked, shuffled, deflated. Missing groups of its path are made.
+/// `row_shape`: extents of the other dimensions; `chunk`: extents of a chunk in all dimensions.
+Hdf5Handle make_growing_dataset(hid_t folder, const std::string& path, hid_t type,
+                                const std::vector<hsize_t>& row_shape, const std::vector<hsize_t>& chunk);
 
 /// Appends `rows` rows of native type `type`.
 void append_rows(hid_t dataset, hid_t type, hsize_t rows, const void* data);

@@ -13,7 +13,6 @@
 #include "store/job_rows.h"
 #include "store/job_state.h"
 #include "store/journal_mending.h"
-#include "store/journal_schema.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::store {

@@ -8,7 +8,6 @@
 
 #include "error.h"
 #include "store/durable_file.h"
-#include "store/epoch.h"
 #include "store/job_folder.h"
 #include "store/job_state.h"
 #include "store/report_log.h"
@@ -212,7 +211,20 @@ std::int64_t read_service_clock(Database& database) {
   return read.step() ? read.integer(0) : 0;
 }
 
+std::string fact(Database& database, const std::string& name) {
+  Statement read(database, "SELECT value FROM facts WHERE name = ?1");
+  return read.bind_text(1, name).step() ? read.bytes(0) : "";
+}
+
 }  // namespace
+
+Epoch read_epoch(Database& database) { return {fact(database, "epoch"), fact(database, "restored")}; }
+
+void begin_epoch(Database& database, const std::string& restored) {
+  Statement write(database, "INSERT OR REPLACE INTO facts (name, value) VALUES (?1, ?2)");
+  write.bind_text(1, "epoch").bind_text(2, random_name()).run();
+  if (!restored.empty()) write.bind_text(1, "restored").bind_text(2, restored).run();
+}
 
 void require_known_version(Database& database) {
   const std::int64_t version = journal_version(database);
@@ -231,7 +243,7 @@ std::int64_t prepare_journal(Database& database, const std::filesystem::path& da
   }
   if (journal_version(database) == 6) upgrade_from_version_6(database, data_folder);
   require_known_version(database);
-  ensure_epoch(database);
+  if (read_epoch(database).id.empty()) begin_epoch(database, "");
   transaction.commit();
   return read_service_clock(database);
 }

@@ -2,10 +2,36 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
+
+/// One life of a journal; a restore starts another. Sequence numbers, resume tokens and workers' reports of an earlier
+/// epoch are invalid, since their numbers may have been reused.
+struct Epoch {
+  std::string id;        ///< random
+  std::string restored;  ///< time of the restore that started it, "2026-11-23T09:15:02Z"; empty without a restore
+
+  /// Whether something of epoch `other` is valid in this one. An empty epoch is of a version without epochs and belongs
+  /// to a journal that was never restored.
+  [[nodiscard]] bool admits(const std::string& other) const {
+    return other == id || (other.empty() && restored.empty());
+  }
+
+  /// " of before a restore of the data (2026-11-23T09:15:02Z)", for what does not belong to this epoch.
+  [[nodiscard]] std::string of_before() const {
+    return restored.empty() ? " from an earlier journal, which was replaced"
+                            : " from before the restore of " + restored;
+  }
+};
+
+/// The journal's epoch; empty if it has none yet. Throws ServiceError.
+Epoch read_epoch(Database& database);
+
+/// Starts a new epoch; `restored` as in Epoch. Throws ServiceError.
+void begin_epoch(Database& database, const std::string& restored);
 
 /// Creates the tables of a new journal, or upgrades one of the version before. Returns the seconds counted by the
 /// service clock (ServiceClock). Throws ServiceError (failed_precondition) for a journal of another version.

@@ -2,13 +2,10 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
-
-#include "store/durable_file.h"
 
 namespace cellcrush::store {
 namespace {
@@ -27,27 +24,22 @@ std::uint32_t number_at(const char* bytes) {
   return out;
 }
 
-std::uint32_t checksum_of(const char* bytes, std::size_t size) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes), size));
+std::uint32_t checksum_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace
 
 ReportLog::ReportLog(const std::filesystem::path& path)
-    : path_(path), file_(open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600)) {
-  if (file_ < 0) throw_file_error(path, "written", errno);
+    : path_(path), file_(open_file(path, O_WRONLY | O_CREAT | O_APPEND)) {
   ReportLogReader reader(path);
   worker::Report report;
   while (reader.read(report) == ReportLogReader::Read::message) continue;
   cut(reader.offset());
 }
 
-ReportLog::~ReportLog() {
-  if (file_ >= 0) close(file_);
-}
-
 void ReportLog::cut(std::uint64_t size) {
-  if (ftruncate(file_, static_cast<off_t>(size)) != 0) throw_file_error(path_, "written", errno);
+  if (ftruncate(file_.get(), static_cast<off_t>(size)) != 0) throw_file_error(path_, "written", errno);
   size_ = size;
 }
 
@@ -56,114 +48,99 @@ void ReportLog::append(const worker::Report& report) {
   std::string record;
   record.reserve(kHead + message.size());
   append_number(record, static_cast<std::uint32_t>(message.size()));
-  append_number(record, checksum_of(message.data(), message.size()));
+  append_number(record, checksum_of(message));
   record += message;
-  for (std::size_t done = 0; done < record.size();) {
-    const auto written = write(file_, record.data() + done, record.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int error = errno;
-      cut(size_);
-      throw_file_error(path_, "written", error);
-    }
-    done += static_cast<std::size_t>(written);
+  try {
+    write_all(file_, path_, record);
+  } catch (const ServiceError&) {
+    cut(size_);
+    throw;
   }
   size_ += record.size();
 }
 
 void ReportLog::synchronize() {
-  if (fdatasync(file_) != 0) throw_file_error(path_, "written", errno);
+  if (fdatasync(file_.get()) != 0) throw_file_error(path_, "written", errno);
 }
-
-ReportLogReader::ReportLogReader(const std::filesystem::path& path) : file_(open_to_read(path)) {}
-
-ReportLogReader::~ReportLogReader() { close(file_); }
 
 bool ReportLogReader::is_so_long(std::size_t size) const {
   struct stat status {};
-  return fstat(file_, &status) == 0 && static_cast<std::uint64_t>(status.st_size) >= offset_ + size;
+  return fstat(file_.get(), &status) == 0 && static_cast<std::uint64_t>(status.st_size) >= offset_ + size;
 }
 
-// Makes this many bytes of the record available. The buffer never shrinks, since resizing would fill it with zeros.
 bool ReportLogReader::fill(std::size_t size) {
-  while (end_ - taken_ < size) {
-    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(taken_),
-              buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
-    end_ -= taken_;
-    taken_ = 0;
-    if (buffer_.size() < std::max(size, kReadAhead)) {
-      // A damaged length may be a GiB; no memory is allocated beyond the size of the file.
-      if (size > kReadAhead && !is_so_long(size)) return false;
-      buffer_.resize(std::max(size, kReadAhead));
-    }
-    const auto count = pread(file_, buffer_.data() + end_, buffer_.size() - end_, static_cast<off_t>(offset_ + end_));
+  if (available_.size() >= size) return true;
+  // A damaged length may be a GiB; no memory is allocated beyond the size of the file.
+  if (size > kReadAhead && !is_so_long(size)) return false;
+  if (buffer_.size() < size) buffer_.resize(std::max(size, kReadAhead));
+  std::size_t end = 0;
+  while (end < size) {
+    const auto count =
+        pread(file_.get(), buffer_.data() + end, buffer_.size() - end, static_cast<off_t>(offset_ + end));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return false;
-    end_ += static_cast<std::size_t>(count);
+    end += static_cast<std::size_t>(count);
   }
+  available_ = {buffer_.data(), end};
   return true;
 }
 
 // The incomplete record may be truncated and rewritten.
 ReportLogReader::Read ReportLogReader::nothing_whole() {
-  taken_ = 0;
-  end_ = 0;
+  available_ = {};
   return Read::end;
 }
 
-ReportLogReader::Read ReportLogReader::next_record(std::uint32_t& size) {
+ReportLogReader::Read ReportLogReader::next_record(std::string_view& record) {
   if (!fill(kHead)) return nothing_whole();
-  size = number_at(buffer_.data() + taken_);
+  const std::uint32_t size = number_at(available_.data());
   if (size > kLargest) return Read::broken;
   // No report is empty; zeros stand where a network file system or a power loss has left a hole.
-  if (size == 0) return nothing_whole();
-  if (!fill(kHead + size)) return nothing_whole();
-  const char* record = buffer_.data() + taken_;
-  return checksum_of(record + kHead, size) == number_at(record + 4) ? Read::message : Read::broken;
+  if (size == 0 || !fill(kHead + size)) return nothing_whole();
+  record = available_.substr(0, kHead + size);
+  return checksum_of(record.substr(kHead)) == number_at(record.data() + 4) ? Read::message : Read::broken;
 }
 
 ReportLogReader::Read ReportLogReader::read(worker::Report& report) {
-  std::uint32_t size = 0;
-  const Read out = next_record(size);
+  std::string_view record;
+  const Read out = next_record(record);
   if (out != Read::message) return out;
-  if (!report.ParseFromArray(buffer_.data() + taken_ + kHead, static_cast<int>(size))) return Read::broken;
-  pass(size);
+  if (!report.ParseFromArray(record.data() + kHead, static_cast<int>(record.size() - kHead))) return Read::broken;
+  pass(record.size());
   return Read::message;
 }
 
 bool ReportLogReader::read_record(std::string& bytes) {
-  std::uint32_t size = 0;
-  if (next_record(size) != Read::message) {
+  std::string_view record;
+  if (next_record(record) != Read::message) {
     nothing_whole();
     return false;
   }
-  bytes.append(buffer_, taken_, kHead + size);
-  pass(size);
+  bytes += record;
+  pass(record.size());
   return true;
 }
 
 // A record begins with the number of what it reports.
 ReportLogReader::Read ReportLogReader::read_sample(v1::Sample& sample) {
   constexpr char kTag = (worker::Report::kSampleFieldNumber << 3U) | 2U;
-  worker::Report report;
   while (true) {
     if (!fill(kHead + 1)) return nothing_whole();
-    const std::uint32_t size = number_at(buffer_.data() + taken_);
-    if (size > 0 && buffer_[taken_ + kHead] != kTag) {
-      if (size > kLargest) return Read::broken;
-      if (!is_so_long(kHead + size)) return nothing_whole();
-      pass(size);
-      continue;
-    }
-    const Read out = read(report);
-    if (out == Read::message) sample = std::move(*report.mutable_sample());
-    return out;
+    const std::size_t size = kHead + number_at(available_.data());
+    if (size == kHead || available_[kHead] == kTag) break;
+    if (size > kHead + kLargest) return Read::broken;
+    if (!is_so_long(size)) return nothing_whole();
+    pass(size);
   }
+  worker::Report report;
+  const Read out = read(report);
+  if (out == Read::message) sample = std::move(*report.mutable_sample());
+  return out;
 }
 
 void ReportLogReader::pass(std::size_t size) {
-  offset_ += kHead + size;
-  taken_ = std::min(taken_ + kHead + size, end_);
+  offset_ += size;
+  available_.remove_prefix(std::min(size, available_.size()));
 }
 
 }  // namespace cellcrush::store

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
+#include "store/durable_file.h"
 #include "store/report.pb.h"
 
 namespace cellcrush::store {
@@ -16,9 +18,6 @@ class ReportLog {
   /// Opens or creates the log, and truncates an incomplete record that a killed worker left at its end. Throws
   /// ServiceError.
   explicit ReportLog(const std::filesystem::path& path);
-  ~ReportLog();
-  ReportLog(const ReportLog&) = delete;
-  ReportLog& operator=(const ReportLog&) = delete;
 
   /// An incomplete record is removed. Throws ServiceError: storage_full or internal.
   void append(const worker::Report& report);
@@ -30,7 +29,7 @@ class ReportLog {
   void cut(std::uint64_t size);
 
   std::filesystem::path path_;
-  int file_ = -1;
+  OpenFile file_;
   std::uint64_t size_ = 0;
 };
 
@@ -38,10 +37,7 @@ class ReportLog {
 class ReportLogReader {
  public:
   /// Throws ServiceError if the file does not exist.
-  explicit ReportLogReader(const std::filesystem::path& path);
-  ~ReportLogReader();
-  ReportLogReader(const ReportLogReader&) = delete;
-  ReportLogReader& operator=(const ReportLogReader&) = delete;
+  explicit ReportLogReader(const std::filesystem::path& path) : file_(open_to_read(path)) {}
 
   enum class Read {
     message,  ///< a report was read
@@ -64,20 +60,19 @@ class ReportLogReader {
   [[nodiscard]] std::uint64_t offset() const { return offset_; }
 
  private:
+  /// Makes this many bytes after offset_ available; false if the file has fewer.
   bool fill(std::size_t size);
-  /// Makes the next record available at taken_.
-  Read next_record(std::uint32_t& size);
+  /// The next record, with its length and checksum.
+  Read next_record(std::string_view& record);
   /// Whether the file has this many bytes after offset_.
   [[nodiscard]] bool is_so_long(std::size_t size) const;
   Read nothing_whole();
-  /// Goes on behind the record.
   void pass(std::size_t size);
 
-  int file_;
+  OpenFile file_;
   std::uint64_t offset_ = 0;
-  std::string buffer_;  ///< bytes of the file from taken_ to end_, starting at file position offset_
-  std::size_t taken_ = 0;
-  std::size_t end_ = 0;
+  std::string buffer_;          ///< never shrinks, since resizing would fill it with zeros
+  std::string_view available_;  ///< bytes of the file from offset_ on, in the buffer
 };
 
 }  // namespace cellcrush::store

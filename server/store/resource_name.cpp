@@ -1,6 +1,9 @@
 #include "store/resource_name.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
+#include <random>
 
 namespace cellcrush::store {
 namespace {
@@ -31,5 +34,10 @@ std::optional<std::int64_t> number_of(std::string_view name) { return number_in(
 std::string sweep_name_of(std::int64_t sweep) { return name_in(kSweeps, sweep); }
 
 std::optional<std::int64_t> sweep_number_of(std::string_view name) { return number_in(kSweeps, name); }
+
+std::string random_name() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
 
 }  // namespace cellcrush::store

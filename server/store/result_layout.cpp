@@ -63,14 +63,27 @@ bool has_room_for(hid_t file, hid_t dataset, double bytes) {
 }
 
 using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
 
-void add_columns(const google::protobuf::Descriptor& message, FieldDescriptor::CppType type, const std::string& prefix,
-                 std::vector<HistoryColumn>& out) {
+// A column for each number of this type of the message.
+void add_columns(const std::string& prefix, const google::protobuf::Descriptor& message, FieldDescriptor::CppType type,
+                 const FieldDescriptor* owner, int part, std::vector<HistoryColumn>& out) {
   for (int i = 0; i < message.field_count(); ++i) {
     const FieldDescriptor* field = message.field(i);
     if (field->is_repeated() || field->cpp_type() != type) continue;
-    out.push_back(
-        {prefix + std::string(field->name()), field, !prefix.empty(), type == FieldDescriptor::CPPTYPE_INT64});
+    out.push_back({prefix + std::string(field->name()), field, owner, part});
+  }
+}
+
+// In the group of each part; the first field of its message is its id.
+void add_part_columns(const std::string& group, int owner_number, const v1::Sample& sample,
+                      std::vector<HistoryColumn>& out) {
+  const FieldDescriptor* owner = v1::Sample::descriptor()->FindFieldByNumber(owner_number);
+  const auto& reflection = *v1::Sample::GetReflection();
+  for (int part = 0; part < reflection.FieldSize(sample, owner); ++part) {
+    const Message& message = reflection.GetRepeatedMessage(sample, owner, part);
+    const std::string id = message.GetReflection()->GetString(message, message.GetDescriptor()->field(0));
+    add_columns(group + "/" + id + "/", *owner->message_type(), FieldDescriptor::CPPTYPE_DOUBLE, owner, part, out);
   }
 }
 
@@ -114,14 +127,13 @@ ServiceError damaged_result(const std::string& what) {
           "The result is damaged: " + what + ". Submit its case again; its summary is still available."};
 }
 
-Hdf5Handle open_result_dataset(hid_t file, const std::string& group, const std::string& name, hid_t type, int rank) {
-  const std::string path = "/" + group + "/" + name;
-  const std::string what = "Opening the dataset " + path;
-  if (!is_hard_link(file, group)) throw damaged_result("the group " + group + " is missing");
-  const Hdf5Handle folder(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose, what);
-  if (!is_hard_link(folder.id(), name)) throw damaged_result(path + " is missing");
-  Hdf5Handle out(H5Dopen2(folder.id(), name.c_str(), H5P_DEFAULT), H5Dclose, what);
-  const Hdf5Handle properties(H5Dget_create_plist(out.id()), H5Pclose, what);
+Hdf5Handle open_result_dataset(hid_t file, const std::string& path, hid_t type, int rank) {
+  for (auto end = path.find('/');; end = path.find('/', end + 1)) {
+    if (!is_hard_link(file, path.substr(0, end))) throw damaged_result(path + " is missing");
+    if (end == std::string::npos) break;
+  }
+  Hdf5Handle out(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, "Opening the dataset " + path);
+  const Hdf5Handle properties(H5Dget_create_plist(out.id()), H5Pclose, "Reading " + path);
   const auto item_bytes = static_cast<double>(H5Tget_size(type));
   // In this order: querying the shape of a virtual dataset opens its source files.
   if (!has_known_storage(properties.id(), rank, item_bytes) || !is_of_type(out.id(), type))
@@ -132,34 +144,53 @@ Hdf5Handle open_result_dataset(hid_t file, const std::string& group, const std::
   return out;
 }
 
-double HistoryColumn::get(const v1::Sample& sample) const {
-  if (is_of_front && !sample.has_front()) return std::numeric_limits<double>::quiet_NaN();
-  if (is_of_front) return v1::Front::GetReflection()->GetDouble(sample.front(), field);
-  const auto& reflection = *v1::Sample::GetReflection();
-  return is_count ? static_cast<double>(reflection.GetInt64(sample, field)) : reflection.GetDouble(sample, field);
+hid_t HistoryColumn::type() const {
+  return field->cpp_type() == FieldDescriptor::CPPTYPE_INT64 ? H5T_STD_I64LE : H5T_IEEE_F64LE;
 }
 
-void HistoryColumn::set(v1::Sample& sample, double value) const {
-  if (std::isnan(value)) return;
+double HistoryColumn::get(const v1::Sample& sample) const {
   const auto& reflection = *v1::Sample::GetReflection();
-  if (is_of_front) {
-    v1::Front::GetReflection()->SetDouble(sample.mutable_front(), field, value);
-  } else if (is_count) {
-    reflection.SetInt64(&sample, field, static_cast<std::int64_t>(value));
-  } else {
-    reflection.SetDouble(&sample, field, value);
+  const Message* message = &sample;
+  if (owner != nullptr && owner->is_repeated())
+    message = &reflection.GetRepeatedMessage(sample, owner, part);
+  else if (owner != nullptr && !reflection.HasField(sample, owner))
+    return std::numeric_limits<double>::quiet_NaN();
+  else if (owner != nullptr)
+    message = &reflection.GetMessage(sample, owner);
+  const auto& numbers = *message->GetReflection();
+  return field->cpp_type() == FieldDescriptor::CPPTYPE_INT64 ? static_cast<double>(numbers.GetInt64(*message, field))
+                                                             : numbers.GetDouble(*message, field);
+}
+
+// Reflections are asked for once: that takes longer than setting a number.
+void HistoryColumn::set(std::span<v1::Sample> samples, std::span<const double> values) const {
+  const bool is_count = field->cpp_type() == FieldDescriptor::CPPTYPE_INT64;
+  const auto& reflection = *v1::Sample::GetReflection();
+  const auto& numbers =
+      *google::protobuf::MessageFactory::generated_factory()->GetPrototype(field->containing_type())->GetReflection();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    Message* message = &samples[i];
+    if (owner != nullptr)
+      message = owner->is_repeated() ? reflection.MutableRepeatedMessage(message, owner, part)
+                                     : reflection.MutableMessage(message, owner);
+    if (is_count)
+      numbers.SetInt64(message, field, static_cast<std::int64_t>(values[i]));
+    else
+      numbers.SetDouble(message, field, values[i]);
   }
 }
 
-const std::vector<HistoryColumn>& history_columns() {
-  static const std::vector<HistoryColumn> columns = [] {
-    std::vector<HistoryColumn> out;
-    add_columns(*v1::Sample::descriptor(), FieldDescriptor::CPPTYPE_DOUBLE, "", out);
-    add_columns(*v1::Front::descriptor(), FieldDescriptor::CPPTYPE_DOUBLE, "front_", out);
-    add_columns(*v1::Sample::descriptor(), FieldDescriptor::CPPTYPE_INT64, "", out);
-    return out;
-  }();
-  return columns;
+std::vector<HistoryColumn> history_columns(const v1::Sample& sample) {
+  const auto& own = *v1::Sample::descriptor();
+  const FieldDescriptor* front = own.FindFieldByNumber(v1::Sample::kFrontFieldNumber);
+  std::vector<HistoryColumn> out;
+  add_columns("history/", own, FieldDescriptor::CPPTYPE_DOUBLE, nullptr, 0, out);
+  add_columns("history/front_", *front->message_type(), FieldDescriptor::CPPTYPE_DOUBLE, front, 0, out);
+  add_columns("history/", own, FieldDescriptor::CPPTYPE_INT64, nullptr, 0, out);
+  add_part_columns("nodes", v1::Sample::kWatchedFieldNumber, sample, out);
+  add_part_columns("rigid_walls", v1::Sample::kRigidWallsFieldNumber, sample, out);
+  return out;
 }
 
 void write_summary_attributes(hid_t file, const v1::Summary& summary) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,31 +13,32 @@ namespace cellcrush::store {
 /// The error message for a result that differs from ResultWriter's output: the disk or somebody has changed it.
 ServiceError damaged_result(const std::string& what);
 
-/// Opens the dataset `name` of the group `group` of a result and holds it to what ResultWriter makes, before a number
-/// is read:
-///   - it lies in this file: neither a link nor its storage leads to another one;
+/// Opens the dataset at `path`, such as "history/strain", and holds it to what ResultWriter makes, before a number is
+/// read:
+///   - it lies in this file: neither a link on its path nor its storage leads to another one;
 ///   - its numbers are of `type`, which is one of HDF5's own, in `rank` dimensions, at least 1;
 ///   - its chunks are small, and there are no more numbers than what is stored can have been deflated from.
 /// So a damaged file costs no more than its size, and a hostile one opens no other. Throws ServiceError: data_loss for
 /// what is otherwise, internal when HDF5 fails.
-Hdf5Handle open_result_dataset(hid_t file, const std::string& group, const std::string& name, hid_t type, int rank);
+Hdf5Handle open_result_dataset(hid_t file, const std::string& path, hid_t type, int rank);
 
-/// A column of /history: a number of the sample, or one of its front, whose name then begins with "front_".
+/// A dataset with a number for each sample: of the sample itself, of its front, or of a part of its frame.
 struct HistoryColumn {
-  std::string name;
-  const google::protobuf::FieldDescriptor* field = nullptr;
-  bool is_of_front = false;
-  bool is_count = false;  ///< int64, else float64
+  std::string path;  ///< "history/strain", "history/front_strain_behind", "nodes/ID/ux_mm"
+  const google::protobuf::FieldDescriptor* field = nullptr;  ///< int64 or double
+  const google::protobuf::FieldDescriptor* owner = nullptr;  ///< field of Sample that holds its message; null: itself
+  int part = 0;                                              ///< which one, if the owner is repeated
 
-  [[nodiscard]] hid_t type() const { return is_count ? H5T_STD_I64LE : H5T_IEEE_F64LE; }
+  [[nodiscard]] hid_t type() const;
   /// NaN if the sample has no front.
   [[nodiscard]] double get(const v1::Sample& sample) const;
-  /// NaN leaves the sample as it is.
-  void set(v1::Sample& sample, double value) const;
+  /// NaN leaves a sample as it is.
+  void set(std::span<v1::Sample> samples, std::span<const double> values) const;
 };
 
-/// All columns of /history, documented in result_format.md: every number of Sample and Front (sample.proto).
-const std::vector<HistoryColumn>& history_columns();
+/// The columns that result_format.md documents: of /history, one for every number of Sample and Front (sample.proto);
+/// then of the watched nodes and rigid walls that this sample has.
+std::vector<HistoryColumn> history_columns(const v1::Sample& sample = {});
 
 /// Writes the summary of a run as attributes of its result, without attributes for absent fields. Throws ServiceError.
 void write_summary_attributes(hid_t file, const v1::Summary& summary);

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cellcrush/v1/sample.pb.h"
 #include "store/hdf5.h"
+#include "store/result_seal.h"
 
 namespace cellcrush::store {
 
@@ -17,6 +19,9 @@ namespace cellcrush::store {
 class ResultReader {
  public:
   explicit ResultReader(const std::filesystem::path& path);
+
+  /// The file as check_seal found it.
+  [[nodiscard]] const std::optional<FileIdentity>& file() const { return identity_; }
 
   /// An attribute of the file.
   [[nodiscard]] std::string text_attribute(const char* name) const;
@@ -30,9 +35,13 @@ class ResultReader {
   [[nodiscard]] v1::FieldFrame frame(int index) const;
 
  private:
-  [[nodiscard]] std::vector<double> column(const char* group, const char* name, hid_t type, hsize_t first = 0,
+  [[nodiscard]] std::vector<double> column(const std::string& path, hid_t type, hsize_t first = 0,
                                            hsize_t count = std::numeric_limits<std::int64_t>::max()) const;
+  [[nodiscard]] bool has(const std::string& path) const;
+  /// A sample with the parts of the case that samples have numbers of.
+  [[nodiscard]] v1::Sample sample_without_numbers() const;
 
+  std::optional<FileIdentity> identity_;
   Hdf5Handle file_;
 };
 

@@ -2,20 +2,16 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdint>
 #include <ctime>
 #include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "error.h"
 #include "mutex.h"
 #include "store/durable_file.h"
 #include "store/result_layout.h"
@@ -27,77 +23,45 @@ constexpr std::size_t kPart = 65536;
 constexpr std::int64_t kSettled = 2;                   // seconds
 constexpr std::string_view kUnsealed = "\x89HDF\r\n";  // an HDF5 file without a user block
 
-// An open file that closes itself. Failures throw ServiceError.
-class SealedFile {
- public:
-  SealedFile(int descriptor, const std::filesystem::path& path) : path_(path), descriptor_(descriptor) {
-    if (descriptor_ < 0) throw_file_error(path_, "used", errno);
+// The seal that these bytes should have.
+std::string seal_of(const OpenFile& file, const std::filesystem::path& path) {
+  std::vector<unsigned char> part(kPart);
+  std::uint64_t crc = 0;
+  std::uint64_t size = 0;
+  while (const std::size_t count = read_at(file, path, part.data(), part.size(), kSealBytes + size)) {
+    crc = crc32_z(crc, part.data(), count);
+    size += count;
   }
-  ~SealedFile() { close(descriptor_); }
-  SealedFile(const SealedFile&) = delete;
-  SealedFile& operator=(const SealedFile&) = delete;
+  std::string out = "CELLCRUSH RESULT 1 " + std::to_string(crc) + " " + std::to_string(size) + "\n";
+  out.resize(kSealBytes, '\0');
+  return out;
+}
 
-  // The seal that these bytes should have.
-  [[nodiscard]] std::string seal() const {
-    std::vector<unsigned char> part(kPart);
-    std::uint64_t crc = 0;
-    std::uint64_t size = 0;
-    while (const std::size_t count = read(part.data(), part.size(), kSealBytes + size)) {
-      crc = crc32_z(crc, part.data(), count);
-      size += count;
-    }
-    std::string out = "CELLCRUSH RESULT 1 " + std::to_string(crc) + " " + std::to_string(size) + "\n";
-    out.resize(kSealBytes, '\0');
-    return out;
-  }
+std::string stored_seal(const OpenFile& file, const std::filesystem::path& path) {
+  std::string out(kSealBytes, '\0');
+  out.resize(read_at(file, path, out.data(), out.size(), 0));
+  return out;
+}
 
-  [[nodiscard]] std::string stored_seal() const {
-    std::string out(kSealBytes, '\0');
-    out.resize(read(out.data(), out.size(), 0));
-    return out;
-  }
-
-  void write_seal(const std::string& seal) const {
-    ssize_t count = 0;
-    do count = pwrite(descriptor_, seal.data(), seal.size(), 0);
-    while (count < 0 && errno == EINTR);
-    if (count != static_cast<ssize_t>(seal.size())) throw_file_error(path_, "written", count < 0 ? errno : EIO);
-  }
-
-  // Changes whenever the file does, unless two changes fall within one tick of the file system's clock.
-  using Identity = std::array<std::int64_t, 5>;
-  [[nodiscard]] Identity identity() const {
-    struct stat status {};
-    if (fstat(descriptor_, &status) != 0) throw_file_error(path_, "read", errno);
-    return {static_cast<std::int64_t>(status.st_dev), static_cast<std::int64_t>(status.st_ino), status.st_size,
-            status.st_ctim.tv_sec, status.st_ctim.tv_nsec};
-  }
-
- private:
-  std::size_t read(void* to, std::size_t most, std::uint64_t offset) const {
-    ssize_t count = 0;
-    do count = pread(descriptor_, to, most, static_cast<off_t>(offset));
-    while (count < 0 && errno == EINTR);
-    if (count < 0) throw_file_error(path_, "read", errno);
-    return static_cast<std::size_t>(count);
-  }
-
-  std::filesystem::path path_;
-  int descriptor_;
-};
+FileIdentity identity_of(const OpenFile& file, const std::filesystem::path& path) {
+  struct stat status {};
+  if (fstat(file.get(), &status) != 0) throw_file_error(path, "read", errno);
+  return {static_cast<std::int64_t>(status.st_dev), static_cast<std::int64_t>(status.st_ino), status.st_size,
+          status.st_ctim.tv_sec, status.st_ctim.tv_nsec};
+}
 
 // Whether the last write is old enough that a later change would alter its identity.
-bool is_settled(const SealedFile::Identity& file) { return std::time(nullptr) - file[3] >= kSettled; }
+bool is_settled(const FileIdentity& file) { return std::time(nullptr) - file[3] >= kSettled; }
 
 // The most recent files found whole.
 class WholeFiles {
  public:
-  bool contains(const SealedFile::Identity& file) {
+  bool contains(const FileIdentity& file) {
     const MutexLock lock(mutex_);
     return std::find(files_.begin(), files_.end(), file) != files_.end();
   }
 
-  void add(const SealedFile::Identity& file) {
+  void add(const FileIdentity& file) {
     const MutexLock lock(mutex_);
     files_.push_back(file);
     if (files_.size() > kMost) files_.pop_front();
@@ -107,7 +71,7 @@ class WholeFiles {
   static constexpr std::size_t kMost = 64;
 
   Mutex mutex_;
-  std::deque<SealedFile::Identity> files_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::deque<FileIdentity> files_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
 void throw_if_broken(Seal seal) {
@@ -117,30 +81,35 @@ void throw_if_broken(Seal seal) {
 }  // namespace
 
 void seal_result(const std::filesystem::path& path) {
-  const SealedFile file(open(path.c_str(), O_RDWR | O_CLOEXEC), path);
-  file.write_seal(file.seal());
+  const OpenFile file = open_file(path, O_RDWR, "used");
+  write_all(file, path, seal_of(file, path));
 }
 
-Seal read_seal(const std::filesystem::path& path) {
-  static WholeFiles whole;
-  const SealedFile file(open_to_read(path), path);
-  const auto identity = file.identity();
-  if (whole.contains(identity)) return Seal::whole;
-  const std::string stored = file.stored_seal();
-  if (stored.starts_with(kUnsealed)) return Seal::missing;
-  if (stored != file.seal()) return Seal::broken;
-  if (is_settled(identity)) whole.add(identity);
+Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole) {
+  static WholeFiles found_whole;
+  const OpenFile file = open_to_read(path);
+  const auto identity = identity_of(file, path);
+  if (!found_whole.contains(identity)) {
+    const std::string stored = stored_seal(file, path);
+    if (stored.starts_with(kUnsealed)) return Seal::missing;
+    if (stored != seal_of(file, path)) return Seal::broken;
+    if (!is_settled(identity)) return Seal::whole;
+    found_whole.add(identity);
+  }
+  if (whole != nullptr) *whole = identity;
   return Seal::whole;
 }
 
-void check_seal(const std::filesystem::path& path) {
-  const Seal seal = read_seal(path);
+std::optional<FileIdentity> check_seal(const std::filesystem::path& path) {
+  std::optional<FileIdentity> whole;
+  const Seal seal = read_seal(path, &whole);
   if (seal == Seal::missing) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        "An earlier version wrote this result without a checksum, so the daemon does not read frames "
                        "from it. Download the file; it is regular HDF5.");
   }
   throw_if_broken(seal);
+  return whole;
 }
 
 void check_seal_if_any(const std::filesystem::path& path) { throw_if_broken(read_seal(path)); }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace cellcrush::store {
 
@@ -20,14 +23,18 @@ enum class Seal {
   broken,   ///< does not match
 };
 
-/// Reads the file and compares it with its seal. A file found whole is not read again until it is written to. Throws
-/// ServiceError: internal if it cannot be read or is not a regular file. Thread-safe.
-Seal read_seal(const std::filesystem::path& path);
+/// Device, inode, size and time of change. Changes whenever the file does, unless two changes fall within one tick of
+/// the file system's clock.
+using FileIdentity = std::array<std::int64_t, 5>;
 
-/// Throws ServiceError: failed_precondition for a file without a seal, written by an earlier version; data_loss unless
-/// the seal matches the bytes that follow; internal if they cannot be read. A file found whole is not read again until
-/// it is written to. Thread-safe.
-void check_seal(const std::filesystem::path& path);
+/// Reads the file and compares it with its seal. A file found whole is not read again until it is written to: `whole`
+/// becomes its identity, once the last write is so old that another one would change it. Throws ServiceError: internal
+/// if it cannot be read or is not a regular file. Thread-safe.
+Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole = nullptr);
+
+/// Returns that identity. Throws ServiceError: failed_precondition for a file without a seal, written by an earlier
+/// version; data_loss unless the seal matches the bytes that follow; internal if they cannot be read. Thread-safe.
+std::optional<FileIdentity> check_seal(const std::filesystem::path& path);
 
 /// The same for callers that need the bytes only: a file without a seal passes.
 void check_seal_if_any(const std::filesystem::path& path);

@@ -11,11 +11,6 @@
 namespace cellcrush::store {
 namespace {
 
-Hdf5Handle make_group(hid_t file, const char* name) {
-  return {H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-          std::string("Creating the group ") + name};
-}
-
 std::string case_as_json(const v1::Case& submitted) {
   google::protobuf::util::JsonPrintOptions options;
   options.preserve_proto_field_names = true;
@@ -42,20 +37,18 @@ ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& me
   check_hdf5(H5Pset_userblock(properties.id(), kSealBytes), what);
   file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, what);
   write_mesh(mesh);
-  const Hdf5Handle history = make_group(file_.id(), "history");
-  for (const auto& column : history_columns())
-    history_.push_back(make_growing_dataset(history.id(), column.name.c_str(), column.type(), {}, {kHistoryChunkRows}));
-  const Hdf5Handle frames = make_group(file_.id(), "frames");
-  frame_time_ = make_growing_dataset(frames.id(), "time_s", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
-  frame_strain_ = make_growing_dataset(frames.id(), "strain", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
-  frame_position_ = make_growing_dataset(frames.id(), "position_mm", H5T_IEEE_F32LE, {particle_count_, 2},
+  make_columns({});
+  frame_time_ = make_growing_dataset(file_.id(), "frames/time_s", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
+  frame_strain_ = make_growing_dataset(file_.id(), "frames/strain", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
+  frame_position_ = make_growing_dataset(file_.id(), "frames/position_mm", H5T_IEEE_F32LE, {particle_count_, 2},
                                          {1, std::min<hsize_t>(particle_count_, kFrameChunkItems), 2});
-  frame_plastic_ = make_growing_dataset(frames.id(), "plastic_fraction", H5T_IEEE_F32LE, {element_count_},
+  frame_plastic_ = make_growing_dataset(file_.id(), "frames/plastic_fraction", H5T_IEEE_F32LE, {element_count_},
                                         {1, std::min<hsize_t>(element_count_, kFrameChunkItems)});
 }
 
 void ResultWriter::write_mesh(const v1::Mesh& mesh) {
-  mesh_ = make_group(file_.id(), "mesh");
+  mesh_ = Hdf5Handle(H5Gcreate2(file_.id(), "mesh", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                     "Creating the group mesh");
   write_dataset(mesh_.id(), "beam_nodes", H5T_NATIVE_INT32, {element_count_, 2}, mesh.element_nodes().data());
   write_dataset(mesh_.id(), "thickness_mm", H5T_NATIVE_FLOAT, {element_count_}, mesh.thickness_mm().data());
   write_attribute(mesh_.id(), "length_mm", mesh.length_mm());
@@ -65,6 +58,14 @@ void ResultWriter::write_mesh(const v1::Mesh& mesh) {
   write_attribute(mesh_.id(), "along_y", static_cast<std::int64_t>(mesh.along_y()));
 }
 
+void ResultWriter::make_columns(const v1::Sample& sample) {
+  const auto columns = history_columns(sample);
+  for (std::size_t i = columns_.size(); i < columns.size(); ++i) {
+    columns_.emplace_back(
+        columns[i], make_growing_dataset(file_.id(), columns[i].path, columns[i].type(), {}, {kHistoryChunkRows}));
+  }
+}
+
 void ResultWriter::add_sample(const v1::Sample& sample) {
   gathered_.push_back(sample);
   if (gathered_.size() >= kHistoryChunkRows) write_gathered();
@@ -72,14 +73,12 @@ void ResultWriter::add_sample(const v1::Sample& sample) {
 
 void ResultWriter::write_gathered() {
   if (gathered_.empty()) return;
+  make_columns(gathered_.front());
   std::vector<double> rows(gathered_.size());
-  for (std::size_t i = 0; i < history_.size(); ++i) {
-    const auto& column = history_columns()[i];
+  for (const auto& [column, dataset] : columns_) {
     std::ranges::transform(gathered_, rows.begin(), [&](const auto& sample) { return column.get(sample); });
-    append_rows(history_[i].id(), H5T_NATIVE_DOUBLE, rows.size(), rows.data());
+    append_rows(dataset.id(), H5T_NATIVE_DOUBLE, rows.size(), rows.data());
   }
-  nodes_.append(file_.id(), gathered_);
-  rigid_walls_.append(file_.id(), gathered_);
   gathered_.clear();
 }
 
@@ -107,9 +106,7 @@ void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary
   if (!header.failure.empty()) write_attribute(file_.id(), "failure", header.failure);
   write_summary_attributes(file_.id(), summary);
   const std::string what = "Closing the result";
-  for (auto& column : history_) column.close(what);
-  nodes_.close();
-  rigid_walls_.close();
+  for (auto& column : columns_) column.second.close(what);
   for (auto* part : {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &mesh_}) part->close(what);
   check_hdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), what);
   file_.close(what);

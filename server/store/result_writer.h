@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cellcrush/v1/case.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "store/hdf5.h"
-#include "store/part_histories.h"
 #include "store/result_layout.h"
 
 namespace cellcrush::store {
@@ -39,6 +39,8 @@ class ResultWriter {
 
  private:
   void write_mesh(const v1::Mesh& mesh);
+  /// Makes those of this sample that are not there yet.
+  void make_columns(const v1::Sample& sample);
   void write_gathered();
 
   std::filesystem::path path_;
@@ -46,9 +48,7 @@ class ResultWriter {
   hsize_t element_count_;
   Hdf5Handle file_;
   Hdf5Handle mesh_;
-  std::vector<Hdf5Handle> history_;  ///< in the order of history_columns
-  PartHistories nodes_{watched_nodes()};
-  PartHistories rigid_walls_{rigid_walls()};
+  std::vector<std::pair<HistoryColumn, Hdf5Handle>> columns_;  ///< in the order of history_columns
   Hdf5Handle frame_time_;
   Hdf5Handle frame_strain_;
   Hdf5Handle frame_position_;

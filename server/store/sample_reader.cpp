@@ -1,16 +1,22 @@
 #include "store/sample_reader.h"
 
 #include <algorithm>
+#include <numeric>
 #include <system_error>
 
 #include "error.h"
 #include "store/job_folder.h"
 #include "store/report_log.h"
 #include "store/resource_name.h"
-#include "store/result_reader.h"
 
 namespace cellcrush::store {
 namespace {
+
+constexpr std::int64_t kMarkEvery = 4096;
+constexpr std::size_t kMostPlaces = 256;
+constexpr std::int64_t kBlockSamples = 1024;
+constexpr std::size_t kMostBlocks = 8;
+constexpr std::size_t kMostBlockBytes = 1 << 20;
 
 bool is_there(const std::filesystem::path& path) {
   std::error_code none;
@@ -24,25 +30,6 @@ void add_warnings(const v1::Summary& summary, v1::Sample& sample) {
         warning.kind() == v1::Warning::ENERGY_DRIFT || warning.kind() == v1::Warning::CONTACTS_MAKE_ENERGY;
     if (warning.step() == sample.step() && !is_of_ledger) *sample.add_warnings() = warning;
   }
-}
-
-SampleReader::Found read_result(const std::filesystem::path& path, const SampleRange& range, const v1::Summary& summary,
-                                PageRoom room) {
-  constexpr std::int64_t kAtOnce = 1024;
-  const ResultReader result(path);
-  SampleReader::Found out;
-  while (std::ssize(out.samples) < range.count) {
-    const std::int64_t done = std::ssize(out.samples);
-    auto samples = result.history(range.first + done, std::min(kAtOnce, range.count - done));
-    out.is_cut = samples.empty();
-    if (out.is_cut) break;
-    for (auto& sample : samples) {
-      add_warnings(summary, sample);
-      if (!room.take(sample.ByteSizeLong())) return out;
-      out.samples.push_back(std::move(sample));
-    }
-  }
-  return out;
 }
 
 }  // namespace
@@ -71,24 +58,23 @@ SampleReader::Found SampleReader::read_log(const std::filesystem::path& path, co
   const Place start = place_before(range);
   reader.start_at(start.offset);
   Place place = start;
-  std::vector<Place> marks;
   Found out;
   for (v1::Sample sample; std::ssize(out.samples) < range.count;) {
     out.is_cut = reader.read_sample(sample) != ReportLogReader::Read::message;
     if (out.is_cut) break;
     if (sample.step() <= place.step) continue;
     if (place.count >= range.first && !room.take(sample.ByteSizeLong())) break;
-    place = {place.count + 1, sample.step(), reader.offset()};
-    if (place.count % kMarkEvery == 0) marks.push_back(place);
+    place = {range.job, range.run, place.count + 1, sample.step(), reader.offset()};
+    if (place.count % kMarkEvery == 0) keep(place);
     if (place.count > range.first) out.samples.push_back(std::move(sample));
   }
   if (!out.is_cut) {
-    keep(range, marks, place);
+    keep(place);
   } else if (start.offset > 0) {
     // A worker has cut off reports that were damaged, and made others of the same samples.
     {
       const MutexLock lock(mutex_);
-      places_.erase(range.job);
+      std::erase_if(places_, [&](const Place& other) { return other.job == range.job; });
     }
     return read_log(path, range, room);
   }
@@ -97,29 +83,58 @@ SampleReader::Found SampleReader::read_log(const std::filesystem::path& path, co
 
 SampleReader::Place SampleReader::place_before(const SampleRange& range) {
   const MutexLock lock(mutex_);
-  const auto found = places_.find(range.job);
-  if (found == places_.end() || found->second.run != range.run) return {};
-  const Places& places = found->second;
-  if (places.newest.count <= range.first) return places.newest;
-  const auto behind = std::upper_bound(places.marks.begin(), places.marks.end(), range.first,
-                                       [](std::int64_t first, const Place& place) { return first < place.count; });
-  return behind == places.marks.begin() ? Place() : *std::prev(behind);
+  Place out{range.job, range.run};
+  for (const Place& place : places_) {
+    if (place.job == range.job && place.run == range.run && place.count <= range.first && place.count > out.count)
+      out = place;
+  }
+  return out;
 }
 
-void SampleReader::keep(const SampleRange& range, const std::vector<Place>& marks, const Place& newest) {
+void SampleReader::keep(const Place& place) {
   const MutexLock lock(mutex_);
-  if (!places_.contains(range.job) && places_.size() >= kMostJobs) {
-    places_.erase(std::min_element(places_.begin(), places_.end(), [](const auto& one, const auto& other) {
-      return one.second.turn < other.second.turn;
-    }));
+  std::erase_if(places_, [&](const Place& other) { return other.job == place.job && other.count == place.count; });
+  places_.push_back(place);
+  if (places_.size() > kMostPlaces) places_.pop_front();
+}
+
+SampleReader::Found SampleReader::read_result(const std::filesystem::path& path, const SampleRange& range,
+                                              const v1::Summary& summary, PageRoom room) {
+  const ResultReader result(path);
+  std::shared_ptr<const Block> block;
+  Found out;
+  while (std::ssize(out.samples) < range.count) {
+    const std::int64_t next = range.first + std::ssize(out.samples);
+    const std::int64_t at = next % kBlockSamples;
+    if (!block || at == 0) block = block_of(result, next - at);
+    out.is_cut = at >= std::ssize(block->samples);
+    if (out.is_cut) break;
+    v1::Sample sample = block->samples[static_cast<std::size_t>(at)];
+    add_warnings(summary, sample);
+    if (!room.take(sample.ByteSizeLong())) break;
+    out.samples.push_back(std::move(sample));
   }
-  Places& places = places_[range.job];
-  if (places.run != range.run) places = {range.run, {}, {}, 0};
-  places.turn = ++turn_;
-  for (const Place& mark : marks) {
-    if (places.marks.empty() || mark.count > places.marks.back().count) places.marks.push_back(mark);
+  return out;
+}
+
+// Lists and watches of a job that has ended read it page by page, and comparisons again and again.
+std::shared_ptr<const SampleReader::Block> SampleReader::block_of(const ResultReader& result, std::int64_t first) {
+  const auto& file = result.file();
+  const auto is_it = [&](const auto& block) { return block->file == file && block->first == first; };
+  if (file) {
+    const MutexLock lock(mutex_);
+    const auto found = std::ranges::find_if(blocks_, is_it);
+    if (found != blocks_.end()) return *found;
   }
-  if (newest.count > places.newest.count) places.newest = newest;
+  const auto out =
+      std::make_shared<const Block>(Block{file.value_or(FileIdentity{}), first, result.history(first, kBlockSamples)});
+  const auto bytes = std::transform_reduce(out->samples.begin(), out->samples.end(), std::size_t{0}, std::plus<>(),
+                                           [](const v1::Sample& sample) { return sample.ByteSizeLong(); });
+  if (!file || bytes > kMostBlockBytes) return out;
+  const MutexLock lock(mutex_);
+  if (std::ranges::none_of(blocks_, is_it)) blocks_.push_back(out);
+  if (blocks_.size() > kMostBlocks) blocks_.pop_front();
+  return out;
 }
 
 }  // namespace cellcrush::store

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "cellcrush/v1/sample.pb.h"
 #include "mutex.h"
 #include "store/page_room.h"
+#include "store/result_reader.h"
 
 namespace cellcrush::store {
 
@@ -35,30 +37,32 @@ class SampleReader {
   Found read(const SampleRange& range, const v1::Summary& summary, PageRoom room = {});
 
  private:
-  /// Where the reports go on behind some samples.
+  /// Where the reports of a job go on behind some samples.
   struct Place {
+    std::int64_t job = 0;
+    std::int64_t run = 0;
     std::int64_t count = 0;  ///< of the samples before
     std::int64_t step = -1;  ///< of the last one
     std::uint64_t offset = 0;
   };
-  /// Of a job's reports.
-  struct Places {
-    std::int64_t run = 0;
-    std::vector<Place> marks;  ///< at least kMarkEvery samples apart
-    Place newest;
-    std::uint64_t turn = 0;  ///< when they were last used
+  /// Samples of a result from number `first` on, as they stand there.
+  struct Block {
+    FileIdentity file{};
+    std::int64_t first = 0;
+    std::vector<v1::Sample> samples;
   };
-  static constexpr std::int64_t kMarkEvery = 256;
-  static constexpr std::size_t kMostJobs = 64;
 
   Found read_log(const std::filesystem::path& path, const SampleRange& range, PageRoom room);
   Place place_before(const SampleRange& range);
-  void keep(const SampleRange& range, const std::vector<Place>& marks, const Place& newest);
+  void keep(const Place& place);
+  Found read_result(const std::filesystem::path& path, const SampleRange& range, const v1::Summary& summary,
+                    PageRoom room);
+  std::shared_ptr<const Block> block_of(const ResultReader& result, std::int64_t first);
 
   std::filesystem::path root_;
   Mutex mutex_;
-  std::map<std::int64_t, Places> places_ CELLCRUSH_GUARDED_BY(mutex_);  ///< by job
-  std::uint64_t turn_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::deque<Place> places_ CELLCRUSH_GUARDED_BY(mutex_);  ///< where reading ended or passed, the latest last
+  std::deque<std::shared_ptr<const Block>> blocks_ CELLCRUSH_GUARDED_BY(mutex_);  ///< read lately, the latest last
 };
 
 }  // namespace cellcrush::store

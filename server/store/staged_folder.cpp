@@ -59,29 +59,21 @@ StagedFolder::StagedFolder(const std::filesystem::path& place)
   std::filesystem::create_directories(place_.parent_path(), error);
   if (error) throw_file_error(place_.parent_path(), "created", error.value());
   if (mkdir(partial_.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(partial_, "created", errno);
-  lock_ = open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw_file_error(partial_, "used", errno);
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    close(lock_);
+  lock_ = open_file(partial_, O_RDONLY | O_DIRECTORY, "used");
+  if (flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
     throw refusal("Another process is creating " + place_.string() +
                   ". Wait until it is done, or give another folder.");
   }
-  try {
-    remove_content(partial_);
-  } catch (...) {
-    close(lock_);
-    throw;
-  }
+  remove_content(partial_);
 }
 
 StagedFolder::~StagedFolder() {
   std::error_code none;
   if (!published_) std::filesystem::remove_all(partial_, none);
-  close(lock_);
 }
 
 void StagedFolder::publish() {
-  if (syncfs(lock_) != 0) throw_file_error(partial_, "written", errno);
+  if (syncfs(lock_.get()) != 0) throw_file_error(partial_, "written", errno);
   // Replaces an empty folder only.
   if (rename(partial_.c_str(), place_.c_str()) != 0) {
     const int reason = errno;
@@ -93,11 +85,8 @@ void StagedFolder::publish() {
     throw_file_error(place_, "created", reason);
   }
   published_ = true;
-  const int parent = open(place_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool durable = parent >= 0 && fsync(parent) == 0;
-  const int reason = errno;
-  if (parent >= 0) close(parent);
-  if (!durable) throw_file_error(place_, "written", reason);
+  const OpenFile parent = open_file(place_.parent_path(), O_RDONLY | O_DIRECTORY);
+  if (fsync(parent.get()) != 0) throw_file_error(place_, "written", errno);
 }
 
 }  // namespace cellcrush::store

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "open_file.h"
+
 namespace cellcrush::store {
 
 /// A folder that appears complete or not at all. It is built beside its place as .NAME.partial and then renamed. The
@@ -26,7 +28,7 @@ class StagedFolder {
  private:
   std::filesystem::path place_;
   std::filesystem::path partial_;
-  int lock_ = -1;  ///< the folder itself, open and locked
+  OpenFile lock_;  ///< the folder itself, open and locked
   bool published_ = false;
 };
 

@@ -136,8 +136,6 @@ class JournalCheck {
   JournalFindings found_;
 };
 
-std::string result_path(std::int64_t job) { return name_of(job) + "/result.h5"; }
-
 // Checks that every file of the manifest exists with its bytes.
 void check_files(const std::filesystem::path& folder, const BackupManifest& manifest, Verification& out) {
   for (const auto& wanted : manifest.files) {
@@ -155,42 +153,38 @@ void check_files(const std::filesystem::path& folder, const BackupManifest& mani
 
 // Nothing if the job's result is whole.
 std::string problem_of_result(const std::filesystem::path& folder, std::int64_t job) {
+  const std::string remedy = " Restore a backup, or delete " + name_of(job) + " and submit its case again.";
+  const std::string path = name_of(job) + "/result.h5";
   try {
-    if (read_seal(folder / result_path(job)) != Seal::broken) return "";
-    return result_path(job) + " is damaged: its contents do not match its checksum.";
+    if (read_seal(folder / path) != Seal::broken) return "";
+    return path + " is damaged: its contents do not match its checksum." + remedy;
   } catch (const ServiceError& error) {
-    return error.what();
+    return error.what() + remedy;
   }
 }
 
-bool has_history(const std::filesystem::path& folder, const SampleRange& last) {
+// Nothing if the last sample is there.
+std::string problem_of_history(const std::filesystem::path& folder, const SampleRange& last) {
   try {
-    return !SampleReader(folder).read(last, {}).is_cut;
+    if (!SampleReader(folder).read(last, {}).is_cut) return "";
   } catch (const ServiceError&) {
-    return false;
   }
+  const std::string name = name_of(last.job);
+  return name + "/history is missing or damaged. Restore a backup, or delete " + name + ".";
 }
 
-void check_results(const std::filesystem::path& folder, Database& journal, const JournalFindings& found,
-                   const std::set<std::string>& lost, Verification& out) {
-  for (const std::int64_t job : found.with_result) {
-    if (lost.contains(name_of(job))) continue;
-    const std::string problem = problem_of_result(folder, job);
-    if (problem.empty()) {
-      ++out.results;
-    } else if (has_job(journal, job)) {
-      // Otherwise the daemon has deleted it meanwhile.
-      out.problems.push_back(problem + " Restore a backup, or delete " + name_of(job) + " and submit its case again.");
-    }
-  }
-}
-
-void check_histories(const std::filesystem::path& folder, Database& journal, const JournalFindings& found,
+void check_job_files(const std::filesystem::path& folder, Database& journal, const JournalFindings& found,
                      const std::set<std::string>& lost, Verification& out) {
+  // Whether there is none. The daemon may have deleted the job meanwhile.
+  const auto note = [&](std::int64_t job, const std::string& problem) {
+    if (!problem.empty() && has_job(journal, job)) out.problems.push_back(problem);
+    return problem.empty();
+  };
+  for (const std::int64_t job : found.with_result) {
+    if (!lost.contains(name_of(job)) && note(job, problem_of_result(folder, job))) ++out.results;
+  }
   for (const SampleRange& last : found.with_history) {
-    const std::string name = name_of(last.job);
-    if (!lost.contains(name) && !has_history(folder, last) && has_job(journal, last.job))
-      out.problems.push_back(name + "/history is missing or damaged. Restore a backup, or delete " + name + ".");
+    if (!lost.contains(name_of(last.job))) note(last.job, problem_of_history(folder, last));
   }
 }
 
@@ -235,8 +229,7 @@ Verification verify_folder(const std::filesystem::path& folder) {
     out.jobs = found.jobs;
     out.sweeps = found.sweeps;
     out.problems = std::move(found.problems);
-    check_results(folder, journal, found, lost, out);
-    check_histories(folder, journal, found, lost, out);
+    check_job_files(folder, journal, found, lost, out);
     if (!out.is_backup) note_strangers(folder, journal, out);
   } catch (const ServiceError& error) {
     if (error.kind() != ServiceError::Kind::data_loss) throw;

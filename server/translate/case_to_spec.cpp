@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "translate/loads_places.h"
-#include "translate/problems.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -69,7 +68,7 @@ void read_choice(Wire in, const std::string& field, Out& out, Problems& problems
   std::string names = values.value(1)->name();
   for (int i = 2; i < values.value_count(); ++i)
     names += (i + 1 < values.value_count() ? ", " : " or ") + values.value(i)->name();
-  problems.push_back(invalid_field(field, std::to_string(in), "is not a valid value.", "Use " + names + "."));
+  problems.push_back({field, std::to_string(in), "is not a valid value.", "Use " + names + "."});
 }
 
 void read_inclusions(const v1::Lattice::Inclusions& in, Inclusions& out, Problems& problems) {
@@ -149,8 +148,8 @@ CaseReading to_spec(const v1::Case& submitted) {
   move_to_loading(in, out.problems);
   SceneSpec& spec = out.spec;
   if (character_count(in.title()) > kLongestTitle) {
-    out.problems.push_back(invalid_field("title", std::to_string(character_count(in.title())) + " characters",
-                                         "is too long.", "Use at most 200 characters."));
+    out.problems.push_back({"title", std::to_string(character_count(in.title())) + " characters", "is too long.",
+                            "Use at most 200 characters."});
   }
   spec.title = in.title();
   read_lattice(in.lattice(), spec, out.problems);

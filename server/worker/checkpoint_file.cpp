@@ -1,7 +1,6 @@
 #include "worker/checkpoint_file.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -31,25 +30,10 @@ std::string head_of(const std::string& bytes) {
   return std::string(kTitle) + " " + std::to_string(crc) + " " + std::to_string(bytes.size());
 }
 
-// Returns 0 or errno.
-int write_all(int file, const std::string& bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const auto written = write(file, bytes.data() + done, bytes.size() - done);
-    if (written >= 0)
-      done += static_cast<std::size_t>(written);
-    else if (errno != EINTR)
-      return errno;
-  }
-  return 0;
-}
-
 void write_file(const std::filesystem::path& path, const std::string& head, const std::string& bytes) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (file < 0) store::throw_file_error(path, "written", errno);
-  int error = write_all(file, head);
-  if (error == 0) error = write_all(file, bytes);
-  if (close(file) != 0 && error == 0) error = errno;
-  if (error != 0) store::throw_file_error(path, "written", error);
+  OpenFile file = store::open_file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  for (const auto* part : {&head, &bytes}) store::write_all(file, path, *part);
+  if (!file.close()) store::throw_file_error(path, "written", errno);
 }
 
 // The checkpoint, or why it cannot be used.

@@ -37,17 +37,6 @@ std::optional<Claim> read_claim(int file) {
   return std::nullopt;
 }
 
-// Closes the descriptor on destruction.
-struct OpenFile {
-  int descriptor;
-  explicit OpenFile(int opened) : descriptor(opened) {}
-  ~OpenFile() {
-    if (descriptor >= 0) close(descriptor);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-};
-
 }  // namespace
 
 bool claim(const store::JobFolder& folder) {
@@ -68,10 +57,10 @@ bool claim(const store::JobFolder& folder) {
 std::optional<Claim> find_claim(const store::JobFolder& folder) {
   // Without blocking: the path may be something other than a file.
   const OpenFile file(open(folder.claim().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
-  if (file.descriptor < 0) store::throw_file_error(folder.claim(), "read", errno);
-  for (int i = 0; i < kTries && is_locked(file.descriptor); ++i) {
-    const auto found = read_claim(file.descriptor);
+  if (!file && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
+  if (!file) store::throw_file_error(folder.claim(), "read", errno);
+  for (int i = 0; i < kTries && is_locked(file.get()); ++i) {
+    const auto found = read_claim(file.get());
     const auto times = found ? times_of(found->process) : std::nullopt;
     if (times && times->start == found->start_time) return found;
     std::this_thread::sleep_for(kBetweenTries);

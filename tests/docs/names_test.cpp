@@ -18,7 +18,7 @@
 #include "docs/commands.h"
 #include "docs/links.h"
 #include "docs/page.h"
-#include "e2e/process.h"
+#include "programs/process.h"
 #include "scenes/presets.h"
 
 namespace cellcrush::docs {
