@@ -14,7 +14,7 @@ namespace cellcrush::client {
 namespace {
 
 // Longer suffixes first.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kUnits = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {{
     {"_mm_or_rad", "mm or rad"},
     {"_kg_per_m3", "kg/m3"},
     {"_n_or_n_mm", "N or N mm"},
@@ -24,10 +24,12 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kUnits =
     {"_m_per_s", "m/s"},
     {"_per_s", "1/s"},
     {"_g_mm2", "g mm2"},
+    {"_n_mm", "N mm"},
     {"_mpa", "MPa"},
     {"_mm", "mm"},
     {"_s", "s"},
     {"_g", "g"},
+    {"_n", "N"},
 }};
 
 // "1e-6", not "1e-06".

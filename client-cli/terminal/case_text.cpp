@@ -163,6 +163,10 @@ std::string case_file_text(const v1::Case& contents, const std::string& heading)
   std::istringstream lines(heading);
   for (std::string line; std::getline(lines, line);)
     text += line.empty() ? "#\n" : fmt::format("# {}\n", printable(line));
+  v1::Case known = contents;
+  known.DiscardUnknownFields();
+  if (known.ByteSizeLong() != contents.ByteSizeLong())
+    text += "#\n# Fields by number are those of a newer server. To use this file, take the cellcrush of its version.\n";
   google::protobuf::TextFormat::Printer printer;
   printer.SetUseUtf8StringEscaping(true);
   std::string body;

@@ -113,7 +113,9 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
   row("energy ledger: work of plates and loads", ledger.work_external_mj());
   // Round-off of the sum is not shown as energy.
   const double start = spent - ledger.work_external_mj();
-  if (std::abs(start) > 1e-9 * whole) row("initial energy", start);
+  const bool knows_all = ledger.GetReflection()->GetUnknownFields(ledger).empty();
+  const char* rest = knows_all ? "initial energy" : "initial energy less terms of a newer server";
+  if (std::abs(start) > 1e-9 * whole) row(rest, start);
   for (const EnergyTerm& term : terms) row(term.label, term.value(ledger));
   return table.text(2, width);
 }

@@ -99,7 +99,7 @@ struct MappedFibre {
 ///   map(trial, fibres, at)          return mapping of the elastic trial stress; `at`: place of the fibre in the arrays
 ///   increment(reduced, within)      plastic strain increment; 0 where the fibre stays elastic
 ///   flow(increment, fibres, at)     updates the arrays that the law keeps, other than the stress
-///   dissipating(stress, increment)  mean stress over the step by which the increment dissipates (E10)
+///   dissipating(increment, fibres, at)  after flow: mean stress over the step by which it dissipates (E10)
 ///   reduced(fibres, at)             reduced stress before the step
 ///   tangent(added)                  tangent modulus of a yielding fibre over E, plus `added`
 ///
@@ -110,7 +110,6 @@ class FibreLaw;
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#include "law/mixed_hardening-inl.h"
-#include "law/perfectly_plastic-inl.h"
+#include "law/kinds-inl.h"  // includes all files of law/kinds; CMake writes it
 
 #endif  // CELLCRUSH_LAW_FIBRE_LAW_INL_H_

@@ -10,7 +10,7 @@
 namespace cellcrush {
 namespace {
 
-constexpr const char* kShorterStep =
+constexpr const char* kCompareShorterStep =
     "Use a shorter numerics.time_step_s, or 0 for an automatic step, and check whether the stresses change.";
 
 /// Overlap of the touching pair `t`, over the thickness of the thinner wall.
@@ -27,11 +27,10 @@ double depth_of(const Scene& scene, const State& state, const TouchMemory& touch
          std::min(2.0 * scene.radius[ball], element.thickness);
 }
 
-/// l / l_0 up to which a wall stretches evenly: until it yields, and then until its true stress reaches H (Considere).
-double even_stretch(const Material& material) {
+/// l / l_0 up to which a wall stretches evenly: until it yields, and then as its law says.
+double even_stretch(const LawFacts& law, const Material& material) {
   const double elastic = 1.0 + material.yield_stress / material.youngs_modulus;
-  const double hardening = material.law.hardening_modulus_mpa;
-  return hardening > material.yield_stress ? elastic * std::exp(1.0 - material.yield_stress / hardening) : elastic;
+  return elastic * std::exp(law.even_strain(material.yield_stress, material.law));
 }
 
 /// Calls visit(wall, elongation) for all walls: by how much their elements are longer than they can be stretched
@@ -42,7 +41,8 @@ void visit_elongations(const Scene& scene, const State& state, const Visit& visi
   for (const WallBlock& block : walls.blocks) {
     for (int w = 0; w < block.walls; ++w) {
       const int wall = block.first_wall + w;
-      const double even = even_stretch(scene.materials[walls.material[wall]]) * walls.undeformed_length[wall];
+      const double even =
+          even_stretch(Laws::kFacts[scene.law], scene.materials[walls.material[wall]]) * walls.undeformed_length[wall];
       double elongation = 0.0;
       for (int j = 0; j < block.elements; ++j) {
         elongation += std::max(0.0, state.length[block.first_element + j * block.walls + w] - even);
@@ -78,7 +78,7 @@ void add_drift(std::span<const Sample> samples, Warning::Kind kind, const std::s
     warnings.push_back({kind, first->step, first->strain,
                         what + " more than 1 % of the work done, from " + moment_of(first->step, first->time) +
                             " on; the maximum is " + percent_of(greatest) + ".",
-                        kShorterStep});
+                        kCompareShorterStep});
   }
 }
 
@@ -89,7 +89,7 @@ Warning warn_of_depth(const Scene& scene, const State& state, double strain) {
           "Walls had overlapped by " + percent_of(state.contact_totals.deepest_penetration) +
               " of the thinner wall's thickness by " + moment_of(state.step, state.time) + deepest_place(scene, state) +
               ".",
-          std::string(kShorterStep) + " A larger contact.stiffness_factor reduces the overlap of slow walls."};
+          std::string(kCompareShorterStep) + " A larger contact.stiffness_factor reduces the overlap of slow walls."};
 }
 
 Warning warn_of_borders(const State& state, double strain) {

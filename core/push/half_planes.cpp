@@ -92,12 +92,12 @@ void press_by_half_planes(const Scene& scene, State& state, const PlateStep& /*p
 }
 
 /// The works of the newest forces over a way along the normal, mm; friction does none on the half plane. A mass belongs
-/// to what the ledger has: of the forces on it, gravity alone comes from outside.
+/// to what the ledger has: of the forces on it, those of the lattice do not come from outside.
 MotionWorks works_over(const Scene& scene, const State& state, std::size_t wall, double way) {
   const RigidWall& of = scene.rigid_walls[wall];
   MotionWorks works = face_works(state.rigid_wall_force[wall].normal, way);
   if (of.mass > 0.0) {
-    works.external = of.mass * scene.gravity.dot(of.normal) * way;
+    works.external = of.mass * of.kind->drive(scene, of, state.rigid_wall_motion[wall]) * way;
   }
   return works;
 }
@@ -157,7 +157,8 @@ extern const Pusher kHalfPlanes = {.place = place_half_planes,
 
 double acceleration_of(const Scene& scene, const State& state, std::size_t wall) {
   const RigidWall& of = scene.rigid_walls[wall];
-  return scene.gravity.dot(of.normal) - state.rigid_wall_force[wall].normal.total() / of.mass;
+  return of.kind->drive(scene, of, state.rigid_wall_motion[wall]) -
+         state.rigid_wall_force[wall].normal.total() / of.mass;
 }
 
 void check_half_planes(const LoadsSpec& loads, FieldChecker& check) {

@@ -19,6 +19,8 @@ struct HalfPlaneKind {
   RigidWallMotion (*start)(const Scene& scene, const RigidWall& wall);
   /// Its motion at the end of the coming step, from the newest forces.
   RigidWallMotion (*move)(const Scene& scene, const State& state, std::size_t wall);
+  /// Of one with a mass: its acceleration along the normal by all but the lattice, mm/s^2, whose work is external.
+  double (*drive)(const Scene& scene, const RigidWall& wall, const RigidWallMotion& motion) = nullptr;
 };
 
 /// Of a half plane with a mass, by the newest forces, mm/s^2 along its normal (E9g).

@@ -32,9 +32,13 @@ RigidWallMotion move_striker(const Scene& scene, const State& state, std::size_t
   return {now.travel + step * speed, speed};
 }
 
+double fall_striker(const Scene& scene, const RigidWall& wall, const RigidWallMotion& /*motion*/) {
+  return scene.gravity.dot(wall.normal);
+}
+
 }  // namespace
 
 extern const HalfPlaneKind kStrikers = {
-    "Rigid walls with a mass", takes_striker, check_striker, fill_striker, start_striker, move_striker};
+    "Rigid walls with a mass", takes_striker, check_striker, fill_striker, start_striker, move_striker, fall_striker};
 
 }  // namespace cellcrush

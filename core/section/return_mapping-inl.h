@@ -127,7 +127,7 @@ HWY_INLINE SectionSums<D> return_map_section(const FibreLaw<Law, D>& law, const 
     const Lane<D> increment = law.increment(reduced[i], within[i]);
     law.flow(increment, fibres, at);
     of_section.add(reduced[i] != within[i], i);
-    const Lane<D> stress = law.dissipating(Lane<D>::load(fibres.stress + at), increment);
+    const Lane<D> stress = law.dissipating(increment, fibres, at);
     sums.plastic_work = fma(Lane<D>(rule.depth_weight[i]) * stress, increment, sums.plastic_work);
   }
   yields.add_section(of_section, first);

@@ -4,7 +4,6 @@
 #include <google/protobuf/message.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,43 +55,34 @@ void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   if (in.imperfection().has_seed()) spec.imperfection.seed = in.imperfection().seed();
 }
 
-// Sets `out` to the meaning of the wire value; 0 (unspecified) leaves it unchanged.
+// Sets `out` to the meaning of the wire value; 0 (unspecified) leaves it unchanged. The enum of the spec lists the same
+// values in the same order, from `first` on.
 template <class Wire, class Out>
-void read_choice(Wire in, std::initializer_list<std::pair<Wire, Out>> meanings, const std::string& field,
-                 const std::string& names, Out& out, Problems& problems) {
-  const auto* found =
-      std::find_if(meanings.begin(), meanings.end(), [&](const auto& pair) { return pair.first == in; });
-  if (found != meanings.end()) {
-    out = found->second;
-  } else if (static_cast<int>(in) != 0) {
-    problems.push_back({field, std::to_string(in), "is not a valid value.", "Use " + names + "."});
+void read_choice(Wire in, const std::string& field, Out& out, Problems& problems, Out first = Out()) {
+  const auto& values = *google::protobuf::GetEnumDescriptor<Wire>();
+  if (static_cast<int>(in) == 0) return;
+  if (values.FindValueByNumber(in) != nullptr) {
+    out = static_cast<Out>(static_cast<int>(in) - 1 + static_cast<int>(first));
+    return;
   }
+  std::string names = values.value(1)->name();
+  for (int i = 2; i < values.value_count(); ++i)
+    names += (i + 1 < values.value_count() ? ", " : " or ") + values.value(i)->name();
+  problems.push_back({field, std::to_string(in), "is not a valid value.", "Use " + names + "."});
 }
 
 void read_inclusions(const v1::Lattice::Inclusions& in, Inclusions& out, Problems& problems) {
   out.rows.assign(in.rows().begin(), in.rows().end());
   if (in.has_thickness_factor()) out.thickness_factor = in.thickness_factor();
-  read_choice(in.model(),
-              {{v1::Lattice::Inclusions::RIGID, Inclusions::Model::rigid},
-               {v1::Lattice::Inclusions::MESHED, Inclusions::Model::meshed}},
-              "lattice.inclusions.model", "RIGID or MESHED", out.model, problems);
+  read_choice(in.model(), "lattice.inclusions.model", out.model, problems);
 }
 
 void read_section(const v1::Section& in, SectionSpec& out, Problems& problems) {
   if (in.has_axial_points()) out.axial_points = in.axial_points();
   if (in.has_depth_points()) out.depth_points = in.depth_points();
-  read_choice(in.formulation(),
-              {{v1::Section::FORCE_BASED, SectionSpec::Formulation::force_based},
-               {v1::Section::DISPLACEMENT_BASED, SectionSpec::Formulation::displacement_based}},
-              "section.formulation", "FORCE_BASED or DISPLACEMENT_BASED", out.formulation, problems);
-  read_choice(in.depth_rule(),
-              {{v1::Section::FULL_MOMENT, SectionSpec::DepthRule::full_moment},
-               {v1::Section::LOBATTO, SectionSpec::DepthRule::lobatto}},
-              "section.depth_rule", "FULL_MOMENT or LOBATTO", out.depth_rule, problems);
-  read_choice(in.area_rule(),
-              {{v1::Section::CONSTANT_VOLUME, SectionSpec::AreaRule::constant_volume},
-               {v1::Section::CONSTANT_AREA, SectionSpec::AreaRule::constant_area}},
-              "section.area_rule", "CONSTANT_VOLUME or CONSTANT_AREA", out.area_rule, problems);
+  read_choice(in.formulation(), "section.formulation", out.formulation, problems);
+  read_choice(in.depth_rule(), "section.depth_rule", out.depth_rule, problems);
+  read_choice(in.area_rule(), "section.area_rule", out.area_rule, problems);
 }
 
 void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {
@@ -100,17 +90,13 @@ void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {
   if (in.contact().has_stiffness_factor()) spec.contact.stiffness_factor = in.contact().stiffness_factor();
   if (in.contact().has_impact_speed_m_per_s()) spec.contact.impact_speed_m_per_s = in.contact().impact_speed_m_per_s();
   if (in.contact().has_damping_ratio()) spec.contact.damping_ratio = in.contact().damping_ratio();
-  read_choice(in.contact().search(),
-              {{v1::Contact::FACES, ContactSpec::Search::faces}, {v1::Contact::BUCKETS, ContactSpec::Search::buckets}},
-              "contact.search", "FACES or BUCKETS", spec.contact.search, problems);
+  read_choice(in.contact().search(), "contact.search", spec.contact.search, problems);
   if (in.plates().has_friction()) spec.plates.friction = in.plates().friction();
 }
 
 void read_loading(const v1::Loading& in, SceneSpec& spec, Problems& problems) {
   LoadingSpec& out = spec.loading;
-  read_choice(in.direction(),
-              {{v1::Loading::X, LoadingSpec::Direction::x}, {v1::Loading::Y, LoadingSpec::Direction::y}},
-              "loading.direction", "X or Y", out.direction, problems);
+  read_choice(in.direction(), "loading.direction", out.direction, problems);
   if (in.has_speed_m_per_s()) out.speed_m_per_s = in.speed_m_per_s();
   if (in.has_end_strain()) out.end_strain = in.end_strain();
   if (in.has_ramp_strain()) out.ramp_strain = in.ramp_strain();
@@ -122,16 +108,8 @@ void read_loading(const v1::Loading& in, SceneSpec& spec, Problems& problems) {
 }
 
 void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems) {
-  using Fidelity = NumericsSpec::Fidelity;
-  read_choice(in.fidelity(),
-              {{v1::Numerics::DRAFT, Fidelity::draft},
-               {v1::Numerics::STANDARD, Fidelity::standard},
-               {v1::Numerics::REFERENCE, Fidelity::reference}},
-              "numerics.fidelity", "DRAFT, STANDARD or REFERENCE", out.fidelity, problems);
-  read_choice(in.fibre_precision(),
-              {{v1::Numerics::SINGLE, NumericsSpec::FibrePrecision::single_precision},
-               {v1::Numerics::DOUBLE, NumericsSpec::FibrePrecision::double_precision}},
-              "numerics.fibre_precision", "SINGLE or DOUBLE", out.fibre_precision, problems);
+  read_choice(in.fidelity(), "numerics.fidelity", out.fidelity, problems, NumericsSpec::Fidelity::draft);
+  read_choice(in.fibre_precision(), "numerics.fibre_precision", out.fibre_precision, problems);
   if (in.has_time_step_s()) out.time_step_s = in.time_step_s();
   if (in.has_mass_scaling()) out.mass_scaling = in.mass_scaling();
   if (in.has_rotary_scaling()) out.rotary_scaling = in.rotary_scaling();
@@ -159,10 +137,7 @@ MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& 
     if (in.GetReflection()->HasField(in, field)) out.*parameter.value = in.GetReflection()->GetDouble(in, field);
   }
   if (in.has_density_kg_per_m3()) out.density_kg_per_m3 = in.density_kg_per_m3();
-  read_choice(in.plane(),
-              {{v1::Material::PLANE_STRESS, MaterialSpec::Plane::stress},
-               {v1::Material::PLANE_STRAIN, MaterialSpec::Plane::strain}},
-              path + "plane", "PLANE_STRESS or PLANE_STRAIN", out.plane, problems);
+  read_choice(in.plane(), path + "plane", out.plane, problems);
   if (in.has_poissons_ratio()) out.poissons_ratio = in.poissons_ratio();
   return out;
 }

@@ -133,9 +133,11 @@ void describe_changes(const v1::Lattice& lattice, v1::CaseWords& words) {
                         "The theory ignores the stiff cells.");
 }
 
-std::string rigid_wall_text(const v1::Frame::RigidWall& wall) {
-  if (wall.has_mass_g()) return fmt::format("{} ({} g, {} m/s)", wall.id(), wall.mass_g(), wall.speed_m_per_s());
-  return wall.id() + (wall.has_displacement_mm() ? " (moves)" : "");
+std::string rigid_wall_text(const std::string& id, const LoadsSpec::RigidWall& wall) {
+  std::vector<std::string> texts;
+  for (const auto& [name, value] : wall.own) texts.push_back(fmt::format("{} {}", name, value));
+  if (!wall.points.empty()) texts.emplace_back("moves");
+  return texts.empty() ? id : fmt::format("{} ({})", id, fmt::join(texts, ", "));
 }
 
 void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
@@ -144,7 +146,10 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
         words, "gravity",
         fmt::format("{} m/s2 along x, {} m/s2 along y", loading.gravity_x_m_per_s2(), loading.gravity_y_m_per_s2()));
   }
-  add_list(words, "rigid walls", loading.rigid_walls(), rigid_wall_text);
+  Problems ignored;
+  const auto walls = read_rigid_walls(loading, ignored);
+  add_list(words, "rigid walls", loading.rigid_walls(),
+           [&, i = 0](const auto& wall) mutable { return rigid_wall_text(wall.id(), walls[i++]); });
   std::string text;
   if (loading.has_end_time_s()) {
     add_fact(words, "end time", fmt::format("{} s", loading.end_time_s()));
@@ -163,10 +168,14 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
 }
 
 std::string material_text(const v1::Material& material) {
-  std::string text = fmt::format("E {:.6g} MPa, yield {:.6g} MPa, hardening {:.6g} MPa", material.youngs_modulus_mpa(),
-                                 material.yield_stress_mpa(), material.hardening_modulus_mpa());
-  if (material.hardening_modulus_mpa() > 0.0 && material.has_isotropic_fraction())
-    text += fmt::format(" ({:.0f} % isotropic)", 100.0 * material.isotropic_fraction());
+  std::string text =
+      fmt::format("E {:.6g} MPa, yield {:.6g} MPa", material.youngs_modulus_mpa(), material.yield_stress_mpa());
+  Problems ignored;
+  const LawParameters law = to_spec(material, "", ignored);
+  for (const LawParameter& parameter : kLawParameters) {
+    if (const double value = law.*parameter.value; value != LawParameters().*parameter.value)
+      text += ", " + fmt::format(fmt::runtime(parameter.words), value);
+  }
   text += fmt::format(", {} kg/m3", material.density_kg_per_m3());
   return text + (material.plane() == v1::Material::PLANE_STRAIN ? ", plane strain" : "");
 }

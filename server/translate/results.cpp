@@ -81,14 +81,9 @@ v1::Summary::CrushMode to_proto(CrushMode mode) {
 }
 
 v1::StageTimes to_proto(const std::array<double, kStageCount>& seconds) {
-  const auto of = [&](Stage stage) { return seconds[static_cast<std::size_t>(stage)]; };
   v1::StageTimes out;
-  out.set_integrate_motion_s(of(Stage::integrate_motion));
-  out.set_evaluate_internal_forces_s(of(Stage::evaluate_internal_forces));
-  out.set_find_contacts_s(of(Stage::find_contacts));
-  out.set_evaluate_contact_forces_s(of(Stage::evaluate_contact_forces));
-  out.set_evaluate_plate_forces_s(of(Stage::evaluate_plate_forces));
-  out.set_evaluate_loads_s(of(Stage::evaluate_loads));
+  const auto set = setter_of(out);
+  for (int i = 0; i < kStageCount; ++i) set(std::string(kStageNames[i]) + "_s", seconds[i], 1.0);
   return out;
 }
 

@@ -24,13 +24,10 @@ void write_regular(const RegularLattice& in, v1::Lattice& out) {
   for (const auto& [name, value] : in.own) reflection.SetDouble(&message, field(name), value);
 }
 
-v1::Frame::Component to_proto(LoadsSpec::Component component) {
-  switch (component) {
-    case LoadsSpec::Component::x: return v1::Frame::COMPONENT_X;
-    case LoadsSpec::Component::y: return v1::Frame::COMPONENT_Y;
-    case LoadsSpec::Component::rotation: return v1::Frame::COMPONENT_ROTATION;
-  }
-  return v1::Frame::COMPONENT_UNSPECIFIED;
+// The value of the wire; the enum of the spec lists the same values in the same order, from `first` on.
+template <class Wire, class In>
+Wire wire_of(In value, In first = In()) {
+  return static_cast<Wire>(1 + static_cast<int>(value) - static_cast<int>(first));
 }
 
 void write_material(const MaterialSpec& in, v1::Material& out) {
@@ -40,7 +37,7 @@ void write_material(const MaterialSpec& in, v1::Material& out) {
     out.GetReflection()->SetDouble(&out, out.GetDescriptor()->FindFieldByName(parameter.name), in.*parameter.value);
   }
   if (in.density_kg_per_m3) out.set_density_kg_per_m3(*in.density_kg_per_m3);
-  out.set_plane(in.plane == MaterialSpec::Plane::stress ? v1::Material::PLANE_STRESS : v1::Material::PLANE_STRAIN);
+  out.set_plane(wire_of<v1::Material::Plane>(in.plane));
   out.set_poissons_ratio(in.poissons_ratio);
 }
 
@@ -86,13 +83,13 @@ void write_node_loads(const LoadsSpec& in, v1::Frame& out) {
   for (const auto& load : in.loads) {
     auto& added = *out.add_loads();
     added.set_node(std::to_string(load.node));
-    added.set_component(to_proto(load.component));
+    added.set_component(wire_of<v1::Frame::Component>(load.component));
     write_function(load.points, *added.mutable_force_n_or_n_mm());
   }
   for (const auto& motion : in.motions) {
     auto& added = *out.add_motions();
     added.set_node(std::to_string(motion.node));
-    added.set_component(to_proto(motion.component));
+    added.set_component(wire_of<v1::Frame::Component>(motion.component));
     write_function(motion.points, *added.mutable_displacement_mm_or_rad());
   }
   for (const auto& load : in.distributed_loads) {
@@ -123,14 +120,12 @@ void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
   if (!spec.inclusions.rows.empty()) {
     out.mutable_inclusions()->mutable_rows()->Assign(spec.inclusions.rows.begin(), spec.inclusions.rows.end());
     out.mutable_inclusions()->set_thickness_factor(spec.inclusions.thickness_factor);
-    out.mutable_inclusions()->set_model(spec.inclusions.model == Inclusions::Model::rigid
-                                            ? v1::Lattice::Inclusions::RIGID
-                                            : v1::Lattice::Inclusions::MESHED);
+    out.mutable_inclusions()->set_model(wire_of<v1::Lattice::Inclusions::Model>(spec.inclusions.model));
   }
 }
 
 void write_plates(const LoadingSpec& in, v1::Loading& out) {
-  out.set_direction(in.direction == LoadingSpec::Direction::x ? v1::Loading::X : v1::Loading::Y);
+  out.set_direction(wire_of<v1::Loading::Direction>(in.direction));
   if (in.speed_m_per_s) out.set_speed_m_per_s(*in.speed_m_per_s);
   out.set_end_strain(in.end_strain);
   out.set_ramp_strain(in.ramp_strain);
@@ -164,12 +159,9 @@ void write_section(const SectionSpec& in, v1::Section& out) {
   // Left unset where the formulation decides: changing a preset's formulation then also changes its points.
   if (in.axial_points) out.set_axial_points(*in.axial_points);
   out.set_depth_points(in.depth_count());
-  out.set_formulation(in.formulation == SectionSpec::Formulation::force_based ? v1::Section::FORCE_BASED
-                                                                              : v1::Section::DISPLACEMENT_BASED);
-  out.set_depth_rule(in.depth_rule == SectionSpec::DepthRule::full_moment ? v1::Section::FULL_MOMENT
-                                                                          : v1::Section::LOBATTO);
-  out.set_area_rule(in.area_rule == SectionSpec::AreaRule::constant_volume ? v1::Section::CONSTANT_VOLUME
-                                                                           : v1::Section::CONSTANT_AREA);
+  out.set_formulation(wire_of<v1::Section::Formulation>(in.formulation));
+  out.set_depth_rule(wire_of<v1::Section::DepthRule>(in.depth_rule));
+  out.set_area_rule(wire_of<v1::Section::AreaRule>(in.area_rule));
 }
 
 void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
@@ -177,8 +169,7 @@ void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
   out.set_mass_damping_per_s(in.mass_damping_per_s);
   out.set_mass_scaling(in.mass_scaling);
   out.set_rotary_scaling(in.rotary_scaling);
-  out.set_fibre_precision(in.fibre_precision == NumericsSpec::FibrePrecision::single_precision ? v1::Numerics::SINGLE
-                                                                                               : v1::Numerics::DOUBLE);
+  out.set_fibre_precision(wire_of<v1::Numerics::FibrePrecision>(in.fibre_precision));
   out.set_fidelity(translate::to_proto(in.fidelity));
   out.set_threads(in.threads);
 }
@@ -186,13 +177,7 @@ void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
 }  // namespace
 
 v1::Numerics::Fidelity to_proto(NumericsSpec::Fidelity fidelity) {
-  switch (fidelity) {
-    case NumericsSpec::Fidelity::unspecified: break;
-    case NumericsSpec::Fidelity::draft: return v1::Numerics::DRAFT;
-    case NumericsSpec::Fidelity::standard: return v1::Numerics::STANDARD;
-    case NumericsSpec::Fidelity::reference: return v1::Numerics::REFERENCE;
-  }
-  return v1::Numerics::FIDELITY_UNSPECIFIED;
+  return wire_of<v1::Numerics::Fidelity>(fidelity, NumericsSpec::Fidelity::draft);
 }
 
 v1::Case to_case(const SceneSpec& spec) {
@@ -207,8 +192,7 @@ v1::Case to_case(const SceneSpec& spec) {
   out.mutable_contact()->set_stiffness_factor(spec.contact.stiffness_factor);
   out.mutable_contact()->set_damping_ratio(spec.contact.damping_ratio);
   out.mutable_contact()->set_impact_speed_m_per_s(spec.contact.impact_speed_m_per_s);
-  out.mutable_contact()->set_search(spec.contact.search == ContactSpec::Search::faces ? v1::Contact::FACES
-                                                                                      : v1::Contact::BUCKETS);
+  out.mutable_contact()->set_search(wire_of<v1::Contact::Search>(spec.contact.search));
   out.mutable_plates()->set_friction(spec.plates.friction);
   const bool has_plates = spec.loading.speed_m_per_s.has_value();
   if (has_plates || !spec.loading.end_time_s) write_plates(spec.loading, *out.mutable_loading());

@@ -1,5 +1,6 @@
 #include "terminal/case_text.h"
 
+#include <google/protobuf/unknown_field_set.h>
 #include <gtest/gtest.h>
 
 #include "expect_text.h"
@@ -26,6 +27,14 @@ TEST(CaseText, PrintsTheWordsOfTheServer) {
     words.mutable_facts()->rbegin()->set_text(text);
   }
   EXPECT_EQ(facts_text(words), "  walls     5 mm long\n  material  E 68000 MPa\n");
+}
+
+TEST(CaseText, AFileOfACaseOfANewerServerSaysSo) {
+  auto scene = from_text<v1::Case>("lattice { imperfection { seed: 3 } }");
+  EXPECT_EQ(case_file_text(scene, "job").find("newer"), std::string::npos);
+  auto* lattice = scene.mutable_lattice();
+  lattice->GetReflection()->MutableUnknownFields(lattice)->AddLengthDelimited(99, "\x08\x05");
+  expect_parts_in(case_file_text(scene, "job"), {"# job\n#\n# Fields by number are those of a newer server.", "99 {"});
 }
 
 TEST(CaseText, TheCheckOfAFrameLeavesOutWhatOnlyACrushHas) {

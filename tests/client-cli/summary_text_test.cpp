@@ -1,6 +1,7 @@
 #include "terminal/summary_text.h"
 
 #include <gmock/gmock.h>
+#include <google/protobuf/unknown_field_set.h>
 #include <gtest/gtest.h>
 
 #include "commands/history_csv.h"
@@ -66,10 +67,13 @@ TEST(SummaryText, SaysWhereTheoryDoesNotApply) {
 }
 
 TEST(SummaryText, OfAFrameIsTheLedgerWithWhatItStartedWith) {
-  const std::string text =
-      summary_text(from_text<v1::Job>("summary { ledger { work_external_mj: 500 kinetic_mj: 2000 } }"), 120);
+  auto job = from_text<v1::Job>("summary { ledger { work_external_mj: 500 kinetic_mj: 2000 } }");
+  const std::string text = summary_text(job, 120);
   EXPECT_THAT(text, ContainsRegex("initial energy +1.50 J +75.00 %"));
   EXPECT_THAT(text, Not(HasSubstr("plateau")));
+  auto* ledger = job.mutable_summary()->mutable_ledger();
+  ledger->GetReflection()->MutableUnknownFields(ledger)->AddFixed64(99, 1);
+  EXPECT_THAT(summary_text(job, 120), ContainsRegex("initial energy less terms of a newer server +1.50 J"));
 }
 
 JobHistory history_with_damping() {

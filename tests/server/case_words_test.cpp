@@ -69,11 +69,11 @@ TEST(CaseWords, DescribeRegularLattices) {
         "imperfection: joints displaced by up to 0.01 mm, walls bowed by up to 0.02 mm, seed 4"}},
       {"lattice { hexagon { columns: 8 rows: 9 side_mm: 5 wall_thickness_mm: 0.2 vertical_wall_thickness_mm: 0.4 } "
        "inclusions { rows: 3 rows: 6 thickness_factor: 4 } } elements_per_wall: 2 contact { friction: 0.3 } "
-       "material { youngs_modulus_mpa: 68000 yield_stress_mpa: 130 hardening_modulus_mpa: 680 isotropic_fraction: 1 "
+       "material { youngs_modulus_mpa: 68000 yield_stress_mpa: 130 hardening_modulus_mpa: 680 isotropic_fraction: .5 "
        "density_kg_per_m3: 2700 plane: PLANE_STRAIN }",
        {"walls: 5 mm long, 0.2 mm thick; along y 0.4 mm", "elements per wall: 2",
         "inclusions: stiff cells in rows 3, 6, walls 4 times as thick, rigid", "friction between walls: 0.3",
-        "material: E 68000 MPa, yield 130 MPa, hardening 680 MPa (100 % isotropic), 2700 kg/m3, plane strain"}},
+        "material: E 68000 MPa, yield 130 MPa, hardening 680 MPa, isotropic fraction 0.5, 2700 kg/m3, plane strain"}},
       {"", {}}};
   for (const Row& row : rows) EXPECT_THAT(facts_of(words_of_case(row.text)), IsSupersetOf(row.facts)) << row.text;
 }
@@ -104,7 +104,7 @@ TEST(CaseWords, DescribeTheLoadingOfAnyLatticeAndWhereTheRunEnds) {
   EXPECT_EQ(struck.loading(), "loaded for 0.02 s, or until at rest");
   EXPECT_THAT(facts_of(struck),
               IsSupersetOf({"gravity: 0 m/s2 along x, -9.81 m/s2 along y",
-                            "rigid walls: floor, hammer (3 g, 2 m/s), ram (moves)", "end time: 0.02 s",
+                            "rigid walls: floor, hammer (mass_g 3, speed_m_per_s 2), ram (moves)", "end time: 0.02 s",
                             "end at rest: at 0.001 of the greatest kinetic energy"}));
   EXPECT_EQ(words_of_case("lattice { frame { end_time_s: 3 } } loading { speed_m_per_s: 1 end_strain: 0.5 }").loading(),
             "loaded for 3 s, crushed along X at 1 m/s to strain 0.5");

@@ -18,11 +18,13 @@ struct LawParameters {
 struct LawParameter {
   const char* name;  ///< of the field of a material in case.proto
   double LawParameters::*value;
-  int flow_power = 0;  ///< in plane strain it is multiplied by 2 / sqrt 3 as often (E6b): a stress once
+  int flow_power;     ///< in plane strain it is multiplied by 2 / sqrt 3 as often (E6b): a stress once
+  const char* words;  ///< of a material in which it is not the default; {} stands for its value
 };
 
-inline constexpr LawParameter kLawParameters[] = {{"hardening_modulus_mpa", &LawParameters::hardening_modulus_mpa, 2},
-                                                  {"isotropic_fraction", &LawParameters::isotropic_fraction}};
+inline constexpr LawParameter kLawParameters[] = {
+    {"hardening_modulus_mpa", &LawParameters::hardening_modulus_mpa, 2, "hardening {:.6g} MPa"},
+    {"isotropic_fraction", &LawParameters::isotropic_fraction, 0, "isotropic fraction {:.6g}"}};
 
 inline constexpr std::size_t kLawParameterCount = std::size(kLawParameters);
 static_assert(sizeof(LawParameters) == kLawParameterCount * sizeof(double), "list every parameter");
@@ -47,13 +49,16 @@ struct LawFacts {
   /// in Example 1 at 1 m/s.
   bool may_be_single_in_force_based = false;
   bool (*describes)(const LawParameters& material);
+  /// Plastic strain up to which a wall stretches evenly: until its true stress is its hardening (Considere).
+  double (*even_strain)(double yield_stress, const LawParameters& material);
 };
 
 struct PerfectlyPlastic {
   static constexpr LawFacts kFacts = {
       .words = "perfectly plastic; each stores only its stress",
       .may_be_single_in_force_based = true,
-      .describes = [](const LawParameters& material) { return !(material.hardening_modulus_mpa > 0.0); }};
+      .describes = [](const LawParameters& material) { return !(material.hardening_modulus_mpa > 0.0); },
+      .even_strain = [](double /*yield_stress*/, const LawParameters& /*material*/) { return 0.0; }};
 };
 
 struct MixedHardening {
@@ -61,7 +66,12 @@ struct MixedHardening {
       .words = "bilinear with mixed hardening; each stores its back stress and accumulated plastic strain",
       .keeps_back_stress = true,
       .keeps_plastic_strain = true,
-      .describes = [](const LawParameters&) { return true; }};
+      .describes = [](const LawParameters&) { return true; },
+      .even_strain =
+          [](double yield_stress, const LawParameters& material) {
+            const double hardening = material.hardening_modulus_mpa;
+            return hardening > yield_stress ? 1.0 - yield_stress / hardening : 0.0;
+          }};
 };
 
 template <class... Each>
@@ -76,7 +86,7 @@ struct LawList {
   }
 };
 
-/// All laws. A scene has the first one that describes its materials.
+/// All laws. A scene has the first one that describes its materials; the last one describes all.
 using Laws = LawList<PerfectlyPlastic, MixedHardening>;
 
 }  // namespace cellcrush

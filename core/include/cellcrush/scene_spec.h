@@ -19,6 +19,7 @@ inline constexpr double kTonnePerGram = 1e-6;
 // The request of a user, before any check. This is the boundary: names carry units and equal the field paths of a case
 // ("loading.speed_m_per_s"). Scene holds the same in the units of the solver (mm, tonne, s, N, MPa).
 // A std::optional must be given where it applies, unless its comment names a default; if missing, it is reported.
+// An enum lists its values in the order of the case's enum, where 0 is none of them.
 
 /// A lattice of equal cells. Its kind says how cells lie and are counted (core/lattice/kinds).
 struct RegularLattice {
@@ -237,7 +238,7 @@ struct NumericsSpec {
   /// Precision of the fibre stresses; motion, forces and works are always in double precision. Elements of other
   /// numbers of points than the default ones, and force-based elements with hardening, are in double precision whatever
   /// is asked.
-  enum class FibrePrecision { double_precision, single_precision };
+  enum class FibrePrecision { single_precision, double_precision };
   FibrePrecision fibre_precision = FibrePrecision::single_precision;
   /// A point of the measured speed-accuracy front; it fills in omitted settings (fidelity.h).
   enum class Fidelity { unspecified, draft, standard, reference };

@@ -99,4 +99,6 @@ test("a comparison sees every field of a case but its title", () => {
     "lattice.hexagon.columns": "20", "lattice.inclusions.rows": "2, 4", "section.formulation": "DISPLACEMENT_BASED",
     "loading.ramp_strain": "0.01", "numerics.mass_damping_per_s": "40",
   });
+  value.lattice.$unknown = [{ no: 99, wireType: 2, data: new Uint8Array([2, 8, 5]) }];
+  assert.equal(caseValues(value).get("lattice.99 (of a newer server)"), "2 8 5");
 });

@@ -1,7 +1,7 @@
 // The fields of the form, and access to the fields of a case by their paths in the protos.
 import { create, getOption, ScalarType, type DescField, type DescMessage } from "@bufbuild/protobuf";
 import { reflect, type ReflectMessage } from "@bufbuild/protobuf/reflect";
-import { CaseSchema, LatticeSchema, LoadingSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
+import { CaseSchema, LatticeSchema, LoadingSchema, MaterialSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
 import { rules } from "../../gen/cellcrush/v1/field_pb";
 
 export type LatticeKind = DescField & { fieldKind: "message" };
@@ -19,6 +19,7 @@ export interface Group { title: string; paths: string[]; isOpen: boolean }
 const singleFields = (message: DescMessage): string[] => message.fields.filter(({ fieldKind }) =>
   fieldKind === "scalar" || fieldKind === "enum").map(({ name }) => name);
 
+const kMaterial = ["youngs_modulus_mpa", "yield_stress_mpa", "density_kg_per_m3", "hardening_modulus_mpa"];
 const kCrush = ["direction", "speed_m_per_s", "end_strain", "ramp_strain"];
 
 /** The groups of the form for a kind of lattice. What a kind has at a place of its own is not in its loading. */
@@ -28,14 +29,13 @@ export function groupsOf(kind: LatticeKind): Group[] {
   const under = (parent: string, names: string[]): string[] => names.map((name) => `${parent}.${name}`);
   const groups = [
     { title: "Lattice", isOpen: true, paths: [...under(`lattice.${kind.name}`, ofKind), "depth_mm"] },
-    { title: "Material", isOpen: true, paths: under("material", ["youngs_modulus_mpa", "yield_stress_mpa",
-      "density_kg_per_m3", "hardening_modulus_mpa"]) },
+    { title: "Material", isOpen: true, paths: under("material", kMaterial) },
     { title: "Crush", isOpen: !isListed(kind), paths: [...under("loading", kCrush), "plates.friction"] },
     { title: "Further loads and ends", isOpen: false, paths: under("loading", further) },
     { title: "Imperfection", isOpen: false, paths: isListed(kind) ? []
       : under("lattice.imperfection", ["amplitude_mm", "seed", "bow_mm"]) },
-    { title: "Material, further", isOpen: false, paths: under("material", ["isotropic_fraction", "plane",
-      "poissons_ratio"]) },
+    { title: "Material, further", isOpen: false, paths: under("material", singleFields(MaterialSchema).filter((name) =>
+      !kMaterial.includes(name))) },
     { title: "Mesh and section", isOpen: false, paths: ["numerics.fidelity", "elements_per_wall",
       ...under("section", ["formulation", "axial_points", "depth_points", "depth_rule", "area_rule"])] },
     { title: "Contact", isOpen: false, paths: under("contact", ["friction", "stiffness_factor", "damping_ratio",
@@ -96,6 +96,7 @@ function* valuesOf(message: ReflectMessage, prefix: string): Generator<[string, 
     if (field.fieldKind === "message") yield* valuesOf(message.get(field), `${path}.`);
     else yield [path, textOf(message, field)];
   }
+  for (const { no, data } of message.getUnknown() ?? []) yield [`${prefix}${no} (of a newer server)`, data.join(" ")];
 }
 
 /** The value of every field of a case, by its path; a title names a job and is none of them. */

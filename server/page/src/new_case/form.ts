@@ -48,13 +48,17 @@ export class CaseForm {
   private build(): void {
     this.inputs = new Map();
     this.unreadable.clear();
-    const kind = kLatticeKinds.find(({ localName }) => localName === this.value.lattice?.kind.case) ?? this.kinds[0];
+    const known = kLatticeKinds.find(({ localName }) => localName === this.value.lattice?.kind.case);
+    const isNewer = !known && this.value.lattice?.$unknown !== undefined;
+    const kind = known ?? this.kinds[0];
     this.kind.value = kind.name;
-    const groups = groupsOf(kind).map((group) => this.groupOf(group));
+    const groups = groupsOf(kind).map((group) => this.groupOf({ ...group, paths: group.paths.filter((path) =>
+      !isNewer || !path.startsWith(`lattice.${kind.name}.`)) }));
     const beside = pathsBeside(this.value, this.paths);
     this.beside = new Map(beside.map((path) => [path, h("div", { class: "bad" })]));
     replaceChildren(this.element,
-      labelled("Title", this.title), !isListed(kind) && labelled("Cells", this.kind),
+      labelled("Title", this.title), !isListed(kind) && !isNewer && labelled("Cells", this.kind),
+      isNewer && h("p", { class: "banner warning" }, "The lattice is one of a newer server, and stays as it is."),
       beside.length > 0 && h("dl", { class: "facts beside" }, ...beside.map((path) => this.rowBeside(path))),
       ...groups);
   }

@@ -1,9 +1,9 @@
 // Included once for each target; see Highway's documentation of foreach_target.h.
-#if defined(CELLCRUSH_LAW_MIXED_HARDENING_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CELLCRUSH_LAW_MIXED_HARDENING_INL_H_
-#undef CELLCRUSH_LAW_MIXED_HARDENING_INL_H_
+#if defined(CELLCRUSH_LAW_KINDS_MIXED_HARDENING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_LAW_KINDS_MIXED_HARDENING_INL_H_
+#undef CELLCRUSH_LAW_KINDS_MIXED_HARDENING_INL_H_
 #else
-#define CELLCRUSH_LAW_MIXED_HARDENING_INL_H_
+#define CELLCRUSH_LAW_KINDS_MIXED_HARDENING_INL_H_
 #endif
 
 #include <cstddef>
@@ -43,8 +43,8 @@ class FibreLaw<MixedHardening, D> {
     fma(material_.kinematic, increment, back).store(fibres.back_stress + at);  // Eq. 39, E6
   }
   /// Mean of both yield surfaces.
-  HWY_INLINE Lane<D> dissipating(Lane<D> stress, Lane<D> increment) const {
-    return fnma(Lane<D>(T(0.5)) * material_.hardening(), increment, stress);
+  HWY_INLINE Lane<D> dissipating(Lane<D> increment, const Fibres<T>& fibres, std::size_t at) const {
+    return fnma(Lane<D>(T(0.5)) * material_.hardening(), increment, Lane<D>::load(fibres.stress + at));
   }
   HWY_INLINE Lane<D> reduced(const Fibres<T>& fibres, std::size_t at) const {
     return Lane<D>::load(fibres.stress + at) - Lane<D>::load(fibres.back_stress + at);
@@ -58,4 +58,4 @@ class FibreLaw<MixedHardening, D> {
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // CELLCRUSH_LAW_MIXED_HARDENING_INL_H_
+#endif  // CELLCRUSH_LAW_KINDS_MIXED_HARDENING_INL_H_

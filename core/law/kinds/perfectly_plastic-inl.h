@@ -1,9 +1,9 @@
 // Included once for each target; see Highway's documentation of foreach_target.h.
-#if defined(CELLCRUSH_LAW_PERFECTLY_PLASTIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CELLCRUSH_LAW_PERFECTLY_PLASTIC_INL_H_
-#undef CELLCRUSH_LAW_PERFECTLY_PLASTIC_INL_H_
+#if defined(CELLCRUSH_LAW_KINDS_PERFECTLY_PLASTIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_LAW_KINDS_PERFECTLY_PLASTIC_INL_H_
+#undef CELLCRUSH_LAW_KINDS_PERFECTLY_PLASTIC_INL_H_
 #else
-#define CELLCRUSH_LAW_PERFECTLY_PLASTIC_INL_H_
+#define CELLCRUSH_LAW_KINDS_PERFECTLY_PLASTIC_INL_H_
 #endif
 
 #include <cstddef>
@@ -29,7 +29,9 @@ class FibreLaw<PerfectlyPlastic, D> {
     return material_.inverse * (reduced - within);  // Eq. 37, 38, E6
   }
   HWY_INLINE void flow(Lane<D> /*increment*/, const Fibres<T>& /*fibres*/, std::size_t /*at*/) const {}
-  HWY_INLINE Lane<D> dissipating(Lane<D> stress, Lane<D> /*increment*/) const { return stress; }
+  HWY_INLINE Lane<D> dissipating(Lane<D> /*increment*/, const Fibres<T>& fibres, std::size_t at) const {
+    return Lane<D>::load(fibres.stress + at);
+  }
   HWY_INLINE Lane<D> reduced(const Fibres<T>& fibres, std::size_t at) const {
     return Lane<D>::load(fibres.stress + at);
   }
@@ -42,4 +44,4 @@ class FibreLaw<PerfectlyPlastic, D> {
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // CELLCRUSH_LAW_PERFECTLY_PLASTIC_INL_H_
+#endif  // CELLCRUSH_LAW_KINDS_PERFECTLY_PLASTIC_INL_H_
