@@ -115,13 +115,12 @@ TEST_F(ReportLogTest, SamplesThatWereCutOffAndReportedAnewAreReadFromTheStart) {
     }
   };
   SampleReader reader(folder_.path());
-  for (const bool with_frames : {true, false}) {
-    report_samples(with_frames);
-    const auto found = reader.read({1, 0, 2, 2}, {});
-    ASSERT_EQ(found.samples.size(), 2U);
-    EXPECT_EQ(found.samples.back().step(), 4);
-    EXPECT_EQ(reader.read({1, 0, 4, 1}, {}).samples.size(), 0U);
-  }
+  report_samples(true);
+  ASSERT_EQ(reader.read({1, 0, 0, 2}, {}).samples.size(), 2U);
+  report_samples(false);
+  const auto found = reader.read({1, 0, 2, 2}, {});
+  ASSERT_EQ(found.samples.size(), 2U);
+  EXPECT_EQ(found.samples.back().step(), 4);
 }
 
 TEST_F(ReportLogTest, AnAbsentLogIsAnErrorThatNamesIt) {
