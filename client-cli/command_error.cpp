@@ -57,6 +57,8 @@ bool are_of_case(const v1::ProblemList& problems) {
 CommandError::CommandError(ExitCode code, std::string message, v1::ProblemList problems)
     : code_(code), message_(std::move(message)), problems_(std::move(problems)) {}
 
+void refuse(const std::string& message) { throw CommandError(ExitCode::refused, message); }
+
 CommandError error_of(const grpc::Status& status) {
   v1::ProblemList problems = problems_in(status);
   if (problems.problems_size() > 0) return problems_error(std::move(problems));

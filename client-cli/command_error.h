@@ -46,6 +46,9 @@ class CommandError : public std::exception {
   v1::ProblemList problems_;
 };
 
+/// Throws CommandError (refused).
+[[noreturn]] void refuse(const std::string& message);
+
 /// The error for a call that failed, with the problems from its status details.
 CommandError error_of(const grpc::Status& status);
 

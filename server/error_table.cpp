@@ -136,6 +136,8 @@ grpc::Status status_of(const std::exception& error) {
     if (is_fault) spdlog::error("A call failed: {}", error.what());
     return {code_of(refused->kind()), shorten(error.what(), kMostMessage)};
   }
+  if (const auto* refused = dynamic_cast<const RefusedCase*>(&error))
+    return status_of(refused->problems, refused->subject);
   if (const auto* refused = dynamic_cast<const InvalidField*>(&error))
     return invalid_argument(refused->field(), refused->message(), refused->remedy());
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <exception>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "cellcrush/v1/problem.pb.h"
 #include "error.h"
@@ -31,14 +33,24 @@ v1::Problem invalid_problem(const std::string& field, const std::string& message
 /// Text of at most this many bytes, cut at the start of a character.
 std::string cut_text(std::string text, std::size_t most);
 
+/// A refused case, or another subject with fields. REQUIRES: at least one problem.
+struct RefusedCase : std::runtime_error {
+  explicit RefusedCase(google::protobuf::RepeatedPtrField<v1::Problem> found, std::string of = "case")
+      : std::runtime_error(of + " refused"), problems(std::move(found)), subject(std::move(of)) {}
+
+  google::protobuf::RepeatedPtrField<v1::Problem> problems;
+  std::string subject;
+};
+
 /// The status for any exception.
 grpc::Status status_of(const std::exception& error);
 
-/// Runs the body of a call, and converts an exception to a status.
+/// Runs the body of a call. OK, or the status for its exception.
 template <class Body>
 grpc::Status answer(const Body& body) {
   try {
-    return body();
+    body();
+    return grpc::Status::OK;
   } catch (const std::exception& error) {
     return status_of(error);
   }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "jobs/local_process.h"
-#include "rpc/reflection_services.h"
 
 namespace cellcrush {
 namespace {
@@ -79,27 +78,21 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
              step_cost,
              options.limits.owner.running_jobs,
              {pump, metrics, stream_limits, options.watch_times}},
-      cases(shared),
-      health(board, {pump, metrics, health_limits, options.watch_times}),
-      jobs(shared),
-      sweeps(shared),
-      admin(shared,
-            [this, drained = std::move(on_drain)] {
-              admission.drain();
-              drained();
-            }),
       reflection(rpc::make_reflection_services({"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
                                                 "cellcrush.v1.Admin", "grpc.health.v1.Health"},
                                                gate, stream_limits)),
       methods(gate, http_pump) {
-  cases.add_methods(methods);
-  health.add_methods(methods);
-  jobs.add_methods(methods);
-  sweeps.add_methods(methods);
-  admin.add_methods(methods);
+  rpc::add_cases_methods(methods, shared);
+  rpc::add_health_methods(methods, board, {pump, metrics, health_limits, options.watch_times});
+  rpc::add_jobs_methods(methods, shared);
+  rpc::add_sweeps_methods(methods, shared);
+  rpc::add_admin_methods(methods, shared, [this, drained = std::move(on_drain)] {
+    admission.drain();
+    drained();
+  });
 }
 
-// Before the services whose sources the streams hold.
+// Before the methods whose sources the streams hold.
 Service::~Service() { http_pump.stop(); }
 
 void Service::register_with(grpc::ServerBuilder& builder) {

@@ -11,11 +11,8 @@
 #include "daemon_options.h"
 #include "jobs/housekeeping.h"
 #include "metrics/metrics.h"
-#include "rpc/admin_service.h"
-#include "rpc/cases_service.h"
 #include "rpc/health_service.h"
-#include "rpc/jobs_service.h"
-#include "rpc/sweeps_service.h"
+#include "rpc/services.h"
 #include "watch/pump.h"
 
 namespace cellcrush {
@@ -64,11 +61,6 @@ struct Service {
   rpc::CallPool checks;
   jobs::MeshPlaces mesh_places;
   rpc::ServiceParts shared;
-  rpc::CasesService cases;
-  rpc::HealthService health;
-  rpc::JobsService jobs;
-  rpc::SweepsService sweeps;
-  rpc::AdminService admin;
   std::vector<std::unique_ptr<grpc::Service>> reflection;
   rpc::MethodTable methods;
   std::optional<jobs::Housekeeping> housekeeping;

@@ -47,9 +47,9 @@ std::string read_stream(std::istream& stream, const std::string& name) {
   while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || stream.gcount() > 0) {
     text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
     if (text.size() > kLargestText) {
-      throw CommandError(ExitCode::refused, name +
-                                                ": longer than 64 MiB of text; the limit of a case is 4 MiB as a "
-                                                "message. Make the case smaller");
+      refuse(name +
+             ": longer than 64 MiB of text; the limit of a case is 4 MiB as a "
+             "message. Make the case smaller");
     }
   }
   return text;
@@ -59,8 +59,8 @@ std::string read_all(const std::string& file) {
   if (file == "-") return read_stream(std::cin, "stdin");
   std::ifstream stream;
   if (const std::string failure = open_failure(file, stream); !failure.empty())
-    throw CommandError(ExitCode::refused, failure + (failure.ends_with('?') ? " Give" : "; give") +
-                                              " a case file or preset:NAME (`cellcrush presets` lists them)");
+    refuse(failure + (failure.ends_with('?') ? " Give" : "; give") +
+           " a case file or preset:NAME (`cellcrush presets` lists them)");
   return read_stream(stream, file);
 }
 
@@ -70,9 +70,9 @@ v1::Case read_file(const std::string& file) {
   const bool json = file.ends_with(".json") || (begin != std::string::npos && text[begin] == '{');
   const std::string name = file == "-" ? "stdin" : file;
   if (text.find('\0') != std::string::npos) {
-    throw CommandError(ExitCode::refused, name +
-                                              ": not a text file; a case is protobuf text or JSON, such as the output "
-                                              "of `cellcrush show preset:type-i`");
+    refuse(name +
+           ": not a text file; a case is protobuf text or JSON, such as the output "
+           "of `cellcrush show preset:type-i`");
   }
   return json ? parse_json_case(text, name) : parse_text_case(text, name);
 }
@@ -110,7 +110,7 @@ v1::Case read_case(const std::string& source, const std::vector<std::string>& as
   } catch (const CommandError& error) {
     // A preset that does not exist is an invalid CASE rather than a missing resource.
     if (error.code() != ExitCode::not_found) throw;
-    throw CommandError(ExitCode::refused, error.message());
+    refuse(error.message());
   }
   for (const std::string& assignment : assignments) set_field(result, assignment);
   return result;

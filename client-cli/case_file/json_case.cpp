@@ -2,7 +2,6 @@
 #include <google/protobuf/util/json_util.h>
 
 #include <regex>
-#include <sstream>
 
 #include "case_file/case_source.h"
 #include "case_file/field_names.h"
@@ -19,12 +18,10 @@ using google::protobuf::FieldDescriptor;
 const FieldDescriptor* find_path(const std::string& path) {
   const Descriptor* type = v1::Case::descriptor();
   const FieldDescriptor* field = nullptr;
-  std::istringstream parts(path);
-  for (std::string part; std::getline(parts, part, '.');) {
-    part.resize(std::min(part.size(), part.find('[')));
+  for (const PathPart& part : split_path(path)) {
     if (type == nullptr) return nullptr;
-    field = type->FindFieldByName(part);
-    if (field == nullptr) field = type->FindFieldByCamelcaseName(part);
+    field = type->FindFieldByName(part.name);
+    if (field == nullptr) field = type->FindFieldByCamelcaseName(part.name);
     if (field == nullptr) return nullptr;
     type = field->message_type();
   }
@@ -78,8 +75,7 @@ v1::Case parse_json_case(const std::string& text, const std::string& file) {
   options.case_insensitive_enum_parsing = true;
   const auto status = google::protobuf::util::JsonStringToMessage(text, &result, options);
   if (!status.ok()) {
-    throw CommandError(ExitCode::refused, fmt::format("the case cannot be read\n{}: {}", file,
-                                                      explain_json(std::string(status.message()))));
+    refuse(fmt::format("the case cannot be read\n{}: {}", file, explain_json(std::string(status.message()))));
   }
   return result;
 }

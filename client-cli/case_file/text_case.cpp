@@ -183,8 +183,8 @@ v1::Case parse_text_case(const std::string& given, const std::string& file) {
       text = EnumCorrection(text).corrected();
       continue;
     }
-    if (!errors.lines().empty()) throw CommandError(ExitCode::refused, "the case cannot be read\n" + errors.lines());
-    if (!parsed) throw CommandError(ExitCode::refused, file + ": not a case in protobuf text");
+    if (!errors.lines().empty()) refuse("the case cannot be read\n" + errors.lines());
+    if (!parsed) refuse(file + ": not a case in protobuf text");
     return result;
   }
 }

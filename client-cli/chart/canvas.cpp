@@ -18,23 +18,6 @@ namespace cellcrush::client {
 
 namespace {
 
-/// Cairo writes text into SVG as outlines that nobody can select, search or edit. This class collects the texts instead
-/// and adds them as <text> elements on top of the finished picture.
-class SvgTexts {
- public:
-  /// Makes `surface`, an SVG, collect its texts here. It must not outlive this object.
-  void attach(cairo_surface_t* surface);
-  /// The collector of the current surface; null if it has none.
-  static SvgTexts* find(cairo_t* context);
-  /// A line of text with its anchor at (x, y), both in the context's units.
-  void add(cairo_t* context, double x, double y, const std::string& text, const TextStyle& style);
-  /// The SVG with the texts in it.
-  [[nodiscard]] std::string put_into(const std::string& svg) const;
-
- private:
-  std::string elements_;
-};
-
 const cairo_user_data_key_t kKey = {};
 
 std::string escaped(const std::string& text) {
@@ -56,29 +39,38 @@ const char* anchor_text(Anchor anchor) {
 
 int byte_of(double share) { return static_cast<int>(std::lround(255.0 * share)); }
 
-void SvgTexts::attach(cairo_surface_t* surface) { cairo_surface_set_user_data(surface, &kKey, this, nullptr); }
+/// Cairo writes text into SVG as outlines that nobody can select, search or edit. This class collects the texts instead
+/// and adds them as <text> elements on top of the finished picture.
+class SvgTexts {
+ public:
+  /// Makes `surface`, an SVG, collect its texts here. It must not outlive this object.
+  void attach(cairo_surface_t* surface) { cairo_surface_set_user_data(surface, &kKey, this, nullptr); }
+  /// The collector of the current surface; null if it has none.
+  static SvgTexts* find(cairo_t* context) {
+    return static_cast<SvgTexts*>(cairo_surface_get_user_data(cairo_get_target(context), &kKey));
+  }
+  /// A line of text with its anchor at (x, y), both in the context's units.
+  void add(cairo_t* context, double x, double y, const std::string& text, const TextStyle& style) {
+    if (text.empty()) return;
+    cairo_user_to_device(context, &x, &y);
+    elements_ += fmt::format(
+        "<text x=\"{:.2f}\" y=\"{:.2f}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"{}\" "
+        "text-anchor=\"{}\" fill=\"#{:02x}{:02x}{:02x}\"",
+        x, y, style.size, anchor_text(style.anchor), byte_of(style.colour.red), byte_of(style.colour.green),
+        byte_of(style.colour.blue));
+    if (style.bold) elements_ += " font-weight=\"bold\"";
+    if (style.upwards) elements_ += fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", x, y);
+    elements_ += ">" + escaped(printable(text)) + "</text>\n";
+  }
+  /// The SVG with the texts in it.
+  [[nodiscard]] std::string put_into(const std::string& svg) const {
+    const std::size_t end = svg.rfind("</svg>");
+    return svg.substr(0, end) + elements_ + svg.substr(end);
+  }
 
-SvgTexts* SvgTexts::find(cairo_t* context) {
-  return static_cast<SvgTexts*>(cairo_surface_get_user_data(cairo_get_target(context), &kKey));
-}
-
-void SvgTexts::add(cairo_t* context, double x, double y, const std::string& text, const TextStyle& style) {
-  if (text.empty()) return;
-  cairo_user_to_device(context, &x, &y);
-  elements_ += fmt::format(
-      "<text x=\"{:.2f}\" y=\"{:.2f}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"{}\" "
-      "text-anchor=\"{}\" fill=\"#{:02x}{:02x}{:02x}\"",
-      x, y, style.size, anchor_text(style.anchor), byte_of(style.colour.red), byte_of(style.colour.green),
-      byte_of(style.colour.blue));
-  if (style.bold) elements_ += " font-weight=\"bold\"";
-  if (style.upwards) elements_ += fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", x, y);
-  elements_ += ">" + escaped(printable(text)) + "</text>\n";
-}
-
-std::string SvgTexts::put_into(const std::string& svg) const {
-  const std::size_t end = svg.rfind("</svg>");
-  return svg.substr(0, end) + elements_ + svg.substr(end);
-}
+ private:
+  std::string elements_;
+};
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;

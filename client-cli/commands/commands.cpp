@@ -101,12 +101,12 @@ void add_time_limit_option(CLI::App& command, double& seconds, const std::string
 bool names_sweep(const std::string& name) { return name.starts_with(kSweeps); }
 
 std::string job_name(const std::string& name) {
-  if (names_sweep(name)) throw CommandError(ExitCode::refused, name + " is a sweep; name one of its jobs, jobs/NAME");
+  if (names_sweep(name)) refuse(name + " is a sweep; name one of its jobs, jobs/NAME");
   return with_prefix(name, kJobs);
 }
 
 std::string sweep_name(const std::string& name) {
-  if (name.starts_with(kJobs)) throw CommandError(ExitCode::refused, name + " is a job; name a sweep, sweeps/NAME");
+  if (name.starts_with(kJobs)) refuse(name + " is a job; name a sweep, sweeps/NAME");
   return with_prefix(name, kSweeps);
 }
 

@@ -32,10 +32,11 @@ v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection&
   *sweep.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
   const v1::Lattice::Imperfection& imperfection = sweep.case_().lattice().imperfection();
   if (options.seeds > 1 && imperfection.amplitude_mm() == 0.0 && imperfection.bow_mm() == 0.0) {
-    throw CommandError(ExitCode::refused, fmt::format("{0} and bow_mm are 0, so every seed gives the same "
-                                                      "crush: add --set {0}=0.01, or compare the meshes without "
-                                                      "scatter by --seeds 1",
-                                                      kAmplitude));
+    refuse(
+        fmt::format("{0} and bow_mm are 0, so every seed gives the same "
+                    "crush: add --set {0}=0.01, or compare the meshes without "
+                    "scatter by --seeds 1",
+                    kAmplitude));
   }
   v1::SweepAxis& meshes = *sweep.add_axes();
   meshes.set_field("elements_per_wall");

@@ -179,7 +179,7 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
   for (const fs::path& path : stale) {
     std::error_code error;
     fs::remove(path, error);
-    if (error) throw CommandError(ExitCode::refused, path.string() + ": cannot be removed: " + error.message());
+    if (error) refuse(path.string() + ": cannot be removed: " + error.message());
   }
   files.commit();
   return {files.paths(), stale};

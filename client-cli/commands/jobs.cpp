@@ -81,7 +81,7 @@ ExitCode ask_and_delete(Session& session, Stub& stub,
                         const std::string& name, bool yes, std::string (*question)(Connection&, const std::string&)) {
   Connection& connection = session.connection();
   if (!yes && !confirm([&] { return question(connection, name); })) {
-    throw CommandError(ExitCode::refused, name + " was not deleted");
+    refuse(name + " was not deleted");
   }
   const Response response = connection.call_for(name, stub, method);
   session.json ? print_json(response) : fmt::print("{} deleted\n", name);

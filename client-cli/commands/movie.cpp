@@ -29,8 +29,7 @@ void check_ffmpeg() {
   for (std::string folder; std::getline(folders, folder, ':');) {
     if (access((folder + "/ffmpeg").c_str(), X_OK) == 0) return;
   }
-  throw CommandError(
-      ExitCode::refused,
+  refuse(
       "movie: ffmpeg is not installed; install it (apt-get install ffmpeg), or write the frames as numbered "
       "PNG files with --frames DIR instead of -o");
 }
@@ -51,9 +50,9 @@ void encode_movie(const std::filesystem::path& frames, int frames_per_second, co
   const int failure = posix_spawnp(&process, "ffmpeg", nullptr, nullptr, arguments.data(), environ);
   if (failure == 0) waitpid(process, &status, 0);
   if (failure == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  throw CommandError(ExitCode::refused,
-                     "movie: ffmpeg could not write the movie; give -o a name that ends in .mp4, or "
-                     "write the frames with --frames DIR");
+  refuse(
+      "movie: ffmpeg could not write the movie; give -o a name that ends in .mp4, or "
+      "write the frames with --frames DIR");
 }
 
 namespace fs = std::filesystem;
@@ -69,7 +68,7 @@ struct MovieOptions {
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_((fs::temp_directory_path() / "cellcrush-movie-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) throw CommandError(ExitCode::refused, path_ + ": cannot create this folder");
+    if (mkdtemp(path_.data()) == nullptr) refuse(path_ + ": cannot create this folder");
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -123,7 +122,7 @@ void make_movie(Session& session, const MovieOptions& options) {
 
 ExitCode run_movie(Session& session, const MovieOptions& options) {
   if (options.file.empty() == options.folder.empty()) {
-    throw CommandError(ExitCode::refused, "movie: give either -o FILE.mp4 or --frames DIR");
+    refuse("movie: give either -o FILE.mp4 or --frames DIR");
   }
   options.folder.empty() ? make_movie(session, options) : keep_frames(session, options);
   return ExitCode::done;

@@ -29,7 +29,7 @@ struct PlotOptions {
 JobHistory fetch_drawable_history(Connection& connection, const v1::Job& job) {
   const auto samples = fetch_history(connection, job.name());
   if (samples.samples_size() == 0) {
-    throw CommandError(ExitCode::refused, job.name() + " has no samples to plot yet");
+    refuse(job.name() + " has no samples to plot yet");
   }
   return {job, {samples.samples().begin(), samples.samples().end()}};
 }
@@ -64,7 +64,7 @@ std::string render_jobs(Connection& connection, PictureFormat format, const v1::
   if (histories.size() > 1) return render_comparison_picture(format, histories);
   const std::vector<MeshFrame> stages = fetch_stages(connection, jobs.jobs(0).name(), options);
   if (options.wide && stages.empty()) {
-    throw CommandError(ExitCode::refused, jobs.jobs(0).name() + " has no frames; plot it without --wide");
+    refuse(jobs.jobs(0).name() + " has no frames; plot it without --wide");
   }
   return options.wide ? render_wide_picture(format, histories.front(), stages)
                       : render_job_picture(format, histories.front(), stages);
@@ -80,7 +80,6 @@ void plot_jobs(Session& session, const PlotOptions& options) {
 }
 
 void check_options(const PlotOptions& options) {
-  const auto refuse = [](const char* message) { throw CommandError(ExitCode::refused, message); };
   const bool sweep = std::any_of(options.names.begin(), options.names.end(), names_sweep);
   const bool frames = options.strip > 0 || options.frames_only || options.wide || !options.frame_strains.empty();
   if (sweep && !std::all_of(options.names.begin(), options.names.end(), names_sweep)) {

@@ -76,10 +76,10 @@ void start_job(Session& session, const v1::Case& scene, const RunOptions& option
     return;
   }
   if (text_of(unfinished->case_()) != text_of(scene)) {
-    throw CommandError(ExitCode::refused,
-                       fmt::format("{} holds the unfinished run of another case. Give the case it was started with, or "
-                                   "delete {} to start this one.",
-                                   options.folder, (fs::path(options.folder) / kDataFolder).string()));
+    refuse(
+        fmt::format("{} holds the unfinished run of another case. Give the case it was started with, or "
+                    "delete {} to start this one.",
+                    options.folder, (fs::path(options.folder) / kDataFolder).string()));
   }
 }
 
@@ -112,16 +112,15 @@ WatchedJob run_to_its_end(Session& session, const v1::Case& scene, const RunOpti
 
 ExitCode run_case(Session& session, const RunOptions& options) {
   if (!session.server.empty()) {
-    throw CommandError(ExitCode::refused, "run starts its own daemon. Leave --server out, or use submit --watch.");
+    refuse("run starts its own daemon. Leave --server out, or use submit --watch.");
   }
   // Read before anything is created: Ctrl-C while waiting for stdin leaves nothing behind.
   const auto own_case = read_own_case(options.scene.source, options.scene.assignments);
   const fs::path folder(options.folder);
   PrivateData data(folder / kDataFolder);
   if (data.was_there() && !options.resume) {
-    throw CommandError(ExitCode::refused,
-                       fmt::format("{} holds an unfinished run. Continue it with --resume, or delete {} to start over.",
-                                   folder.string(), data.path().string()));
+    refuse(fmt::format("{} holds an unfinished run. Continue it with --resume, or delete {} to start over.",
+                       folder.string(), data.path().string()));
   }
   check_may_write_results(folder);
   const Interruption interruption;

@@ -62,8 +62,7 @@ void list_jobs(Session& session, const ListOptions& options) {
 
 void list_sweeps(Session& session, const ListOptions& options) {
   if (!options.filter.empty() || !options.order.empty()) {
-    throw CommandError(ExitCode::refused,
-                       "list: --filter and --order apply to jobs only; leave them out with --sweeps");
+    refuse("list: --filter and --order apply to jobs only; leave them out with --sweeps");
   }
   Connection& connection = session.connection();
   const auto all =
@@ -81,7 +80,7 @@ struct TableOptions {
 };
 
 ExitCode run_table(Session& session, const TableOptions& options) {
-  if (options.csv && session.json) throw CommandError(ExitCode::refused, "table: give either --csv or --json");
+  if (options.csv && session.json) refuse("table: give either --csv or --json");
   Connection& connection = session.connection();
   const std::string name = sweep_name(options.name);
   const auto table = fetch_table(connection, name);

@@ -54,7 +54,7 @@ void fill(const SubmitOptions& options, Target& target) {
   for (const std::string& text : options.labels) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos) {
-      throw CommandError(ExitCode::refused, "--label " + text + ": expected KEY=VALUE");
+      refuse("--label " + text + ": expected KEY=VALUE");
     }
     (*target.mutable_labels())[text.substr(0, equals)] = text.substr(equals + 1);
   }
@@ -73,8 +73,7 @@ v1::CreateSweepRequest build_request(const SweepOptions& options) {
     v1::SweepAxis axis = parse_axis(text);
     for (const v1::SweepAxis& other : sweep.axes()) {
       if (other.field() != axis.field()) continue;
-      throw CommandError(ExitCode::refused,
-                         "--over " + text + ": this field is given twice; give all its values in one --over");
+      refuse("--over " + text + ": this field is given twice; give all its values in one --over");
     }
     sweep.add_axes()->Swap(&axis);
   }

@@ -37,7 +37,7 @@ class AxisText {
 
  private:
   [[noreturn]] void refuse(std::string_view message) const {
-    throw CommandError(ExitCode::refused, fmt::format("--over {}: {}", text_, message));
+    client::refuse(fmt::format("--over {}: {}", text_, message));
   }
 
   static std::vector<std::string_view> split(std::string_view text, char separator) {

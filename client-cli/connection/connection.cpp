@@ -155,8 +155,7 @@ std::string Connection::find_nearest_name(const std::string& name) const {
 void Connection::check_request_size(std::int64_t size) {
   if (size <= kLargestRequest) return;
   constexpr double kMebibyte = 1024.0 * 1024.0;
-  throw CommandError(
-      ExitCode::refused,
+  refuse(
       fmt::format("the request has {:.2f} MiB ({} bytes), above the message limit of {:.0f} MiB ({} bytes); make the "
                   "case smaller, such as a frame with fewer nodes and beams",
                   static_cast<double>(size) / kMebibyte, size, kLargestRequest / kMebibyte, kLargestRequest));

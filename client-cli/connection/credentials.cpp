@@ -18,6 +18,11 @@ namespace cellcrush::client {
 
 namespace {
 
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string() : std::string(value);
+}
+
 // The option, else the variable, with its name for messages.
 struct NamedText {
   std::string source;
@@ -26,27 +31,25 @@ struct NamedText {
 
 NamedText option_or_variable(const std::string& option_name, const std::string& option, const char* variable) {
   if (!option.empty()) return {option_name, option};
-  const char* value = std::getenv(variable);
-  return {variable, value == nullptr ? "" : value};
+  return {variable, environment(variable)};
 }
 
 std::string read_credential_file(const NamedText& path) {
   constexpr std::size_t kLargest = 1024 * 1024;
   std::ifstream stream;
   if (const std::string failure = open_failure(path.text, stream); !failure.empty())
-    throw CommandError(ExitCode::refused, path.source + " " + failure);
+    refuse(path.source + " " + failure);
   std::string text;
   for (std::istreambuf_iterator<char> next(stream), end; next != end && text.size() <= kLargest; ++next) text += *next;
-  if (text.empty()) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": is empty");
-  if (text.size() > kLargest) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": is too large");
+  if (text.empty()) refuse(path.source + " " + path.text + ": is empty");
+  if (text.size() > kLargest) refuse(path.source + " " + path.text + ": is too large");
   return text;
 }
 
 std::string read_pem(const NamedText& path, const std::string& kind) {
   std::string text = read_credential_file(path);
   if (text.find("-----BEGIN ") == std::string::npos || text.find(kind + "-----") == std::string::npos) {
-    throw CommandError(ExitCode::refused,
-                       path.source + " " + path.text + ": holds no " + kind + " in PEM (-----BEGIN " + kind + "-----)");
+    refuse(path.source + " " + path.text + ": holds no " + kind + " in PEM (-----BEGIN " + kind + "-----)");
   }
   return text;
 }
@@ -56,16 +59,15 @@ std::string checked_token(std::string text, const std::string& source) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
   const bool printable =
       std::all_of(text.begin(), text.end(), [](char character) { return character > ' ' && character <= '~'; });
-  if (text.empty() || text.size() > 1024 || !printable)
-    throw CommandError(ExitCode::refused, source + ": holds no token; a token is a single word");
+  if (text.empty() || text.size() > 1024 || !printable) refuse(source + ": holds no token; a token is a single word");
   return text;
 }
 
 std::string find_token(const std::string& file_option) {
   const NamedText file = option_or_variable("--token-file", file_option, "CELLCRUSH_TOKEN_FILE");
   if (!file.text.empty()) return checked_token(read_credential_file(file), file.source + " " + file.text);
-  const NamedText token = option_or_variable("", "", "CELLCRUSH_TOKEN");
-  return token.text.empty() ? "" : checked_token(token.text, token.source);
+  const std::string token = environment("CELLCRUSH_TOKEN");
+  return token.empty() ? "" : checked_token(token, "CELLCRUSH_TOKEN");
 }
 
 bool is_this_machine(const std::string& address) {
@@ -76,11 +78,6 @@ bool is_this_machine(const std::string& address) {
 }
 
 constexpr const char* kDefaultAddress = "127.0.0.1:50551";
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? std::string() : std::string(value);
-}
 
 std::string default_socket() {
   std::filesystem::path data = environment("XDG_DATA_HOME");
@@ -104,7 +101,7 @@ bool is_host_and_port(const std::string& address) {
 std::string checked(const std::string& address, const std::string& source) {
   const bool is_socket = address.starts_with("unix:") && address.size() > 5;
   if (is_socket || (!address.starts_with("unix:") && is_host_and_port(address))) return address;
-  throw CommandError(ExitCode::refused, source + " = \"" + address + "\": expected unix:PATH or HOST:PORT");
+  refuse(source + " = \"" + address + "\": expected unix:PATH or HOST:PORT");
 }
 
 }  // namespace
@@ -113,10 +110,10 @@ Credentials read_credentials(const CredentialFiles& files, const std::string& ad
   Credentials out;
   if (address.starts_with("unix:")) return out;
   if (files.certificate.empty() != files.key.empty())
-    throw CommandError(ExitCode::refused, "--tls-cert and --tls-key go together; give both or neither");
+    refuse("--tls-cert and --tls-key go together; give both or neither");
   const NamedText authority = option_or_variable("--tls-ca", files.authority, "CELLCRUSH_TLS_CA");
   if (authority.text.empty() && !files.certificate.empty())
-    throw CommandError(ExitCode::refused, "--tls-cert requires --tls-ca, the authority of the server's certificate");
+    refuse("--tls-cert requires --tls-ca, the authority of the server's certificate");
   out.token = find_token(files.token);
   if (!authority.text.empty()) {
     out.tls = true;
@@ -127,10 +124,9 @@ Credentials read_credentials(const CredentialFiles& files, const std::string& ad
     }
   }
   if (!out.token.empty() && !out.tls && !is_this_machine(address)) {
-    throw CommandError(ExitCode::refused,
-                       "the token is not sent to " + address +
-                           " in plain text, where others could read it; turn on TLS with --tls-ca or "
-                           "CELLCRUSH_TLS_CA");
+    refuse("the token is not sent to " + address +
+           " in plain text, where others could read it; turn on TLS with --tls-ca or "
+           "CELLCRUSH_TLS_CA");
   }
   return out;
 }

@@ -43,8 +43,7 @@ fs::path make_socket_folder() {
       (runtime == nullptr || *runtime != '/' ? fs::path("/tmp") : fs::path(runtime)) / "cellcrush-XXXXXX";
   if (name.size() <= kLongestFolder && mkdtemp(name.data()) != nullptr) return name;
   name = "/tmp/cellcrush-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr)
-    throw CommandError(ExitCode::refused, name + ": cannot be created: " + std::strerror(errno));
+  if (mkdtemp(name.data()) == nullptr) refuse(name + ": cannot be created: " + std::strerror(errno));
   return name;
 }
 
@@ -118,7 +117,7 @@ PrivateDaemon::PrivateDaemon(const fs::path& data, double time_limit_s)
     pid_ = -1;
   }
   static_cast<void>(has_ended());  // removes the socket's folder
-  throw CommandError(ExitCode::refused, words[0] + " does not start: " + why);
+  refuse(words[0] + " does not start: " + why);
 }
 
 PrivateDaemon::~PrivateDaemon() {
@@ -143,9 +142,10 @@ void PrivateDaemon::stop() {
   const auto limit = Clock::now() + kPatience;
   while (!has_ended()) {
     if (Clock::now() > limit) {
-      throw CommandError(ExitCode::refused, fmt::format("cellcrushd (process {}) did not exit within {} s. End it with "
-                                                        "`kill {}` before you continue.",
-                                                        pid_, kPatience.count(), pid_));
+      refuse(
+          fmt::format("cellcrushd (process {}) did not exit within {} s. End it with "
+                      "`kill {}` before you continue.",
+                      pid_, kPatience.count(), pid_));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

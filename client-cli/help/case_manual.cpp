@@ -84,11 +84,9 @@ const FieldDescriptor& find_in(const Descriptor& type, const std::string& name, 
   const FieldDescriptor* field = type.FindFieldByName(name);
   if (field != nullptr) return *field;
   const std::string elsewhere = find_path_to(name);
-  throw CommandError(
-      ExitCode::refused,
-      path + ": " +
-          (elsewhere.empty() ? unknown_field_message(name, type)
-                             : with_suggestion(type.name() + " has no field \"" + name + "\"", elsewhere)));
+  refuse(path + ": " +
+         (elsewhere.empty() ? unknown_field_message(name, type)
+                            : with_suggestion(type.name() + " has no field \"" + name + "\"", elsewhere)));
 }
 
 const FieldDescriptor& find_field_at(const std::string& path) {
@@ -97,8 +95,7 @@ const FieldDescriptor& find_field_at(const std::string& path) {
   std::istringstream names(path);
   for (std::string name; std::getline(names, name, '.');) {
     if (type == nullptr) {
-      throw CommandError(ExitCode::refused,
-                         path + ": \"" + field->name() + "\" is a single value and has no field \"" + name + "\"");
+      refuse(path + ": \"" + field->name() + "\" is a single value and has no field \"" + name + "\"");
     }
     field = &find_in(*type, name.substr(0, name.find('[')), path);
     type = field->message_type();

@@ -41,8 +41,7 @@ Axis build_axis(const std::string& field, const std::vector<ResultSeries>& all, 
   }
   if (logarithmic) {
     if (low <= 0.0) {
-      throw CommandError(ExitCode::refused,
-                         field + " has values that are not above 0, which --log x requires; leave --log x out");
+      refuse(field + " has values that are not above 0, which --log x requires; leave --log x out");
     }
     return {low / 1.2, 1.2 * high, axis_label(field), true};
   }
@@ -203,9 +202,7 @@ void add_note(Chart& chart, const std::string& sentence) { chart.note += (chart.
 const std::string& find_field(const std::vector<SweepResults>& sweeps) {
   for (const SweepResults& results : sweeps) {
     if (results.table.fields_size() == 0 || results.table.fields(0) != sweeps.front().table.fields(0)) {
-      throw CommandError(
-          ExitCode::refused,
-          results.sweep.name() + " varies another first field than the others; name sweeps over the same field");
+      refuse(results.sweep.name() + " varies another first field than the others; name sweeps over the same field");
     }
   }
   return sweeps.front().table.fields(0);
@@ -221,9 +218,9 @@ std::string axis_label(const std::string& field) {
 Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const LogarithmicAxes& logarithmic) {
   const auto all = collect_series(sweeps);
   if (all.empty()) {
-    throw CommandError(ExitCode::refused,
-                       "no job of the sweep has succeeded with a plateau yet; `cellcrush table` shows the state of "
-                       "its jobs");
+    refuse(
+        "no job of the sweep has succeeded with a plateau yet; `cellcrush table` shows the state of "
+        "its jobs");
   }
   const std::string& field = find_field(sweeps);
   const bool speed = varies_speed_first(sweeps.front().table);

@@ -68,8 +68,6 @@ std::string scatter_text(const v1::FidelityForecast& measured) {
   return text;
 }
 
-using Align = Table::Align;
-
 constexpr int kHeadingWidth = 78;  // behind the "# " of a comment
 
 // Fields of a crush that a frame with its own loads lacks.

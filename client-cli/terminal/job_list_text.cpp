@@ -25,8 +25,6 @@ std::string also_varied_text(const std::vector<std::string>& fields, std::size_t
   return wrapped(text, width, "", "  ");
 }
 
-using Align = Table::Align;
-
 std::string hold_text(const v1::Queue::Hold& hold) {
   using google::protobuf::util::TimeUtil;
   const auto now = TimeUtil::GetCurrentTime();

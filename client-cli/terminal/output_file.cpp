@@ -30,7 +30,7 @@ mode_t find_umask() {
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_.string() + ".XXXXXX") {
   const int descriptor = mkostemp(temporary_.data(), O_CLOEXEC);
   if (descriptor < 0) {
-    throw CommandError(ExitCode::refused, path_.string() + ": cannot be written: " + std::strerror(errno));
+    refuse(path_.string() + ": cannot be written: " + std::strerror(errno));
   }
   // mkostemp makes files for their owner alone.
   fchmod(descriptor, kReadableFile & ~find_umask());
@@ -59,9 +59,7 @@ void OutputFile::commit() {
   temporary_.clear();
 }
 
-void OutputFile::fail(const char* what) const {
-  throw CommandError(ExitCode::refused, path_.string() + ": " + what + ": " + std::strerror(errno));
-}
+void OutputFile::fail(const char* what) const { refuse(path_.string() + ": " + what + ": " + std::strerror(errno)); }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
   OutputFile file(path);
@@ -73,7 +71,7 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder, error)) {
-    throw CommandError(ExitCode::refused, folder.string() + ": cannot create this folder: " + error.message());
+    refuse(folder.string() + ": cannot create this folder: " + error.message());
   }
 }
 
@@ -99,8 +97,7 @@ void check_may_overwrite(const std::filesystem::path& path, std::initializer_lis
   std::error_code error;
   const auto status = std::filesystem::symlink_status(path, error);
   if (status.type() == std::filesystem::file_type::not_found || begins_with_one_of(path, signatures)) return;
-  throw CommandError(ExitCode::refused,
-                     path.string() + ": exists and was not written by cellcrush; move it away or name another folder");
+  refuse(path.string() + ": exists and was not written by cellcrush; move it away or name another folder");
 }
 
 }  // namespace cellcrush::client

@@ -72,7 +72,6 @@ std::string varied_text(const v1::Sweep& sweep) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-using Align = Table::Align;
 using Quantity = v1::Convergence::Quantity;
 using Estimate = v1::Convergence::MeshEstimate;
 

@@ -61,9 +61,9 @@ grpc::Status Gate::admit(std::string_view path, const std::function<Caller()>& i
   auto status = answer([&] {
     const auto guarded = scopes_.find(path);
     const auto needed = guarded == scopes_.end() ? Scope::admin : guarded->second;
-    if (!needed) return grpc::Status::OK;
+    if (!needed) return;
     const Caller caller = identify_caller();
-    if (caller.scope >= *needed) return grpc::Status::OK;
+    if (caller.scope >= *needed) return;
     throw ServiceError(ServiceError::Kind::permission_denied,
                        std::string(path.substr(path.rfind('/') + 1)) + " requires scope " + name_of(*needed) + "; " +
                            caller.name + " has scope " + name_of(caller.scope) + ".");

@@ -102,7 +102,7 @@ std::string envelope(std::uint8_t flags, std::string_view message) {
   return out.append(message);
 }
 
-std::string_view read_envelope(std::string_view body, bool& compressed) {
+std::string_view read_envelope(std::string_view body) {
   std::size_t size = 0;
   for (std::size_t i = 1; i < kPrefix && i < body.size(); ++i) size = size << 8U | static_cast<unsigned char>(body[i]);
   if (body.size() < kPrefix || size != body.size() - kPrefix) {
@@ -110,7 +110,6 @@ std::string_view read_envelope(std::string_view body, bool& compressed) {
                        "The body of a streaming call must be one envelope: a byte of flags, the length of the message "
                        "as four bytes (big endian), and the message.");
   }
-  compressed = (static_cast<std::uint8_t>(body.front()) & kCompressed) != 0;
   return body.substr(kPrefix);
 }
 

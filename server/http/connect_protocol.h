@@ -44,8 +44,7 @@ std::string envelope(std::uint8_t flags, std::string_view message);
 void begin_envelope(std::uint8_t flags, std::size_t size, std::string& to);
 
 /// The only message in the body of a request. Throws ServiceError (invalid) if it is not exactly one.
-/// Sets `compressed` if its flag says so.
-std::string_view read_envelope(std::string_view body, bool& compressed);
+std::string_view read_envelope(std::string_view body);
 
 /// HTTP status of a unary call that ended with the code.
 unsigned http_status(grpc::StatusCode code);

@@ -57,23 +57,12 @@ std::optional<std::chrono::milliseconds> read_timeout(const bhttp::request<bhttp
   return std::chrono::milliseconds(value);
 }
 
-void encode_unary(const google::protobuf::Message& message, std::string& to) { message.AppendToString(&to); }
-void encode_unary_json(const google::protobuf::Message& message, std::string& to) { to += json_of(message); }
-
-// With the prefix of a stream's message.
-void encode_streamed(const google::protobuf::Message& message, std::string& to) {
-  begin_envelope(0, message.ByteSizeLong(), to);
-  message.AppendToString(&to);
-}
-void encode_streamed_json(const google::protobuf::Message& message, std::string& to) {
-  const std::string json = json_of(message);
-  begin_envelope(0, json.size(), to);
-  to += json;
-}
-
 rpc::MessageStream::Encode encode_for(const Encoding& encoding) {
-  if (encoding.stream) return encoding.json ? encode_streamed_json : encode_streamed;
-  return encoding.json ? encode_unary_json : encode_unary;
+  return [encoding](const google::protobuf::Message& message, std::string& to) {
+    const std::string bytes = encoding.json ? json_of(message) : message.SerializeAsString();
+    if (encoding.stream) begin_envelope(0, bytes.size(), to);
+    to += bytes;
+  };
 }
 
 bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
@@ -227,13 +216,11 @@ std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::
   if (!status.ok()) return nullptr;
   status = cellcrush::answer([&] {
     std::string_view body = request.body();
-    bool compressed = false;
-    if (encoding.stream) body = read_envelope(body, compressed);
+    if (encoding.stream) body = read_envelope(body);
     const auto timeout = read_timeout(request);
     incoming.decode = [&](google::protobuf::Message& message) { return decode(body, encoding.json, message); };
     incoming.encode = encode_for(encoding);
     call_ = std::make_shared<Call>(stream_.get_executor(), method.open(incoming), timeout);
-    return grpc::Status::OK;
   });
   if (call_) watch_client();
   return call_;

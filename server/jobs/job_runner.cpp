@@ -32,6 +32,16 @@ void log_begin(const std::string& job, const worker::Begun& begun) {
 
 }  // namespace
 
+bool try_change(store::Journal& journal, std::int64_t job, const store::StateChange& change) {
+  try {
+    journal.change_state(job, change);
+    return true;
+  } catch (const ServiceError& error) {
+    if (error.kind() != ServiceError::Kind::failed_precondition) throw;
+    return false;
+  }
+}
+
 JobRunner::JobRunner(const Parts& parts)
     : parts_(parts),
       states_({parts.folder, parts.journal, parts.reader, parts.metrics, parts.hold, parts.stopped,
@@ -226,7 +236,12 @@ void JobRunner::pass_on(std::int64_t job, Seen& seen, watch::Channel& channel, w
 store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit, Run& run) {
   if (exit.final && exit.final->has_begin_again()) throw BeginAgain{exit.final->begin_again()};
   if (exit.kind == WorkerExit::Kind::left) return {};
-  if (exit.kind == WorkerExit::Kind::withdrawn) note_cancelling(stored.number);
+  if (exit.kind == WorkerExit::Kind::withdrawn) {
+    // Cancelled in the cluster, it ends as if CancelJob had come. No effect if it has not started.
+    store::StateChange cancelling;
+    cancelling.state = v1::Job::CANCELLING;
+    try_change(parts_.journal, stored.number, cancelling);
+  }
   if (!exit.final && !is_lost(exit) && !has_started(stored.number)) return before_start(exit);
   auto next = outcome_of(exit);
   const bool is_cancelled = exit.kind == WorkerExit::Kind::cancelled || exit.kind == WorkerExit::Kind::withdrawn;
@@ -243,17 +258,6 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
   if (!got_further(stored.number)) return given_up(stored, std::move(next), run);
   spdlog::warn("{}: {}", store::name_of(stored.number), next.message);
   return tried_again(std::move(next));
-}
-
-// A job whose worker somebody cancelled in the cluster ends as if CancelJob had come. No effect if it has not started.
-void JobRunner::note_cancelling(std::int64_t job) {
-  store::StateChange change;
-  change.state = v1::Job::CANCELLING;
-  try {
-    parts_.journal.change_state(job, change);
-  } catch (const ServiceError& error) {
-    if (error.kind() != ServiceError::Kind::failed_precondition) throw;
-  }
 }
 
 // Whether a worker of the job has run since it was last PENDING.

@@ -51,6 +51,9 @@ class LossCount {
   std::map<std::int64_t, Losses> losses_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
+/// Changes the state of a job. False if its present state does not allow that. Throws the other errors of the journal.
+bool try_change(store::Journal& journal, std::int64_t job, const store::StateChange& change);
+
 /// Runs a job in a worker and records the outcome in the journal. A job whose worker is lost waits for another, until
 /// LossCount::kMost in a row have not got further than their predecessors. A last worker then makes a result from their
 /// reports. The same happens if the worker of a cancelled job is gone. A shortage ends no job: the job returns to the
@@ -115,7 +118,6 @@ class JobRunner {
   };
   void pass_on(std::int64_t job, Seen& seen, watch::Channel& channel, worker::Report& report);
   store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit, Run& run);
-  void note_cancelling(std::int64_t job);
   bool has_started(std::int64_t job);
   static store::StateChange before_start(const WorkerExit& exit);
   bool got_further(std::int64_t job);

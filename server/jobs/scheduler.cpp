@@ -13,16 +13,6 @@
 
 namespace cellcrush::jobs {
 
-bool try_change(store::Journal& journal, std::int64_t job, const store::StateChange& change) {
-  try {
-    journal.change_state(job, change);
-    return true;
-  } catch (const ServiceError& error) {
-    if (error.kind() != ServiceError::Kind::failed_precondition) throw;
-    return false;
-  }
-}
-
 void Scheduler::start(int slots) {
   const auto adopted = reconcile();
   const auto waiting = parts_.reader.queued_jobs(v1::Job::PENDING, parts_.executor_name);

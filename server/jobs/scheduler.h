@@ -21,9 +21,6 @@
 
 namespace cellcrush::jobs {
 
-/// Changes the state of a job. False if its present state does not allow that. Throws the other errors of the journal.
-bool try_change(store::Journal& journal, std::int64_t job, const store::StateChange& change);
-
 /// Runs the waiting jobs of one executor in the order of WaitingJobs, within the number of slots and the limits of
 /// their sweeps and owners. Each slot is a thread that lives as long as the scheduler and runs one job at a time. On
 /// the daemon's machine a job that requests several threads gets cores that no other job uses or waits for at its

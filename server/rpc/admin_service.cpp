@@ -1,14 +1,16 @@
-#include "rpc/admin_service.h"
-
 #include <google/protobuf/util/time_util.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <utility>
 
 #include "error.h"
+#include "jobs/queue_forecast.h"
 #include "revision.h"
 #include "rpc/request_fields.h"
+#include "rpc/services.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::rpc {
@@ -47,126 +49,140 @@ void limit(v1::Queue& queue) {
   queue.set_more_count(queue.more_count() + extra);
 }
 
+/// The calls of Admin: state and control of the daemon, and the waiting jobs of all executors. Thread-safe.
+class AdminCalls {
+ public:
+  AdminCalls(const ServiceParts& parts, std::function<void()> drain) : parts_(parts), drain_daemon_(std::move(drain)) {}
+
+  v1::Capabilities get_capabilities(const Call&, const v1::GetCapabilitiesRequest&) {
+    v1::Capabilities out;
+    out.set_version(kSolverRevision);
+    out.set_draining(draining_);
+    const jobs::Queues& queues = parts_.queues;
+    out.set_default_executor(queues.default_name());
+    for (const auto& standing : queues.standings()) {
+      if (standing.executor == store::kLocalExecutor) out.set_worker_limit(standing.slots);
+      if (!standing.is_present) continue;
+      auto& executor = *out.add_executors();
+      executor.set_name(standing.executor);
+      executor.set_job_limit(standing.slots);
+    }
+    return out;
+  }
+
+  v1::Queue get_queue(const Call&, const v1::GetQueueRequest&) {
+    v1::Queue out;
+    const auto standings = parts_.queues.standings();
+    for (const auto& standing : standings) {
+      if (standing.is_present) add_queue(standing, out);
+    }
+    std::stable_sort(
+        out.mutable_entries()->begin(), out.mutable_entries()->end(),
+        [](const auto& one, const auto& other) { return one.seconds_until_start() < other.seconds_until_start(); });
+    for (const auto& standing : standings) {
+      if (!standing.is_present) add_kept_jobs(standing.executor, out);
+    }
+    limit(out);
+    return out;
+  }
+
+  v1::DrainResponse drain(const Call& call, const v1::DrainRequest&) {
+    log_change("", "drained", call.caller().name);
+    draining_ = true;
+    drain_daemon_();
+    return {};
+  }
+
+ private:
+  /// Jobs of one executor.
+  struct Jobs {
+    std::vector<jobs::RunningJob> running;  ///< or with the executor, which has not started them
+    std::vector<store::QueuedJob> waiting;
+  };
+
+  void add_queue(const jobs::Queues::Standing& standing, v1::Queue& out) {
+    const Jobs jobs = jobs_of(standing.executor, out);
+    jobs::WorkerFacts workers{standing.slots, parts_.step_cost, {}, parts_.owner_max_running, standing.executor};
+    if (!standing.holds.empty()) {
+      const auto& first = standing.holds.front();
+      workers.held = first.reason + " " + remedy_for(first.shortage);
+    }
+    const auto forecast =
+        jobs::forecast_queue(jobs.running, jobs.waiting, workers, [this](std::int64_t job) { return facts_of(job); });
+    out.mutable_entries()->MergeFrom(forecast.entries());
+    out.set_more_count(out.more_count() + forecast.more_count());
+    for (const auto& hold : standing.holds) *out.add_holds() = to_proto(hold, standing.executor);
+  }
+
+  void add_kept_jobs(const std::string& executor, v1::Queue& out) {
+    const std::string reason =
+        "This daemon does not have " + executor + ". Start cellcrushd with it to run the job, or cancel the job.";
+    for (const auto& job : parts_.reader.queued_jobs(v1::Job::PENDING, executor)) add_entry(job, reason, out);
+  }
+
+  /// Jobs that the executor has, and entries for those that it has not started.
+  Jobs jobs_of(const std::string& executor, v1::Queue& out) {
+    Jobs jobs;
+    for (const auto state : {v1::Job::RUNNING, v1::Job::CANCELLING}) {
+      for (const auto& job : parts_.reader.queued_jobs(state, executor))
+        jobs.running.push_back(running_job(job, state));
+    }
+    for (auto& job : parts_.reader.queued_jobs(v1::Job::PENDING, executor)) {
+      const auto channel = parts_.hub.find(job.job);
+      const std::string place = channel ? channel->newest().place : "";
+      if (place.empty()) {
+        jobs.waiting.push_back(std::move(job));
+      } else {
+        add_entry(job, executor + " has it: " + place + ".", out);
+        jobs.running.push_back(running_job(job, v1::Job::PENDING));
+      }
+    }
+    return jobs;
+  }
+
+  jobs::RunningJob running_job(const store::QueuedJob& job, v1::Job::State state) {
+    const int cores = parts_.queues.cores_of(job);
+    // A service that was told to stop ends at once.
+    if (state == v1::Job::CANCELLING) return {job, 0.0, cores};
+    const auto channel = parts_.hub.find(job.job);
+    const auto progress = channel ? channel->newest().progress : nullptr;
+    const double seconds_left = progress && progress->steps_per_second() > 0.0
+                                    ? progress->seconds_left()
+                                    : jobs::predicted_seconds(job, facts_of(job.job), cores, parts_.step_cost);
+    return {job, seconds_left, cores};
+  }
+
+  jobs::JobFacts facts_of(std::int64_t job) {
+    jobs::JobFacts out;
+    const auto stored = parts_.reader.find_job(job);
+    if (!stored) return out;
+    out.threads = std::max(stored->job.case_().numerics().threads(), 1);
+    // The worker that ran the job has reported the mesh.
+    const auto mesh = stored->job.attempt() > 0 ? parts_.reader.mesh(job) : std::nullopt;
+    if (!mesh) return out;
+    try {
+      out.element_steps_done =
+          mesh->thickness_mm_size() * std::max<std::int64_t>(parts_.reader.last_sampled_step(job), 0);
+    } catch (const ServiceError& error) {
+      // A damaged job must not hide the others.
+      spdlog::error("Cannot read the progress of {}: {}", store::name_of(job), error.what());
+    }
+    return out;
+  }
+
+  const ServiceParts& parts_;
+  std::function<void()> drain_daemon_;
+  std::atomic<bool> draining_ = false;
+};
+
 }  // namespace
 
-grpc::Status AdminService::get_capabilities(const Call&, const v1::GetCapabilitiesRequest&,
-                                            v1::Capabilities& response) {
-  response.set_version(kSolverRevision);
-  response.set_draining(draining_);
-  const jobs::Queues& queues = parts_.queues;
-  response.set_default_executor(queues.default_name());
-  for (const auto& standing : queues.standings()) {
-    if (standing.executor == store::kLocalExecutor) response.set_worker_limit(standing.slots);
-    if (!standing.is_present) continue;
-    auto& executor = *response.add_executors();
-    executor.set_name(standing.executor);
-    executor.set_job_limit(standing.slots);
-  }
-  return grpc::Status::OK;
-}
-
-grpc::Status AdminService::get_queue(const Call&, const v1::GetQueueRequest&, v1::Queue& response) {
-  response = list_queues();
-  return grpc::Status::OK;
-}
-
-grpc::Status AdminService::drain(const Call& call, const v1::DrainRequest&, v1::DrainResponse&) {
-  log_change("", "drained", call.caller().name);
-  draining_ = true;
-  drain_daemon_();
-  return grpc::Status::OK;
-}
-
-void AdminService::add_methods(MethodTable& table) {
+void add_admin_methods(MethodTable& table, const ServiceParts& parts, std::function<void()> drain) {
   using access::Scope;
-  table.unary("/cellcrush.v1.Admin/GetCapabilities", Scope::read, &parts_.calls, *this,
-              &AdminService::get_capabilities);
-  table.unary("/cellcrush.v1.Admin/GetQueue", Scope::read, &parts_.calls, *this, &AdminService::get_queue);
-  table.unary("/cellcrush.v1.Admin/Drain", Scope::admin, &parts_.calls, *this, &AdminService::drain);
-}
-
-v1::Queue AdminService::list_queues() {
-  v1::Queue out;
-  const auto standings = parts_.queues.standings();
-  for (const auto& standing : standings) {
-    if (standing.is_present) add_queue(standing, out);
-  }
-  std::stable_sort(
-      out.mutable_entries()->begin(), out.mutable_entries()->end(),
-      [](const auto& one, const auto& other) { return one.seconds_until_start() < other.seconds_until_start(); });
-  for (const auto& standing : standings) {
-    if (!standing.is_present) add_kept_jobs(standing.executor, out);
-  }
-  limit(out);
-  return out;
-}
-
-void AdminService::add_queue(const jobs::Queues::Standing& standing, v1::Queue& out) {
-  const Jobs jobs = jobs_of(standing.executor, out);
-  jobs::WorkerFacts workers{standing.slots, parts_.step_cost, {}, parts_.owner_max_running, standing.executor};
-  if (!standing.holds.empty()) {
-    const auto& first = standing.holds.front();
-    workers.held = first.reason + " " + remedy_for(first.shortage);
-  }
-  const auto forecast =
-      jobs::forecast_queue(jobs.running, jobs.waiting, workers, [this](std::int64_t job) { return facts_of(job); });
-  out.mutable_entries()->MergeFrom(forecast.entries());
-  out.set_more_count(out.more_count() + forecast.more_count());
-  for (const auto& hold : standing.holds) *out.add_holds() = to_proto(hold, standing.executor);
-}
-
-void AdminService::add_kept_jobs(const std::string& executor, v1::Queue& out) {
-  const std::string reason =
-      "This daemon does not have " + executor + ". Start cellcrushd with it to run the job, or cancel the job.";
-  for (const auto& job : parts_.reader.queued_jobs(v1::Job::PENDING, executor)) add_entry(job, reason, out);
-}
-
-AdminService::Jobs AdminService::jobs_of(const std::string& executor, v1::Queue& out) {
-  Jobs jobs;
-  for (const auto state : {v1::Job::RUNNING, v1::Job::CANCELLING}) {
-    for (const auto& job : parts_.reader.queued_jobs(state, executor)) jobs.running.push_back(running_job(job, state));
-  }
-  for (auto& job : parts_.reader.queued_jobs(v1::Job::PENDING, executor)) {
-    const auto channel = parts_.hub.find(job.job);
-    const std::string place = channel ? channel->newest().place : "";
-    if (place.empty()) {
-      jobs.waiting.push_back(std::move(job));
-    } else {
-      add_entry(job, executor + " has it: " + place + ".", out);
-      jobs.running.push_back(running_job(job, v1::Job::PENDING));
-    }
-  }
-  return jobs;
-}
-
-jobs::RunningJob AdminService::running_job(const store::QueuedJob& job, v1::Job::State state) {
-  const int cores = parts_.queues.cores_of(job);
-  // A service that was told to stop ends at once.
-  if (state == v1::Job::CANCELLING) return {job, 0.0, cores};
-  const auto channel = parts_.hub.find(job.job);
-  const auto progress = channel ? channel->newest().progress : nullptr;
-  const double seconds_left = progress && progress->steps_per_second() > 0.0
-                                  ? progress->seconds_left()
-                                  : jobs::predicted_seconds(job, facts_of(job.job), cores, parts_.step_cost);
-  return {job, seconds_left, cores};
-}
-
-jobs::JobFacts AdminService::facts_of(std::int64_t job) {
-  jobs::JobFacts out;
-  const auto stored = parts_.reader.find_job(job);
-  if (!stored) return out;
-  out.threads = std::max(stored->job.case_().numerics().threads(), 1);
-  // The worker that ran the job has reported the mesh.
-  const auto mesh = stored->job.attempt() > 0 ? parts_.reader.mesh(job) : std::nullopt;
-  if (!mesh) return out;
-  try {
-    out.element_steps_done =
-        mesh->thickness_mm_size() * std::max<std::int64_t>(parts_.reader.last_sampled_step(job), 0);
-  } catch (const ServiceError& error) {
-    // A damaged job must not hide the others.
-    spdlog::error("Cannot read the progress of {}: {}", store::name_of(job), error.what());
-  }
-  return out;
+  const auto calls = std::make_shared<AdminCalls>(parts, std::move(drain));
+  table.unary("/cellcrush.v1.Admin/GetCapabilities", Scope::read, &parts.calls, calls, &AdminCalls::get_capabilities);
+  table.unary("/cellcrush.v1.Admin/GetQueue", Scope::read, &parts.calls, calls, &AdminCalls::get_queue);
+  table.unary("/cellcrush.v1.Admin/Drain", Scope::admin, &parts.calls, calls, &AdminCalls::drain);
 }
 
 }  // namespace cellcrush::rpc

@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "error.h"
 #include "error_table.h"
 
 namespace cellcrush::rpc {
@@ -53,8 +52,10 @@ void CallPool::serve() {
       waiting_.pop_front();
       bytes_ -= task.bytes;
     }
-    task.finish(task.call->is_cancelled() ? grpc::Status(grpc::StatusCode::CANCELLED, "The client cancelled the call.")
-                                          : answer(task.body));
+    task.finish(answer([&task] {
+      task.call->require_wanted();
+      task.body();
+    }));
   }
 }
 

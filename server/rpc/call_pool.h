@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "access/token_file.h"
+#include "error.h"
 #include "mutex.h"
 
 namespace cellcrush::rpc {
@@ -26,6 +27,11 @@ class Call {
 
   /// Whether nobody waits for the answer any more: the client is gone, or its time is over.
   [[nodiscard]] virtual bool is_cancelled() const = 0;
+
+  /// Throws ServiceError (cancelled) if nobody does.
+  void require_wanted() const {
+    if (is_cancelled()) throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call.");
+  }
 };
 
 /// Answers unary calls on a few threads of its own, in order of arrival, so that any number of clients may call at
@@ -41,7 +47,7 @@ class CallPool {
   struct Task {
     std::shared_ptr<const Call> call;
     std::int64_t bytes = 0;  ///< of the request
-    std::function<grpc::Status()> body;
+    std::function<void()> body;
     std::function<void(const grpc::Status&)> finish;
   };
 
@@ -51,8 +57,8 @@ class CallPool {
   CallPool(const CallPool&) = delete;
   CallPool& operator=(const CallPool&) = delete;
 
-  /// Runs the body on a thread of the pool and finishes with the status it returns, or that of its exception. A call
-  /// cancelled while waiting is skipped; one beyond the limits ends with RESOURCE_EXHAUSTED.
+  /// Runs the body on a thread of the pool and finishes with OK, or the status of its exception. A call cancelled while
+  /// waiting is skipped; one beyond the limits ends with RESOURCE_EXHAUSTED.
   void run(Task task);
 
  private:

@@ -14,8 +14,7 @@
 #include "translate/case_checker.h"
 #include "translate/case_words.h"
 #include "translate/check_case.h"
-#include "watch/frame_chunks.h"
-#include "watch/packed_frame.h"
+#include "watch/sent_frame.h"
 #include "web/exported_page.h"
 
 namespace cellcrush::rpc {

@@ -1,5 +1,11 @@
 #include "rpc/health_service.h"
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "error.h"
 #include "rpc/request_fields.h"
 
 namespace cellcrush::rpc {
@@ -7,6 +13,53 @@ namespace {
 
 using grpc::health::v1::HealthCheckRequest;
 using grpc::health::v1::HealthCheckResponse;
+
+/// Source of a Health.Watch: the status of a service, repeated whenever it changes. Not thread-safe, except for `wake`.
+class HealthSource final : public PlainSource<HealthCheckResponse> {
+ public:
+  /// `board` outlives it.
+  HealthSource(HealthBoard& board, std::string service) : board_(board), service_(std::move(service)) {}
+
+  void open(std::function<void()> wake) { subscription_ = board_.subscribe(std::move(wake)); }
+  void close() { board_.unsubscribe(subscription_); }
+  std::optional<Message> next() {
+    const auto now = board_.find(service_);
+    if (std::exchange(given_, now) == now) return std::nullopt;
+    Message out;
+    out.set_status(now);
+    return out;
+  }
+  [[nodiscard]] bool ended() const { return false; }
+  [[nodiscard]] std::string resume_advice() const { return "for the service"; }
+
+ private:
+  HealthBoard& board_;
+  std::string service_;
+  std::optional<HealthBoard::Status> given_;
+  std::uint64_t subscription_ = 0;
+};
+
+/// The calls of Health. Thread-safe.
+class HealthCalls {
+ public:
+  explicit HealthCalls(HealthBoard& board) : board_(board) {}
+
+  HealthCheckResponse check(const Call&, const HealthCheckRequest& request) {
+    check_length("service", request.service(), kLongestName);
+    HealthCheckResponse out;
+    out.set_status(board_.find(request.service()));
+    if (out.status() != HealthCheckResponse::SERVICE_UNKNOWN) return out;
+    throw ServiceError(ServiceError::Kind::not_found, "There is no service \"" + request.service() + "\".");
+  }
+
+  std::unique_ptr<HealthSource> watch(const HealthCheckRequest& request) {
+    check_length("service", request.service(), kLongestName);
+    return std::make_unique<HealthSource>(board_, request.service());
+  }
+
+ private:
+  HealthBoard& board_;
+};
 
 }  // namespace
 
@@ -40,30 +93,10 @@ void HealthBoard::unsubscribe(std::uint64_t id) {
   watchers_.erase(id);
 }
 
-std::optional<HealthSource::Message> HealthSource::next() {
-  const auto now = board_.find(service_);
-  if (given_ == now) return std::nullopt;
-  given_ = now;
-  Message out;
-  out.set_status(now);
-  return out;
-}
-
-grpc::Status HealthService::check(const Call&, const HealthCheckRequest& request, HealthCheckResponse& response) {
-  check_length("service", request.service(), kLongestName);
-  response.set_status(board_.find(request.service()));
-  if (response.status() != HealthCheckResponse::SERVICE_UNKNOWN) return grpc::Status::OK;
-  return {grpc::StatusCode::NOT_FOUND, "There is no service \"" + request.service() + "\"."};
-}
-
-std::unique_ptr<HealthSource> HealthService::watch(const HealthCheckRequest& request) {
-  check_length("service", request.service(), kLongestName);
-  return std::make_unique<HealthSource>(board_, request.service());
-}
-
-void HealthService::add_methods(MethodTable& table) {
-  table.unary("/grpc.health.v1.Health/Check", std::nullopt, nullptr, *this, &HealthService::check);
-  table.stream("/grpc.health.v1.Health/Watch", std::nullopt, streams_, *this, &HealthService::watch);
+void add_health_methods(MethodTable& table, HealthBoard& board, const StreamParts& streams) {
+  const auto calls = std::make_shared<HealthCalls>(board);
+  table.unary("/grpc.health.v1.Health/Check", std::nullopt, nullptr, calls, &HealthCalls::check);
+  table.stream("/grpc.health.v1.Health/Watch", std::nullopt, streams, calls, &HealthCalls::watch);
 }
 
 }  // namespace cellcrush::rpc

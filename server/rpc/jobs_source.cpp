@@ -35,72 +35,58 @@ store::JobFilter filter_of(const std::string& text) {
 class JobsSource::WatchedJob {
  public:
   /// A request that is not valid throws nothing: its status is the first message.
-  WatchedJob(store::JournalReader& journal, watch::Hub& hub, const v1::WatchJobRequest& request);
+  WatchedJob(store::JournalReader& journal, watch::Hub& hub, const v1::WatchJobRequest& request)
+      : name_(request.name()) {
+    const auto status = answer([&] {
+      const std::int64_t job = find_job(journal, request.name()).number;
+      check_epoch(journal.epoch(), request.epoch());
+      source_.emplace(journal, hub, job, request.after_sequence(),
+                      watch::WatchCursor::Wanted{request.frames(), true, request.encoding()});
+    });
+    if (!status.ok()) refused_ = status;
+  }
 
-  void open(const std::function<void()>& wake);
-  void close();
+  void open(const std::function<void()>& wake) {
+    if (!source_) return;
+    source_->open(wake);
+    is_open_ = true;
+  }
+  void close() {
+    if (std::exchange(is_open_, false)) source_->close();
+  }
 
-  std::optional<v1::WatchJobsResponse> next();
+  std::optional<v1::WatchJobsResponse> next() {
+    if (refused_) return end(*std::exchange(refused_, std::nullopt));
+    if (!source_) return std::nullopt;
+    std::optional<v1::JobEvent> event;
+    const auto status = answer([&] { event = source_->next(); });
+    if (!status.ok()) return end(status);
+    if (!event) return source_->ended() ? std::optional(end(grpc::Status::OK)) : std::nullopt;
+    v1::WatchJobsResponse out;
+    out.mutable_watched()->set_job(name_);
+    *out.mutable_watched()->mutable_event() = *std::move(event);
+    return out;
+  }
   [[nodiscard]] bool has_more() const { return source_ && source_->has_more(); }
 
  private:
-  v1::WatchJobsResponse end(const grpc::Status& status);
+  v1::WatchJobsResponse end(const grpc::Status& status) {
+    close();
+    source_.reset();
+    v1::WatchJobsResponse out;
+    out.mutable_watched_end()->set_job(name_);
+    auto& sent = *out.mutable_watched_end()->mutable_status();
+    if (!sent.ParseFromString(status.error_details())) sent.Clear();
+    sent.set_code(status.error_code());
+    sent.set_message(status.error_message());
+    return out;
+  }
 
   std::string name_;
   std::optional<watch::JobSource> source_;
   std::optional<grpc::Status> refused_;  ///< until it was sent
   bool is_open_ = false;
 };
-
-JobsSource::WatchedJob::WatchedJob(store::JournalReader& journal, watch::Hub& hub, const v1::WatchJobRequest& request)
-    : name_(request.name()) {
-  const auto status = answer([&] {
-    const std::int64_t job = find_job(journal, request.name()).number;
-    check_epoch(journal.epoch(), request.epoch());
-    source_.emplace(journal, hub, job, request.after_sequence(),
-                    watch::WatchCursor::Wanted{request.frames(), true, request.encoding()});
-    return grpc::Status::OK;
-  });
-  if (!status.ok()) refused_ = status;
-}
-
-void JobsSource::WatchedJob::open(const std::function<void()>& wake) {
-  if (!source_) return;
-  source_->open(wake);
-  is_open_ = true;
-}
-
-void JobsSource::WatchedJob::close() {
-  if (std::exchange(is_open_, false)) source_->close();
-}
-
-std::optional<v1::WatchJobsResponse> JobsSource::WatchedJob::next() {
-  if (refused_) return end(*std::exchange(refused_, std::nullopt));
-  if (!source_) return std::nullopt;
-  std::optional<v1::JobEvent> event;
-  const auto status = answer([&] {
-    event = source_->next();
-    return grpc::Status::OK;
-  });
-  if (!status.ok()) return end(status);
-  if (!event) return source_->ended() ? std::optional(end(grpc::Status::OK)) : std::nullopt;
-  v1::WatchJobsResponse out;
-  out.mutable_watched()->set_job(name_);
-  *out.mutable_watched()->mutable_event() = *std::move(event);
-  return out;
-}
-
-v1::WatchJobsResponse JobsSource::WatchedJob::end(const grpc::Status& status) {
-  close();
-  source_.reset();
-  v1::WatchJobsResponse out;
-  out.mutable_watched_end()->set_job(name_);
-  auto& sent = *out.mutable_watched_end()->mutable_status();
-  if (!sent.ParseFromString(status.error_details())) sent.Clear();
-  sent.set_code(status.error_code());
-  sent.set_message(status.error_message());
-  return out;
-}
 
 JobsSource::JobsSource(const ServiceParts& parts, const v1::WatchJobsRequest& request)
     : parts_(parts), filter_(filter_of(request.filter())), after_(change_in(request.resume_token())) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cellcrush/v1/jobs_service.pb.h"
-#include "rpc/service_parts.h"
+#include "rpc/services.h"
 #include "store/job_filter.h"
 
 namespace cellcrush::rpc {

@@ -65,7 +65,7 @@ std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_pars
 void MethodTable::UnaryCall::ask(Deliver deliver) {
   const auto answer = std::make_shared<Batch>();
   const auto self = shared_from_this();
-  run(pool_, {self, bytes_, [self, answer] { return self->body_(*self, answer->bytes); },
+  run(pool_, {self, bytes_, [self, answer] { self->body_(*self, answer->bytes); },
               [answer, deliver = std::move(deliver)](const grpc::Status& status) {
                 answer->end = status;
                 deliver(std::move(*answer));

@@ -44,38 +44,35 @@ class MethodTable {
   MethodTable(access::Gate& gate, watch::Pump& http_pump) : gate_(gate), http_pump_(http_pump) {}
 
   // In both, `path` is a literal: "/cellcrush.v1.Jobs/GetJob". `scope`: what callers need; nothing: open to everybody.
-  // The service outlives the table. Throws ServiceError (internal) if the .proto files have no such method.
+  // Throws ServiceError (internal) if the .proto files have no such method.
 
   /// `pool`: answers the calls; null: the thread that brings a call.
   template <class Service, class Request, class Response>
-  void unary(const char* path, std::optional<access::Scope> scope, CallPool* pool, Service& service,
-             grpc::Status (Service::*handle)(const Call&, const Request&, Response&)) {
+  void unary(const char* path, std::optional<access::Scope> scope, CallPool* pool,
+             const std::shared_ptr<Service>& service, Response (Service::*handle)(const Call&, const Request&)) {
     grpc_.add(path, grpc::internal::RpcMethod::NORMAL_RPC,
               new grpc::internal::CallbackUnaryHandler<Request, Response>(
-                  [this, pool, &service, handle](grpc::CallbackServerContext* context, const Request* request,
-                                                 Response* response) {
+                  [this, pool, service, handle](grpc::CallbackServerContext* context, const Request* request,
+                                                Response* response) {
                     auto* reactor = context->DefaultReactor();
                     const auto call = std::make_shared<GrpcCall>(gate_, *context);
                     run(pool, {call, static_cast<std::int64_t>(request->ByteSizeLong()),
-                               [call, &service, handle, request, response] {
-                                 auto status = (service.*handle)(*call, *request, *response);
+                               [call, service, handle, request, response] {
+                                 *response = (*service.*handle)(*call, *request);
                                  translate::add_words(*response);
-                                 return status;
                                },
                                [reactor](const grpc::Status& status) { reactor->Finish(status); }});
                     return reactor;
                   }));
-    const auto open = [path, pool, &service, handle](const Incoming& incoming) {
+    const auto open = [path, pool, service, handle](const Incoming& incoming) {
       auto request = read<Request>(path, incoming);
       const auto bytes = static_cast<std::int64_t>(request->ByteSizeLong());
       return std::make_shared<UnaryCall>(
           pool, incoming.caller, bytes,
-          [&service, handle, request, encode = incoming.encode](const Call& call, std::string& to) {
-            Response response;
-            auto status = (service.*handle)(call, *request, response);
+          [service, handle, request, encode = incoming.encode](const Call& call, std::string& to) {
+            auto response = (*service.*handle)(call, *request);
             translate::add_words(response);
-            if (status.ok()) encode(response, to);
-            return status;
+            encode(response, to);
           });
     };
     add(path, scope, {describe(path, *Request::descriptor(), *Response::descriptor(), false), open});
@@ -84,23 +81,23 @@ class MethodTable {
   /// `make`: opens the source of a stream; what it throws ends the stream. The pump of `parts` advances gRPC's streams.
   /// They count for the caller, or for the peer's address if the method is open to everybody.
   template <class Service, class Source, class Request>
-  void stream(const char* path, std::optional<access::Scope> scope, const StreamParts& parts, Service& service,
-              std::unique_ptr<Source> (Service::*make)(const Request&)) {
+  void stream(const char* path, std::optional<access::Scope> scope, const StreamParts& parts,
+              const std::shared_ptr<Service>& service, std::unique_ptr<Source> (Service::*make)(const Request&)) {
     using Message = typename Source::Message;
     grpc_.add(path, grpc::internal::RpcMethod::SERVER_STREAMING,
               new grpc::internal::CallbackServerStreamingHandler<Request, Message>(
-                  [this, parts, &service, make, is_open = !scope](grpc::CallbackServerContext* context,
-                                                                  const Request* request) {
+                  [this, parts, service, make, is_open = !scope](grpc::CallbackServerContext* context,
+                                                                 const Request* request) {
                     return open_stream<Source>(
                         parts, *context,
                         [&] { return is_open ? address_of(context->peer()) : gate_.caller_of(*context).name; },
-                        [&] { return (service.*make)(*request); });
+                        [&] { return (*service.*make)(*request); });
                   }));
     const StreamParts http_parts{http_pump_, parts.metrics, parts.limits, parts.times};
-    const auto open = [path, http_parts, &service, make](const Incoming& incoming) {
+    const auto open = [path, http_parts, service, make](const Incoming& incoming) {
       auto request = read<Request>(path, incoming);
       return std::make_shared<SourceStream<Source>>(http_parts, incoming.caller.name, incoming.encode,
-                                                    [&service, make, request] { return (service.*make)(*request); });
+                                                    [service, make, request] { return (*service.*make)(*request); });
     };
     add(path, scope, {describe(path, *Request::descriptor(), *Message::descriptor(), true), open});
   }
@@ -137,7 +134,7 @@ class MethodTable {
   /// A unary call that is not gRPC's: its own answer.
   class UnaryCall final : public Call, public MessageStream, public std::enable_shared_from_this<UnaryCall> {
    public:
-    using Body = std::function<grpc::Status(const Call& call, std::string& to)>;
+    using Body = std::function<void(const Call& call, std::string& to)>;
 
     UnaryCall(CallPool* pool, access::Caller caller, std::int64_t bytes, Body body)
         : pool_(pool), caller_(std::move(caller)), bytes_(bytes), body_(std::move(body)) {}

@@ -1,5 +1,3 @@
-#include "rpc/reflection_services.h"
-
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor.pb.h>
 
@@ -10,7 +8,7 @@
 #include "error_table.h"
 #include "grpc/reflection/v1/reflection.grpc.pb.h"
 #include "grpc/reflection/v1alpha/reflection.grpc.pb.h"
-#include "rpc/stream_reactor.h"
+#include "rpc/services.h"
 
 namespace cellcrush::rpc {
 namespace {

@@ -7,8 +7,7 @@
 
 #include "error.h"
 #include "store/result_seal.h"
-#include "watch/frame_chunks.h"
-#include "watch/packed_frame.h"
+#include "watch/sent_frame.h"
 
 namespace cellcrush::rpc {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "jobs/frame_series.h"
-#include "rpc/service_parts.h"
+#include "rpc/services.h"
 #include "rpc/stream_state.h"
 #include "store/durable_file.h"
 #include "store/result_reader.h"

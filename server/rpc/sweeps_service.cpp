@@ -1,5 +1,3 @@
-#include "rpc/sweeps_service.h"
-
 #include <absl/cleanup/cleanup.h>
 #include <malloc.h>
 
@@ -13,9 +11,11 @@
 #include "jobs/sweep_plan.h"
 #include "jobs/sweep_points.h"
 #include "rpc/request_fields.h"
+#include "rpc/services.h"
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
+#include "watch/sweep_source.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -56,183 +56,187 @@ double predicted_seconds_of(const jobs::SweepPlan& plan, double step_cost) {
   return step_cost * element_steps;
 }
 
+/// The calls of Sweeps. Thread-safe. Watches hold no thread; the pools run all other calls.
+class SweepCalls {
+ public:
+  explicit SweepCalls(const ServiceParts& parts) : parts_(parts) {}
+
+  v1::Sweep create_sweep(const Call& call, const v1::CreateSweepRequest& given) {
+    auto request = without_output(given);
+    check_size("sweep", request.sweep().ByteSizeLong(), kLargestCase);
+    check_request(request.request_id(), request.sweep().labels(), "sweep.");
+    check_numbers(request.sweep());
+    parts_.admission.check_priority(request.sweep().priority(), "sweep.priority");
+    parts_.admission.check_time_limit(request.sweep().time_limit_s(), "sweep.time_limit_s");
+    check_length("sweep.executor", request.sweep().executor(), kLongestName);
+    const std::string executor = parts_.queues.executor_for(request.sweep().executor(), "sweep.executor");
+    const std::string owner = call.caller().name;
+    const std::string hash = payload_hash(request, owner);
+    request.mutable_sweep()->set_owner(owner);
+    const auto given_up = [&call] { return call.is_cancelled(); };
+    // The cases of 100,000 jobs have 400 MB, most of which the C library would keep.
+    const absl::Cleanup return_heap = [] { malloc_trim(0); };
+    auto plan = jobs::plan_sweep(request.sweep(), {parts_.places, parts_.check_threads, given_up});
+    if (!plan.problems.empty()) throw RefusedCase(plan.problems, "sweep");
+    const auto with_notes = [&](v1::Sweep answer) {
+      *answer.mutable_notes() = plan.notes;
+      answer.set_predicted_seconds(predicted_seconds_of(plan, parts_.step_cost));
+      return answer;
+    };
+    if (request.validate_only()) return with_notes(request.sweep());
+    for (auto& made : plan.jobs) made.job.set_executor(executor);
+    const std::int64_t memory_bytes = parts_.admission.memory_of_job(plan.most_memory_bytes, [&] {
+      const v1::Case& largest = plan.jobs[plan.largest].job.case_();
+      const jobs::MeshPlaces::Place mesh(parts_.places, translate::CaseChecker().elements_to_build(largest), given_up);
+      return translate::predicted_memory(largest);
+    });
+    std::optional<jobs::Admission::Place> place;
+    const auto admit = [&] {
+      place.reset();
+      place.emplace(parts_.admission.admit(owner, plan.jobs.size(), memory_bytes));
+    };
+    const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
+    const std::string name = store::sweep_name_of(created.sweep);
+    if (created.is_new) {
+      log_change(name, "created with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
+      parts_.queues.enqueue(queued_jobs(created, plan, request.sweep(), executor));
+      place.reset();
+    }
+    return with_notes(find(name).sweep);
+  }
+
+  v1::Sweep get_sweep(const Call&, const v1::GetSweepRequest& request) { return find(request.name()).sweep; }
+
+  v1::ListSweepsResponse list_sweeps(const Call& call, const v1::ListSweepsRequest& request) {
+    const auto page = read_page(request.page_size(), request.page_token(), "sweeps");
+    const std::int64_t before = page.after == 0 ? std::numeric_limits<std::int64_t>::max() : page.after;
+    v1::ListSweepsResponse out;
+    auto room = page.room();
+    std::int64_t last = 0;
+    const auto numbers = parts_.sweeps.list_sweeps(before, page.size + 1);
+    bool has_more = static_cast<int>(numbers.size()) > page.size;
+    for (const std::int64_t number : numbers) {
+      call.require_wanted();
+      auto sweep = parts_.sweeps.find_sweep(number);
+      if (sweep && !room.take(sweep->ByteSizeLong())) {
+        has_more = true;
+        break;
+      }
+      last = number;
+      // Otherwise it was deleted meanwhile.
+      if (sweep) *out.add_sweeps() = *std::move(sweep);
+    }
+    if (has_more) out.set_next_page_token(page_token(last, "sweeps"));
+    return out;
+  }
+
+  v1::Sweep cancel_sweep(const Call& call, const v1::CancelSweepRequest& request) {
+    const std::int64_t sweep = find_own(call, request.name());
+    const auto jobs = parts_.sweeps.jobs_of(sweep);
+    parts_.queues.cancel_all(jobs);
+    log_change(store::sweep_name_of(sweep), "cancelled", call.caller().name);
+    return find(request.name()).sweep;
+  }
+
+  v1::DeleteSweepResponse delete_sweep(const Call& call, const v1::DeleteSweepRequest& request) {
+    const std::int64_t sweep = find_own(call, request.name());
+    parts_.deletion.delete_sweep(sweep, [&call] { return call.is_cancelled(); });
+    log_change(store::sweep_name_of(sweep), "deleted", call.caller().name);
+    return {};
+  }
+
+  v1::Sweep retry_failed_jobs(const Call& call, const v1::RetryFailedJobsRequest& request) {
+    const std::int64_t sweep = find_own(call, request.name());
+    // The resources for these cases were admitted with the sweep. The new jobs belong to the sweep's owner.
+    const std::string owner = find(request.name()).sweep.owner();
+    const auto jobs = parts_.sweeps.jobs_of(sweep);
+    if (!jobs.empty()) parts_.queues.require(parts_.reader.executor_of(jobs.front()).value_or(store::kLocalExecutor));
+    std::optional<jobs::Admission::Place> place;
+    const auto admit = [&](std::size_t count) {
+      place.reset();
+      place.emplace(parts_.admission.admit(owner, count, 0));
+    };
+    const auto retried = parts_.journal.retry_failed(sweep, admit);
+    log_change(store::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
+               call.caller().name);
+    parts_.queues.enqueue(retried);
+    place.reset();
+    return find(request.name()).sweep;
+  }
+
+  v1::SweepTable get_sweep_table(const Call&, const v1::GetSweepTableRequest& request) {
+    const auto found = find(request.name());
+    const std::string question = "table of " + found.sweep.name();
+    const auto page = read_full_page(request.page_size(), request.page_token(), question);
+    v1::SweepTable out;
+    if (page.after == 0) {
+      for (auto& field : jobs::swept_fields(found.sweep)) out.add_fields(std::move(field));
+    }
+    auto stored = parts_.sweeps.rows(found.number, page.after, page.room());
+    for (auto& row : stored.rows) *out.add_rows() = std::move(row);
+    if (stored.has_more) out.set_next_page_token(page_token(stored.last_point, question));
+    return out;
+  }
+
+  v1::Convergence get_convergence(const Call&, const v1::GetConvergenceRequest& request) {
+    const double wanted = request.wanted_error_relative();
+    if (!(wanted >= 0.0 && wanted <= 1.0)) {
+      throw InvalidField("wanted_error_relative", "is " + std::to_string(wanted) + ", not between 0 and 1.",
+                         "Use a fraction such as 0.05, or 0 for the default.");
+    }
+    const auto found = find(request.name());
+    return jobs::convergence_of(found.sweep, parts_.sweeps.rows(found.number).rows,
+                                wanted > 0.0 ? wanted : jobs::kWantedError);
+  }
+
+  std::unique_ptr<watch::SweepSource> watch_sweep(const v1::WatchSweepRequest& request) {
+    check_length("resume_token", request.resume_token(), kLongestResumeToken);
+    return std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub, find(request.name()).number,
+                                                request.resume_token());
+  }
+
+ private:
+  struct Found {
+    std::int64_t number = 0;
+    v1::Sweep sweep;
+  };
+  /// Throws ServiceError (not_found) if there is none.
+  Found find(const std::string& name) {
+    check_length("name", name, kLongestName);
+    const auto number = store::sweep_number_of(name);
+    auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
+    if (!sweep) {
+      throw ServiceError(ServiceError::Kind::not_found,
+                         "There is no sweep \"" + name + "\". Sweep names look like sweeps/12; ListSweeps lists them.");
+    }
+    return {*number, *std::move(sweep)};
+  }
+
+  /// Number of a sweep that the caller may change. Also throws ServiceError (permission_denied).
+  std::int64_t find_own(const Call& call, const std::string& name) {
+    const auto found = find(name);
+    parts_.gate.require_own(call.caller(), found.sweep.owner(), found.sweep.name());
+    return found.number;
+  }
+
+  const ServiceParts& parts_;
+};
+
 }  // namespace
 
-SweepsService::Found SweepsService::find(const std::string& name) {
-  check_length("name", name, kLongestName);
-  const auto number = store::sweep_number_of(name);
-  auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
-  if (!sweep) {
-    throw ServiceError(ServiceError::Kind::not_found,
-                       "There is no sweep \"" + name + "\". Sweep names look like sweeps/12; ListSweeps lists them.");
-  }
-  return {*number, *std::move(sweep)};
-}
-
-std::int64_t SweepsService::find_own(const Call& call, const std::string& name) {
-  const auto found = find(name);
-  parts_.gate.require_own(call.caller(), found.sweep.owner(), found.sweep.name());
-  return found.number;
-}
-
-grpc::Status SweepsService::create_sweep(const Call& call, const v1::CreateSweepRequest& given, v1::Sweep& response) {
-  auto request = without_output(given);
-  check_size("sweep", request.sweep().ByteSizeLong(), kLargestCase);
-  check_request(request.request_id(), request.sweep().labels(), "sweep.");
-  check_numbers(request.sweep());
-  parts_.admission.check_priority(request.sweep().priority(), "sweep.priority");
-  parts_.admission.check_time_limit(request.sweep().time_limit_s(), "sweep.time_limit_s");
-  check_length("sweep.executor", request.sweep().executor(), kLongestName);
-  const std::string executor = parts_.queues.executor_for(request.sweep().executor(), "sweep.executor");
-  const std::string owner = call.caller().name;
-  const std::string hash = payload_hash(request, owner);
-  request.mutable_sweep()->set_owner(owner);
-  const auto given_up = [&call] { return call.is_cancelled(); };
-  // The cases of 100,000 jobs have 400 MB, most of which the C library would keep.
-  const absl::Cleanup return_heap = [] { malloc_trim(0); };
-  auto plan = jobs::plan_sweep(request.sweep(), {parts_.places, parts_.check_threads, given_up});
-  if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
-  const auto answer_with = [&](v1::Sweep answer) {
-    *answer.mutable_notes() = plan.notes;
-    answer.set_predicted_seconds(predicted_seconds_of(plan, parts_.step_cost));
-    response = std::move(answer);
-    return grpc::Status::OK;
-  };
-  if (request.validate_only()) return answer_with(request.sweep());
-  for (auto& made : plan.jobs) made.job.set_executor(executor);
-  const std::int64_t memory_bytes = parts_.admission.memory_of_job(plan.most_memory_bytes, [&] {
-    const v1::Case& largest = plan.jobs[plan.largest].job.case_();
-    const jobs::MeshPlaces::Place mesh(parts_.places, translate::CaseChecker().elements_to_build(largest), given_up);
-    return translate::predicted_memory(largest);
-  });
-  std::optional<jobs::Admission::Place> place;
-  const auto admit = [&] {
-    place.reset();
-    place.emplace(parts_.admission.admit(owner, plan.jobs.size(), memory_bytes));
-  };
-  const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
-  const std::string name = store::sweep_name_of(created.sweep);
-  if (created.is_new) {
-    log_change(name, "created with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
-    parts_.queues.enqueue(queued_jobs(created, plan, request.sweep(), executor));
-    place.reset();
-  }
-  return answer_with(find(name).sweep);
-}
-
-grpc::Status SweepsService::get_sweep(const Call&, const v1::GetSweepRequest& request, v1::Sweep& response) {
-  response = find(request.name()).sweep;
-  return grpc::Status::OK;
-}
-
-grpc::Status SweepsService::list_sweeps(const Call& call, const v1::ListSweepsRequest& request,
-                                        v1::ListSweepsResponse& response) {
-  const auto page = read_page(request.page_size(), request.page_token(), "sweeps");
-  const std::int64_t before = page.after == 0 ? std::numeric_limits<std::int64_t>::max() : page.after;
-  auto room = page.room();
-  std::int64_t last = 0;
-  const auto numbers = parts_.sweeps.list_sweeps(before, page.size + 1);
-  bool has_more = static_cast<int>(numbers.size()) > page.size;
-  for (const std::int64_t number : numbers) {
-    if (call.is_cancelled()) return grpc::Status::CANCELLED;
-    auto sweep = parts_.sweeps.find_sweep(number);
-    if (sweep && !room.take(sweep->ByteSizeLong())) {
-      has_more = true;
-      break;
-    }
-    last = number;
-    // Otherwise it was deleted meanwhile.
-    if (sweep) *response.add_sweeps() = *std::move(sweep);
-  }
-  if (has_more) response.set_next_page_token(page_token(last, "sweeps"));
-  return grpc::Status::OK;
-}
-
-grpc::Status SweepsService::cancel_sweep(const Call& call, const v1::CancelSweepRequest& request, v1::Sweep& response) {
-  const std::int64_t sweep = find_own(call, request.name());
-  const auto jobs = parts_.sweeps.jobs_of(sweep);
-  parts_.queues.cancel_all(jobs);
-  log_change(store::sweep_name_of(sweep), "cancelled", call.caller().name);
-  response = find(request.name()).sweep;
-  return grpc::Status::OK;
-}
-
-grpc::Status SweepsService::delete_sweep(const Call& call, const v1::DeleteSweepRequest& request,
-                                         v1::DeleteSweepResponse&) {
-  const std::int64_t sweep = find_own(call, request.name());
-  parts_.deletion.delete_sweep(sweep, [&call] { return call.is_cancelled(); });
-  log_change(store::sweep_name_of(sweep), "deleted", call.caller().name);
-  return grpc::Status::OK;
-}
-
-grpc::Status SweepsService::retry_failed_jobs(const Call& call, const v1::RetryFailedJobsRequest& request,
-                                              v1::Sweep& response) {
-  const std::int64_t sweep = find_own(call, request.name());
-  // The resources for these cases were admitted with the sweep. The new jobs belong to the sweep's owner.
-  const std::string owner = find(request.name()).sweep.owner();
-  const auto jobs = parts_.sweeps.jobs_of(sweep);
-  if (!jobs.empty()) parts_.queues.require(parts_.reader.executor_of(jobs.front()).value_or(store::kLocalExecutor));
-  std::optional<jobs::Admission::Place> place;
-  const auto admit = [&](std::size_t count) {
-    place.reset();
-    place.emplace(parts_.admission.admit(owner, count, 0));
-  };
-  const auto retried = parts_.journal.retry_failed(sweep, admit);
-  log_change(store::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
-             call.caller().name);
-  parts_.queues.enqueue(retried);
-  place.reset();
-  response = find(request.name()).sweep;
-  return grpc::Status::OK;
-}
-
-std::unique_ptr<watch::SweepSource> SweepsService::watch_sweep(const v1::WatchSweepRequest& request) {
-  check_length("resume_token", request.resume_token(), kLongestResumeToken);
-  return std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub, find(request.name()).number,
-                                              request.resume_token());
-}
-
-void SweepsService::add_methods(MethodTable& table) {
+void add_sweeps_methods(MethodTable& table, const ServiceParts& parts) {
   using access::Scope;
-  const auto unary = [&](const char* path, Scope scope, CallPool& pool, auto handle) {
-    table.unary(path, scope, &pool, *this, handle);
-  };
-  unary("/cellcrush.v1.Sweeps/CreateSweep", Scope::submit, parts_.checks, &SweepsService::create_sweep);
-  unary("/cellcrush.v1.Sweeps/GetSweep", Scope::read, parts_.calls, &SweepsService::get_sweep);
-  unary("/cellcrush.v1.Sweeps/ListSweeps", Scope::read, parts_.calls, &SweepsService::list_sweeps);
-  unary("/cellcrush.v1.Sweeps/CancelSweep", Scope::submit, parts_.calls, &SweepsService::cancel_sweep);
-  unary("/cellcrush.v1.Sweeps/DeleteSweep", Scope::submit, parts_.calls, &SweepsService::delete_sweep);
-  unary("/cellcrush.v1.Sweeps/RetryFailedJobs", Scope::submit, parts_.calls, &SweepsService::retry_failed_jobs);
-  unary("/cellcrush.v1.Sweeps/GetSweepTable", Scope::read, parts_.calls, &SweepsService::get_sweep_table);
-  unary("/cellcrush.v1.Sweeps/GetConvergence", Scope::read, parts_.calls, &SweepsService::get_convergence);
-  table.stream("/cellcrush.v1.Sweeps/WatchSweep", Scope::read, parts_.streams, *this, &SweepsService::watch_sweep);
-}
-
-grpc::Status SweepsService::get_sweep_table(const Call&, const v1::GetSweepTableRequest& request,
-                                            v1::SweepTable& response) {
-  const auto found = find(request.name());
-  const std::string question = "table of " + found.sweep.name();
-  const auto page = read_full_page(request.page_size(), request.page_token(), question);
-  if (page.after == 0) {
-    for (auto& field : jobs::swept_fields(found.sweep)) response.add_fields(std::move(field));
-  }
-  auto stored = parts_.sweeps.rows(found.number, page.after, page.room());
-  for (auto& row : stored.rows) *response.add_rows() = std::move(row);
-  if (stored.has_more) response.set_next_page_token(page_token(stored.last_point, question));
-  return grpc::Status::OK;
-}
-
-grpc::Status SweepsService::get_convergence(const Call&, const v1::GetConvergenceRequest& request,
-                                            v1::Convergence& response) {
-  const double wanted = request.wanted_error_relative();
-  if (!(wanted >= 0.0 && wanted <= 1.0)) {
-    throw InvalidField("wanted_error_relative", "is " + std::to_string(wanted) + ", not between 0 and 1.",
-                       "Use a fraction such as 0.05, or 0 for the default.");
-  }
-  const auto found = find(request.name());
-  response = jobs::convergence_of(found.sweep, parts_.sweeps.rows(found.number).rows,
-                                  wanted > 0.0 ? wanted : jobs::kWantedError);
-  return grpc::Status::OK;
+  const auto calls = std::make_shared<SweepCalls>(parts);
+  table.unary("/cellcrush.v1.Sweeps/CreateSweep", Scope::submit, &parts.checks, calls, &SweepCalls::create_sweep);
+  table.unary("/cellcrush.v1.Sweeps/GetSweep", Scope::read, &parts.calls, calls, &SweepCalls::get_sweep);
+  table.unary("/cellcrush.v1.Sweeps/ListSweeps", Scope::read, &parts.calls, calls, &SweepCalls::list_sweeps);
+  table.unary("/cellcrush.v1.Sweeps/CancelSweep", Scope::submit, &parts.calls, calls, &SweepCalls::cancel_sweep);
+  table.unary("/cellcrush.v1.Sweeps/DeleteSweep", Scope::submit, &parts.calls, calls, &SweepCalls::delete_sweep);
+  table.unary("/cellcrush.v1.Sweeps/RetryFailedJobs", Scope::submit, &parts.calls, calls,
+              &SweepCalls::retry_failed_jobs);
+  table.unary("/cellcrush.v1.Sweeps/GetSweepTable", Scope::read, &parts.calls, calls, &SweepCalls::get_sweep_table);
+  table.unary("/cellcrush.v1.Sweeps/GetConvergence", Scope::read, &parts.calls, calls, &SweepCalls::get_convergence);
+  table.stream("/cellcrush.v1.Sweeps/WatchSweep", Scope::read, parts.streams, calls, &SweepCalls::watch_sweep);
 }
 
 }  // namespace cellcrush::rpc

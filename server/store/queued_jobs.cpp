@@ -1,5 +1,5 @@
-// The jobs as the scheduler, retention and quotas see them. Those of a hidden sweep belong to an interrupted creation and
-// do not run.
+// The jobs as the scheduler, retention and quotas see them. Those of a hidden sweep belong to an interrupted creation
+// and do not run.
 #include <string>
 
 #include "store/journal_reader.h"

@@ -4,7 +4,6 @@
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
 #include "translate/loads_places.h"
-#include "translate/problems.h"
 
 namespace cellcrush::translate {
 

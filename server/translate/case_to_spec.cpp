@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "translate/loads_places.h"
-#include "translate/problems.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -66,7 +65,7 @@ void read_choice(Wire in, std::initializer_list<std::pair<Wire, Out>> meanings, 
   if (found != meanings.end()) {
     out = found->second;
   } else if (static_cast<int>(in) != 0) {
-    problems.push_back(invalid_field(field, std::to_string(in), "is not a valid value.", "Use " + names + "."));
+    problems.push_back({field, std::to_string(in), "is not a valid value.", "Use " + names + "."});
   }
 }
 
@@ -174,8 +173,8 @@ CaseReading to_spec(const v1::Case& submitted) {
   move_to_loading(in, out.problems);
   SceneSpec& spec = out.spec;
   if (character_count(in.title()) > kLongestTitle) {
-    out.problems.push_back(invalid_field("title", std::to_string(character_count(in.title())) + " characters",
-                                         "is too long.", "Use at most 200 characters."));
+    out.problems.push_back({"title", std::to_string(character_count(in.title())) + " characters", "is too long.",
+                            "Use at most 200 characters."});
   }
   spec.title = in.title();
   read_lattice(in.lattice(), spec, out.problems);

@@ -11,7 +11,6 @@
 #include "cellcrush/v1/field.pb.h"
 #include "translate/case_to_spec.h"
 #include "translate/loads_places.h"
-#include "translate/problems.h"
 #include "translate/results.h"
 #include "translate/spec_to_case.h"
 
@@ -31,8 +30,8 @@ class ListChecker {
       if (!field->is_repeated() || !rules.has_maximum()) continue;
       const int size = message.GetReflection()->FieldSize(message, field);
       if (size <= rules.maximum()) continue;
-      *problems_.Add() = to_proto(invalid_field(path + "." + field->name(), std::to_string(size), "are too many.",
-                                                "Give at most " + std::to_string(std::lround(rules.maximum())) + "."));
+      *problems_.Add() = to_proto(Problem{path + "." + field->name(), std::to_string(size), "are too many.",
+                                          "Give at most " + std::to_string(std::lround(rules.maximum())) + "."});
     }
   }
 
@@ -46,8 +45,8 @@ class ListChecker {
     for (const auto& load : frame.distributed_loads())
       points += load.x_n_per_mm().points_size() + load.y_n_per_mm().points_size();
     if (points <= kMostPoints) return;
-    *problems_.Add() = to_proto(invalid_field("lattice.frame", std::to_string(points),
-                                              "has too many points in its time functions.", "Give at most 200000."));
+    *problems_.Add() = to_proto(Problem{"lattice.frame", std::to_string(points),
+                                        "has too many points in its time functions.", "Give at most 200000."});
   }
 
   google::protobuf::RepeatedPtrField<v1::Problem> take() { return std::move(problems_); }
@@ -111,6 +110,16 @@ Built build(const v1::Case& submitted, google::protobuf::RepeatedPtrField<v1::Pr
 
 }  // namespace
 
+v1::Problem to_proto(const Problem& problem, v1::Problem::Kind kind) {
+  v1::Problem out;
+  out.set_field(problem.field);
+  out.set_value(problem.value);
+  out.set_message(problem.message);
+  out.set_remedy(problem.remedy);
+  out.set_kind(kind);
+  return out;
+}
+
 google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& submitted) {
   ListChecker lists;
   lists.check("lattice.frame", submitted.lattice().frame());
@@ -124,8 +133,8 @@ void cut_problems(google::protobuf::RepeatedPtrField<v1::Problem>& problems) {
   const int left_out = problems.size() - kMostProblems;
   if (left_out <= 0) return;
   problems.DeleteSubrange(kMostProblems, left_out);
-  *problems.Add() = to_proto(invalid_field("case", "", "has " + std::to_string(left_out) + " more problems.",
-                                           "Fix these first; the same call then lists the rest."));
+  *problems.Add() = to_proto(Problem{"case", "", "has " + std::to_string(left_out) + " more problems.",
+                                     "Fix these first; the same call then lists the rest."});
 }
 
 CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& between_stages) {

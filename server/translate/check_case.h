@@ -16,6 +16,8 @@ namespace cellcrush::translate {
 /// and points of time functions; 10000 motions and watched nodes; 1000 rigid walls; 10000 rows of inclusions.
 google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& submitted);
 
+v1::Problem to_proto(const Problem& problem, v1::Problem::Kind kind = v1::Problem::INVALID);
+
 /// Maximum number of problems listed for one case; the rest are only counted.
 inline constexpr int kMostProblems = 1000;
 

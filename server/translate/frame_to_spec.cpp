@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "translate/case_to_spec.h"
-#include "translate/problems.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -25,17 +24,17 @@ bool is_name(const std::string& id) {
   });
 }
 
-Problem missing(const std::string& field) { return invalid_field(field, "", "is missing.", "Set it."); }
+Problem missing(const std::string& field) { return {field, "", "is missing.", "Set it."}; }
 
 // Notes the position of a node or wall with a valid id of its own.
 void read_id(const std::string& field, const std::string& what, const std::string& id, int position,
              std::unordered_map<std::string, int>& positions, Problems& problems) {
   if (!is_name(id)) {
-    problems.push_back(invalid_field(field, id, "is not a valid name: names have 1 to 64 letters, digits, '_' or '-'.",
-                                     "Give each " + what + " a unique, valid name."));
+    problems.push_back({field, id, "is not a valid name: names have 1 to 64 letters, digits, '_' or '-'.",
+                        "Give each " + what + " a unique, valid name."});
   } else if (!positions.emplace(id, position).second) {
-    problems.push_back(invalid_field(field, id, "is the name of another " + what + " as well.",
-                                     "Give each " + what + " a unique name."));
+    problems.push_back(
+        {field, id, "is the name of another " + what + " as well.", "Give each " + what + " a unique name."});
   }
 }
 
@@ -149,7 +148,7 @@ class FrameReader {
       const std::string field = item("watched_nodes", i);
       const int node = find_node(field, in_.watched_nodes(i));
       if (std::find(out_.watched_nodes.begin(), out_.watched_nodes.end(), node) != out_.watched_nodes.end())
-        problems_.push_back(invalid_field(field, in_.watched_nodes(i), "is already watched.", "Name each node once."));
+        problems_.push_back({field, in_.watched_nodes(i), "is already watched.", "Name each node once."});
       out_.watched_nodes.push_back(node);
     }
   }
@@ -160,7 +159,7 @@ class FrameReader {
     if (id.empty()) {
       problems_.push_back(missing(field));
     } else {
-      problems_.push_back(invalid_field(field, id, "is not the name of a node.", "Name one of lattice.frame.nodes."));
+      problems_.push_back({field, id, "is not the name of a node.", "Name one of lattice.frame.nodes."});
     }
     return 0;
   }
@@ -172,8 +171,8 @@ class FrameReader {
       case v1::Frame::COMPONENT_ROTATION: return LoadsSpec::Component::rotation;
       case v1::Frame::COMPONENT_UNSPECIFIED: problems_.push_back(missing(field)); break;
       default:
-        problems_.push_back(invalid_field(field, std::to_string(value), "is not a valid component.",
-                                          "Use COMPONENT_X, COMPONENT_Y or COMPONENT_ROTATION."));
+        problems_.push_back({field, std::to_string(value), "is not a valid component.",
+                             "Use COMPONENT_X, COMPONENT_Y or COMPONENT_ROTATION."});
     }
     return LoadsSpec::Component::x;
   }

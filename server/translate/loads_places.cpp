@@ -5,8 +5,6 @@
 
 #include <string>
 
-#include "translate/problems.h"
-
 namespace cellcrush::translate {
 namespace {
 
@@ -45,8 +43,7 @@ void move_to_loading(v1::Case& scene, Problems& problems) {
   for (const char* name : kFields) {
     if (!has(scene.lattice().frame(), name)) continue;
     if (has(scene.loading(), name)) {
-      problems.push_back(
-          invalid_field(kLoading + name, "", "is given as " + kFrame + name + " too.", "Remove one of the two."));
+      problems.push_back({kLoading + name, "", "is given as " + kFrame + name + " too.", "Remove one of the two."});
     } else {
       move_field(*scene.mutable_lattice()->mutable_frame(), *scene.mutable_loading(), name);
     }

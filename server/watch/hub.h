@@ -16,7 +16,7 @@
 #include "cellcrush/v1/sample.pb.h"
 #include "mutex.h"
 #include "store/journal_reader.h"
-#include "watch/packed_frame.h"
+#include "watch/sent_frame.h"
 
 namespace cellcrush::watch {
 

@@ -8,7 +8,7 @@
 #include "error.h"
 #include "store/job_state.h"
 #include "store/resource_name.h"
-#include "watch/frame_chunks.h"
+#include "watch/sent_frame.h"
 
 namespace cellcrush::watch {
 namespace {

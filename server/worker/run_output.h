@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "cellcrush/simulation.h"
-#include "cellcrush/v1/job.pb.h"
-#include "cellcrush/v1/sample.pb.h"
 #include "store/job_folder.h"
 #include "store/report_log.h"
 #include "store/result_writer.h"

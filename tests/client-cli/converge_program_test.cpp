@@ -1,6 +1,4 @@
 #include <gmock/gmock.h>
-#include <google/protobuf/text_format.h>
-#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include "fake_server.h"
@@ -13,16 +11,13 @@ namespace {
 using ::testing::HasSubstr;
 
 v1::Convergence convergence() {
-  v1::Convergence found;
-  EXPECT_TRUE(google::protobuf::TextFormat::ParseFromString(
+  return from_text<v1::Convergence>(
       R"(quantities { field: "plateau_stress_support_mpa"
            meshes { elements_per_wall: 2 job_count: 3 mean: 0.327 scatter_relative: 0.008
                     error_relative: 0.122 uncertainty_relative: 0.012 }
            meshes { elements_per_wall: 4 job_count: 1 mean: 0.372 error_relative: 0.122 } }
          quantities { field: "absorbed_energy_mj" meshes { elements_per_wall: 2 job_count: 3 mean: 40700 } }
-         elements_per_wall: 4 wanted_error_relative: 0.1 job_count_left_out: 2)",
-      &found));
-  return found;
+         elements_per_wall: 4 wanted_error_relative: 0.1 job_count_left_out: 2)");
 }
 
 Script converge_script() {
@@ -83,10 +78,7 @@ TEST(Converge, WithoutAnImperfectionSeedsAreRefusedWithARemedy) {
 TEST(Converge, OfASweepPrintsItsEstimatesAgain) {
   const FakeServer server(converge_script());
   EXPECT_EQ(server.run({"converge", "sweeps/test", "--error", "0.1"}).output, convergence_text(convergence(), 80));
-  v1::Convergence found;
-  ASSERT_TRUE(
-      google::protobuf::util::JsonStringToMessage(server.run({"converge", "sweeps/test", "--json"}).output, &found)
-          .ok());
+  const auto found = from_json<v1::Convergence>(server.run({"converge", "sweeps/test", "--json"}).output);
   EXPECT_EQ(found.quantities_size(), 2);
   EXPECT_EQ(server.run({"converge", "sweeps/none"}).exit_code, 5);
   EXPECT_TRUE(server.asked().sweeps.creates.empty());

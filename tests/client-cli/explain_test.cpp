@@ -1,7 +1,6 @@
 // `cellcrush explain` and what it is made from.
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
-#include <google/protobuf/util/json_util.h>
 
 #include "help/case_manual.h"
 #include "help/field_rules.h"
@@ -49,9 +48,8 @@ TEST(Explain, AnUnknownPathIsRefusedWithTheNearest) {
 }
 
 TEST(Explain, WithJsonItIsAnObject) {
-  google::protobuf::Struct object;
-  const ProgramResult result = run_program({"explain", "loading.direction", "--json"});
-  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(result.output, &object).ok()) << result.output;
+  const auto object = cellcrush::testing::from_json<google::protobuf::Struct>(
+      run_program({"explain", "loading.direction", "--json"}).output);
   EXPECT_EQ(object.fields().at("default").string_value(), "X");
   EXPECT_EQ(object.fields().at("values").list_value().values_size(), 2);
 }

@@ -31,7 +31,7 @@ TEST(Export, WritesThePageAndSaysWhichFramesItHas) {
   const fs::path file = server.folder() / "crush.html";
   const ProgramResult result = export_to(server, file);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_EQ(read_file(file), script_with_page().page);
+  EXPECT_EQ(text_of_file(file), script_with_page().page);
   EXPECT_EQ(result.output, file.string() + "  66 B  3 of 5 frames; raise --max-size for more\n");
   const std::string json = export_to(server, file, {"--json"}).output;
   for (const std::string& field :
@@ -56,7 +56,7 @@ TEST(Export, ReplacesItsOwnFilesAndNoOthers) {
   const ProgramResult refused = export_to(server, file);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.errors, HasSubstr("crush.html: exists and was not written by cellcrush"));
-  EXPECT_EQ(read_file(file), "<!doctype html>\n<title>mine</title>\n");
+  EXPECT_EQ(text_of_file(file), "<!doctype html>\n<title>mine</title>\n");
 }
 
 TEST(Export, AStreamThatBreaksOffLeavesNoFile) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -11,12 +10,6 @@
 namespace cellcrush::client::testing {
 
 namespace {
-
-std::filesystem::path make_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "cellcrush-client-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  return name;
-}
 
 grpc::Status not_found(const std::string& name) { return {grpc::StatusCode::NOT_FOUND, "there is no " + name}; }
 
@@ -335,7 +328,7 @@ class FakeServer::Admin : public v1::Admin::Service {
   Shared& shared_;
 };
 
-FakeServer::FakeServer(Script script) : folder_(make_folder()), shared_(std::make_unique<Shared>()) {
+FakeServer::FakeServer(Script script) : shared_(std::make_unique<Shared>()) {
   shared_->script = std::move(script);
   cases_ = std::make_unique<Cases>(*shared_);
   jobs_ = std::make_unique<Jobs>(*shared_);
@@ -355,8 +348,6 @@ FakeServer::FakeServer(Script script) : folder_(make_folder()), shared_(std::mak
 FakeServer::~FakeServer() {
   server_->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));
   server_->Wait();
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
 Asked FakeServer::asked() const {

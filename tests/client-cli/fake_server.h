@@ -73,8 +73,8 @@ class FakeServer {
   FakeServer(const FakeServer&) = delete;
   FakeServer& operator=(const FakeServer&) = delete;
 
-  [[nodiscard]] std::string address() const { return "unix:" + (folder_ / "s").string(); }
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] std::string address() const { return "unix:" + (folder() / "s").string(); }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
   [[nodiscard]] Asked asked() const;
 
   /// Runs `cellcrush ARGUMENTS... --server ADDRESS` to its end.
@@ -87,7 +87,7 @@ class FakeServer {
   class Sweeps;
   struct Shared;
 
-  std::filesystem::path folder_;
+  cellcrush::testing::TemporaryFolder folder_;
   std::unique_ptr<Shared> shared_;
   std::unique_ptr<Cases> cases_;
   std::unique_ptr<Jobs> jobs_;

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -49,16 +48,16 @@ TEST(Fetch, WritesResultHistoryCaseAndFrame) {
   const std::string time = std::to_string(finished_script().stages[2].frame.time_s() * 1.05);
   const ProgramResult result = fetch(server, folder, {"--frame", time});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_EQ(read_file(folder / "result.h5"), finished_script().result);
-  const std::string history = read_file(folder / "history.csv");
+  EXPECT_EQ(text_of_file(folder / "result.h5"), finished_script().result);
+  const std::string history = text_of_file(folder / "history.csv");
   EXPECT_EQ(first_line(history).find(
                 "time_s,travel_mm,strain,stress_impact_mpa,stress_support_mpa,energy_kinetic_mj,energy_elastic_mj,"
                 "energy_plastic_mj,energy_contact_mj,energy_friction_mj,energy_damping_mj,work_external_mj,"
                 "energy_residual_mj"),
             0U);
   EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 401);
-  EXPECT_EQ(parse_text_case(read_file(folder / "case.txtpb"), "case").title(), "Type I of the tests");
-  const std::string frame = read_file(folder / "frame_0020.csv");
+  EXPECT_EQ(parse_text_case(text_of_file(folder / "case.txtpb"), "case").title(), "Type I of the tests");
+  const std::string frame = text_of_file(folder / "frame_0020.csv");
   EXPECT_EQ(std::count(frame.begin(), frame.end(), '\n'), 1 + finished_script().stages[2].mesh.thickness_mm_size());
   EXPECT_EQ(file_count(folder), 4);
 }
@@ -70,12 +69,12 @@ TEST(Fetch, AgainOverwritesItsOwnFilesAlsoOfEarlierVersionsAndNoOthers) {
   std::ofstream(folder / "result.h5") << "\x89HDF\r\n\x1a\n and more";
   std::ofstream(folder / "history.csv") << "time_s,travel_mm,strain,stress_impact_mpa\n0,0,0,0\n";
   EXPECT_EQ(fetch(server, folder).exit_code, 0);
-  EXPECT_EQ(read_file(folder / "result.h5"), finished_script().result);
+  EXPECT_EQ(text_of_file(folder / "result.h5"), finished_script().result);
   std::ofstream(folder / "history.csv") << "my own notes\n";
   const ProgramResult refused = fetch(server, folder);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.errors, HasSubstr("history.csv: exists and was not written by cellcrush"));
-  EXPECT_EQ(read_file(folder / "history.csv"), "my own notes\n");
+  EXPECT_EQ(text_of_file(folder / "history.csv"), "my own notes\n");
   fs::remove(folder / "history.csv");
   fs::create_directory(folder / "history.csv");
   EXPECT_EQ(fetch(server, folder).exit_code, 2) << "a folder is in the way";
@@ -87,7 +86,7 @@ TEST(Fetch, ACutDownloadGoesOnWhereItStopped) {
   const FakeServer server(script);
   const fs::path folder = server.folder() / "run";
   EXPECT_EQ(fetch(server, folder).exit_code, 0);
-  EXPECT_EQ(read_file(folder / "result.h5"), script.result);
+  EXPECT_EQ(text_of_file(folder / "result.h5"), script.result);
   const auto half = static_cast<std::int64_t>(script.result.size() / 2);
   EXPECT_EQ(server.asked().offsets, (std::vector<std::int64_t>{0, half}));
   script.cut_downloads = 1000;
@@ -116,7 +115,7 @@ TEST(Fetch, AFullDiskLeavesTheFolderAsItWas) {
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.errors, HasSubstr("history.csv: cannot be written"));
-  EXPECT_EQ(read_file(folder / "result.h5"), "CELLCRUSH RESULT 1 of before");
+  EXPECT_EQ(text_of_file(folder / "result.h5"), "CELLCRUSH RESULT 1 of before");
   EXPECT_EQ(file_count(folder), 1);
 }
 
@@ -158,23 +157,21 @@ TEST(Fetch, WritesTheWatchedNodesAndRigidWallsOfSamplesThatHaveAny) {
   Script script = finished_script();
   script.samples.clear();
   for (const double time : {0.001, 0.002}) {
-    v1::Sample& sample = script.samples.emplace_back();
-    ASSERT_TRUE(google::protobuf::TextFormat::ParseFromString(
+    script.samples.push_back(from_text<v1::Sample>(
         R"(watched { node: "tip" ux_mm: 0.1 uy_mm: -0.25 rotation_rad: 1e-3
                      reaction_x_n: 4 reaction_y_n: -5 reaction_moment_n_mm: 6.5 }
            watched { node: "a,b" ux_mm: 0.1 }
-           rigid_walls { wall: "floor" displacement_mm: 0.5 normal_force_n: 12.25 tangential_force_n: -3 })",
-        &sample));
-    sample.set_time_s(time);
+           rigid_walls { wall: "floor" displacement_mm: 0.5 normal_force_n: 12.25 tangential_force_n: -3 })"));
+    script.samples.back().set_time_s(time);
   }
   const FakeServer server(script);
   const fs::path folder = server.folder() / "run";
   ASSERT_EQ(fetch(server, folder).exit_code, 0);
-  EXPECT_EQ(read_file(folder / "nodes.csv"),
+  EXPECT_EQ(text_of_file(folder / "nodes.csv"),
             "time_s,node,ux_mm,uy_mm,rotation_rad,reaction_x_n,reaction_y_n,reaction_moment_n_mm\n"
             "0.001,tip,0.1,-0.25,0.001,4,-5,6.5\n0.001,\"a,b\",0.1,0,0,0,0,0\n"
             "0.002,tip,0.1,-0.25,0.001,4,-5,6.5\n0.002,\"a,b\",0.1,0,0,0,0,0\n");
-  EXPECT_EQ(read_file(folder / "rigid_walls.csv"),
+  EXPECT_EQ(text_of_file(folder / "rigid_walls.csv"),
             "time_s,wall,displacement_mm,normal_force_n,tangential_force_n\n"
             "0.001,floor,0.5,12.25,-3\n0.002,floor,0.5,12.25,-3\n");
 }
@@ -185,10 +182,10 @@ TEST(Plot, AJobsPngHasTheRightSize) {
   const ProgramResult result = server.run({"plot", "jobs/test", "-o", file});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output, file + "\n");
-  EXPECT_EQ(read_file(file).substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(text_of_file(file).substr(0, 8), "\x89PNG\r\n\x1a\n");
   // Width stands behind the signature and the name of the first chunk.
-  EXPECT_EQ(read_file(file).substr(16, 4), std::string("\0\0\x07\xd0", 4));
-  EXPECT_GT(read_file(file).size(), 50'000U);
+  EXPECT_EQ(text_of_file(file).substr(16, 4), std::string("\0\0\x07\xd0", 4));
+  EXPECT_GT(text_of_file(file).size(), 50'000U);
 }
 
 TEST(Plot, OneFrameCanBeChosenSvgWrittenAndSeveralJobsShareAChart) {
@@ -198,8 +195,8 @@ TEST(Plot, OneFrameCanBeChosenSvgWrittenAndSeveralJobsShareAChart) {
   EXPECT_EQ(server.run({"plot", "test", "-o", one, "--frame-strain", "0.41"}).exit_code, 0);
   EXPECT_EQ(server.run({"plot", "test", "-o", three}).exit_code, 0);
   EXPECT_EQ(server.run({"plot", "test", "jobs/test", "-o", server.folder() / "both.PNG"}).exit_code, 0);
-  EXPECT_THAT(read_file(one), HasSubstr("</svg>"));
-  EXPECT_GT(read_file(three).size(), read_file(one).size());
+  EXPECT_THAT(text_of_file(one), HasSubstr("</svg>"));
+  EXPECT_GT(text_of_file(three).size(), text_of_file(one).size());
 }
 
 TEST(Plot, AStripShowsFramesEvenlySpacedOverTheRunWithOrWithoutTheCurve) {
@@ -208,15 +205,15 @@ TEST(Plot, AStripShowsFramesEvenlySpacedOverTheRunWithOrWithoutTheCurve) {
   const FakeServer server(script);
   const std::string file = (server.folder() / "strip.svg").string();
   ASSERT_EQ(server.run({"plot", "test", "--strip", "3", "-o", file}).exit_code, 0);
-  const std::string whole = read_file(file);
+  const std::string whole = text_of_file(file);
   const ProgramResult frames = server.run({"plot", "test", "--strip", "3", "--frames-only", "-o", file});
   ASSERT_EQ(frames.exit_code, 0) << frames.errors;
-  EXPECT_LT(read_file(file).size(), whole.size());
+  EXPECT_LT(text_of_file(file).size(), whole.size());
   ASSERT_EQ(server.run({"plot", "test", "--strip", "2", "--frames-only", "-o", file}).exit_code, 0);
-  const std::string two = read_file(file);
+  const std::string two = text_of_file(file);
   ASSERT_EQ(server.run({"plot", "test", "--strip", "50", "--frames-only", "-o", file}).exit_code, 0);
-  EXPECT_GT(2 * read_file(file).size(), 3 * two.size());
-  EXPECT_LT(read_file(file).size(), 3 * two.size()) << "a frame is shown once, however many are asked for";
+  EXPECT_GT(2 * text_of_file(file).size(), 3 * two.size());
+  EXPECT_LT(text_of_file(file).size(), 3 * two.size()) << "a frame is shown once, however many are asked for";
 }
 
 TEST(Movie, KeepsEveryFrameAsAPngOfOneSizeAndSaysWhatToDoWithoutFfmpeg) {
@@ -232,10 +229,10 @@ TEST(Movie, KeepsEveryFrameAsAPngOfOneSizeAndSaysWhatToDoWithoutFfmpeg) {
   EXPECT_TRUE(json.starts_with('{') && json.ends_with("}\n")) << json;
   EXPECT_THAT(json, HasSubstr("\"path\":\"" + folder.string() + '"'));
   EXPECT_THAT(json, HasSubstr("\"frame_count\":4"));
-  const std::string size = read_file(folder / "frame_00000.png").substr(16, 8);
+  const std::string size = text_of_file(folder / "frame_00000.png").substr(16, 8);
   EXPECT_EQ((size[3] | size[7]) & 1, 0) << "video encoders want even numbers of pixels";
   for (const char* name : {"frame_00001.png", "frame_00002.png", "frame_00003.png"}) {
-    EXPECT_EQ(read_file(folder / name).substr(16, 8), size) << name;
+    EXPECT_EQ(text_of_file(folder / name).substr(16, 8), size) << name;
   }
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder.c_str(), 1);
@@ -282,10 +279,10 @@ TEST(SweepPlot, IsDrawnAsPngAndSvg) {
     const ProgramResult result = server.run({"plot", "sweeps/test", "sweeps/test", "--log", "xy", "-o", file});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(result.output, file + "\n");
-    EXPECT_GT(read_file(file).size(), 5000U);
+    EXPECT_GT(text_of_file(file).size(), 5000U);
   }
-  EXPECT_EQ(read_file(server.folder() / "a.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
-  EXPECT_THAT(read_file(server.folder() / "a.svg"), HasSubstr("</svg>"));
+  EXPECT_EQ(text_of_file(server.folder() / "a.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_THAT(text_of_file(server.folder() / "a.svg"), HasSubstr("</svg>"));
 }
 
 TEST(SweepPlot, WithoutAPlateauIsRefusedAndAnUnknownSweepNotFound) {

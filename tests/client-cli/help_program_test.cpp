@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "e2e/program_help.h"
 #include "fake_server.h"
 #include "program.h"
+#include "programs/program_help.h"
 
 namespace cellcrush::client::testing {
 namespace {

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
@@ -16,15 +15,13 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-using google::protobuf::util::JsonStringToMessage;
 using google::protobuf::util::MessageDifferencer;
 
 Script preset_script() {
   Script script;
   script.job = make_job(v1::Job::SUCCEEDED);
-  script.preset.set_name("type-i");
-  script.preset.set_title("Type I of the tests");
-  script.preset.add_assumptions("The depth is that of the specimen.");
+  script.preset = from_text<v1::Preset>(R"(
+    name: "type-i" title: "Type I of the tests" assumptions: "The depth is that of the specimen.")");
   *script.preset.mutable_case_() = make_job(v1::Job::RUNNING).case_();
   return script;
 }
@@ -43,22 +40,17 @@ TEST(Presets, AreListedAndShownAsACaseFileThatReadsBack) {
 TEST(Presets, JsonIsOneObjectWithTheProtosNames) {
   const FakeServer server(preset_script());
   const ProgramResult show = server.run({"show", "preset:type-i", "--json"});
-  v1::Preset preset;
-  ASSERT_TRUE(JsonStringToMessage(show.output, &preset).ok()) << show.output;
+  const auto preset = from_json<v1::Preset>(show.output);
   EXPECT_TRUE(MessageDifferencer::Equals(preset, preset_script().preset));
   EXPECT_THAT(show.output, HasSubstr("\"speed_m_per_s\":100"));
 }
 
 TEST(Check, PrintsATableWithUnitsOfTheCaseWithItsSettings) {
   Script script = preset_script();
-  script.check.set_particle_count(8099);
-  script.check.set_element_count(9642);
-  script.check.set_mass_g(72.1534);
-  script.check.set_stable_step_s(2.31e-7);
-  script.check.set_predicted_seconds(49.6);
-  script.check.set_predicted_bytes(6543210);
-  script.check.mutable_theory()->set_gibson_ashby_mpa(0.3012);
-  script.check.add_modelled("Contact is looked for between walls of the same cell.");
+  script.check = from_text<v1::CheckCaseResponse>(R"(
+    particle_count: 8099 element_count: 9642 mass_g: 72.1534 stable_step_s: 2.31e-7 predicted_seconds: 49.6
+    predicted_bytes: 6543210 theory { gibson_ashby_mpa: 0.3012 }
+    modelled: "Contact is looked for between walls of the same cell.")");
   const FakeServer server(script);
   const ProgramResult result = server.run({"check", "preset:type-i", "--set", "loading.speed_m_per_s=250"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
@@ -110,8 +102,7 @@ TEST(List, WalksOverAllPages) {
   EXPECT_EQ(text.exit_code, 0) << text.errors;
   EXPECT_THAT(text.output, HasSubstr("jobs/test  SUCCEEDED\njobs/test  SUCCEEDED\n"));
   EXPECT_THAT(text.output, HasSubstr("3.41 MPa"));
-  v1::ListJobsResponse jobs;
-  ASSERT_TRUE(JsonStringToMessage(server.run({"list", "--json"}).output, &jobs).ok());
+  const auto jobs = from_json<v1::ListJobsResponse>(server.run({"list", "--json"}).output);
   EXPECT_EQ(jobs.jobs_size(), 2);
 }
 
@@ -198,12 +189,9 @@ TEST(Queue, IsATableInTheOrderOfTheStartsAndJson) {
   v1::Queue& queue = script.queue.emplace();
   const FakeServer empty(script);
   EXPECT_EQ(empty.run({"queue"}).output, "the queue is empty\n");
-  for (const char* job : {"jobs/7", "jobs/12"}) {
-    auto& entry = *queue.add_entries();
-    entry.set_job(job);
-    entry.set_reason("All 2 workers are busy.");
-    entry.set_seconds_until_start(64.0);
-  }
+  queue = from_text<v1::Queue>(R"(
+    entries { job: "jobs/7" reason: "All 2 workers are busy." seconds_until_start: 64 }
+    entries { job: "jobs/12" reason: "All 2 workers are busy." seconds_until_start: 64 })");
   const FakeServer server(script);
   EXPECT_EQ(server.run({"queue"}).output,
             "JOB       STARTS IN  REASON\n"
@@ -215,8 +203,7 @@ TEST(Queue, IsATableInTheOrderOfTheStartsAndJson) {
   const ProgramResult table = full.run({"queue"});
   EXPECT_THAT(table.output, HasSubstr("PRIORITY  REASON\n"));
   EXPECT_THAT(table.output, HasSubstr("and 12 345 more\n"));
-  v1::Queue read;
-  ASSERT_TRUE(JsonStringToMessage(full.run({"queue", "--json"}).output, &read).ok());
+  const auto read = from_json<v1::Queue>(full.run({"queue", "--json"}).output);
   EXPECT_TRUE(MessageDifferencer::Equals(read, queue));
 }
 

@@ -1,8 +1,6 @@
 #include "program.h"
 
 #include <csignal>
-#include <fstream>
-#include <iterator>
 
 namespace cellcrush::client::testing {
 
@@ -33,11 +31,6 @@ int count_of(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace cellcrush::client::testing

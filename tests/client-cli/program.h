@@ -1,14 +1,18 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "e2e/process.h"
 #include "expect_text.h"
+#include "programs/process.h"
+#include "programs/temporary_folder.h"
+#include "programs/text_proto.h"
 
 namespace cellcrush::client::testing {
 
+using cellcrush::testing::from_json;
+using cellcrush::testing::from_text;
+using cellcrush::testing::text_of_file;
 using ProgramResult = e2e::Outcome;
 
 /// The real `cellcrush`, started with arguments; it is ended with the object at the latest.
@@ -32,8 +36,5 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const std::
 
 /// How often a part stands in a text.
 int count_of(const std::string& text, const std::string& part);
-
-/// All bytes of a file that a command wrote; none when there is no such file.
-std::string read_file(const std::filesystem::path& path);
 
 }  // namespace cellcrush::client::testing

@@ -2,25 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include "expect_text.h"
+#include "programs/text_proto.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
 namespace {
 
+using cellcrush::testing::from_text;
+
 JobView running_view() {
-  v1::JobEvent event;
-  v1::Job& job = *event.mutable_snapshot()->mutable_job();
-  job.set_name("jobs/a");
-  job.set_state(v1::Job::RUNNING);
-  job.mutable_words()->set_plates(true);
-  v1::Progress& progress = *job.mutable_progress();
-  progress.set_fraction(0.473);
-  progress.set_strain(0.378);
-  progress.set_stress_impact_mpa(3.4123);
-  progress.set_stress_support_mpa(0.447);
-  progress.set_plateau_so_far_mpa(3.381);
-  progress.set_steps_per_second(431.2);
-  progress.set_seconds_left(63);
+  const auto event = from_text<v1::JobEvent>(R"(snapshot { job {
+    name: "jobs/a" state: RUNNING words { plates: true }
+    progress { fraction: 0.473 strain: 0.378 stress_impact_mpa: 3.4123 stress_support_mpa: 0.447
+               plateau_so_far_mpa: 3.381 steps_per_second: 431.2 seconds_left: 63 } } })");
   JobView view;
   view.apply(event);
   return view;
@@ -47,10 +42,8 @@ TEST(Progress, ANarrowTerminalShowsTheSameInMoreLines) {
   std::string all;
   for (const std::string& line : progress_lines(running_view(), 40, {false, false, false}))
     all.append(line).append("\n");
-  for (const char* part :
-       {"47.3 %", "1 min 03 s left", "strain 0.378", "3.412 MPa", "0.447 MPa", "3.381 MPa", "431 steps/s"}) {
-    EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
-  }
+  testing::expect_parts_in(
+      all, {"47.3 %", "1 min 03 s left", "strain 0.378", "3.412 MPa", "0.447 MPa", "3.381 MPa", "431 steps/s"});
 }
 
 TEST(Progress, TheBarIsAsWideAsAskedAndFillsUp) {
@@ -66,25 +59,16 @@ TEST(Progress, TheBarIsAsWideAsAskedAndFillsUp) {
 }
 
 TEST(Progress, APendingJobSaysThatItWaits) {
-  v1::JobEvent event;
-  event.mutable_snapshot()->mutable_job()->set_name("jobs/a");
-  event.mutable_snapshot()->mutable_job()->set_state(v1::Job::PENDING);
   JobView view;
-  view.apply(event);
+  view.apply(from_text<v1::JobEvent>("snapshot { job { name: 'jobs/a' state: PENDING } }"));
   EXPECT_EQ(progress_line(view), "jobs/a  PENDING: waiting for a worker");
   EXPECT_EQ(progress_lines(view, 80, {}).front(), "waiting for a worker");
 }
 
 TEST(Progress, SamplesAndStatesKeepWhatIsKnown) {
   JobView view = running_view();
-  v1::JobEvent sample;
-  sample.mutable_sample()->set_strain(0.4);
-  sample.mutable_sample()->set_stress_impact_mpa(5.0);
-  view.apply(sample);
-  v1::JobEvent state;
-  state.mutable_state()->set_name("jobs/a");
-  state.mutable_state()->set_state(v1::Job::CANCELLING);
-  view.apply(state);
+  view.apply(from_text<v1::JobEvent>("sample { strain: 0.4 stress_impact_mpa: 5 }"));
+  view.apply(from_text<v1::JobEvent>("state { name: 'jobs/a' state: CANCELLING }"));
   EXPECT_EQ(view.progress().strain(), 0.4);
   EXPECT_EQ(view.progress().stress_impact_mpa(), 5.0);
   EXPECT_EQ(view.progress().plateau_so_far_mpa(), 3.381);

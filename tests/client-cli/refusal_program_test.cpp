@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -13,19 +12,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-using google::protobuf::util::JsonStringToMessage;
-
 v1::ProblemList two_problems() {
-  v1::ProblemList problems;
-  v1::Problem& speed = *problems.add_problems();
-  speed.set_field("loading.speed_m_per_s");
-  speed.set_value("0");
-  speed.set_message("must be above 0");
-  speed.set_remedy("give a speed such as 100");
-  v1::Problem& depth = *problems.add_problems();
-  depth.set_field("depth_mm");
-  depth.set_message("is missing");
-  return problems;
+  return from_text<v1::ProblemList>(R"(
+    problems { field: "loading.speed_m_per_s" value: "0" message: "must be above 0" remedy: "give a speed such as 100" }
+    problems { field: "depth_mm" message: "is missing" })");
 }
 
 Script refusing_script() {
@@ -64,13 +54,11 @@ TEST(Refusal, WithJsonTheProblemsAreAnObject) {
   const FakeServer server(refusing_script());
   const ProgramResult submit = server.run({"submit", "-", "--json"});
   EXPECT_EQ(submit.exit_code, 2);
-  v1::ProblemList problems;
-  ASSERT_TRUE(JsonStringToMessage(submit.output, &problems).ok()) << submit.output;
+  const auto problems = from_json<v1::ProblemList>(submit.output);
   EXPECT_EQ(problems.problems_size(), 2);
   const ProgramResult check = server.run({"check", "-", "--json"});
   EXPECT_EQ(check.exit_code, 2);
-  v1::CheckCaseResponse response;
-  ASSERT_TRUE(JsonStringToMessage(check.output, &response).ok()) << check.output;
+  const auto response = from_json<v1::CheckCaseResponse>(check.output);
   EXPECT_EQ(response.problems(1).field(), "depth_mm");
 }
 
@@ -209,8 +197,7 @@ TEST(NoServer, EndsWithThreeWithinTwoSeconds) {
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_LT(result.seconds, 2.0);
     EXPECT_THAT(result.errors, HasSubstr("no server answers at"));
-    google::rpc::Status status;
-    ASSERT_TRUE(JsonStringToMessage(result.output, &status).ok()) << result.output;
+    const auto status = from_json<google::rpc::Status>(result.output);
     EXPECT_EQ(status.code(), grpc::StatusCode::UNAVAILABLE);
   }
 }

@@ -1,7 +1,6 @@
 #include "scripted_job.h"
 
-#include <google/protobuf/text_format.h>
-
+#include "programs/text_proto.h"
 #include "synthetic_crush.h"
 
 namespace cellcrush::client::testing {
@@ -27,14 +26,28 @@ constexpr const char* kFailedJob = R"(
 
 constexpr const char* kSucceededJob = R"pb(
   summary {
-    plateau_window_low: 0.2 plateau_window_high: 0.4
-    plateau_stress_impact_mpa: 3.412 plateau_stress_support_mpa: 0.4471 densification_strain: 0.76
-    energy_error_relative: 0.0123 deepest_penetration: 0.121 step_count: 20504 solver_seconds: 45.3
+    plateau_window_low: 0.2
+    plateau_window_high: 0.4
+    plateau_stress_impact_mpa: 3.412
+    plateau_stress_support_mpa: 0.4471
+    densification_strain: 0.76
+    energy_error_relative: 0.0123
+    deepest_penetration: 0.121
+    step_count: 20504
+    solver_seconds: 45.3
     stage_times { evaluate_internal_forces_s: 30 find_contacts_s: 10 }
-    crush_mode: CRUSH_MODE_I crush_mode_words: "layer by layer (I)" crush_mode_strain: 0.11
+    crush_mode: CRUSH_MODE_I
+    crush_mode_words: "layer by layer (I)"
+    crush_mode_strain: 0.11
     shock_error_relative: -0.0123
-    front { strain_behind: 0.905 stress_ahead_mpa: 0.391 solid_fraction_behind: 1.07 wall_fraction_behind: 1.02
-            shock_mpa: 3.431 shock_error_relative: 0.0056 }
+    front {
+      strain_behind: 0.905
+      stress_ahead_mpa: 0.391
+      solid_fraction_behind: 1.07
+      wall_fraction_behind: 1.02
+      shock_mpa: 3.431
+      shock_error_relative: 0.0056
+    }
     ledger { work_external_mj: 20000 plastic_mj: 17800 contact_damping_mj: 2200 }
     theory { shock_mpa: 3.37 gibson_ashby_mpa: 0.301 densification_strain: 0.86 }
   }
@@ -42,17 +55,13 @@ constexpr const char* kSucceededJob = R"pb(
   end_time { seconds: 1047 }
 )pb";
 
-void merge(const char* text, v1::Job& job) { google::protobuf::TextFormat::MergeFromString(text, &job); }
-
 }  // namespace
 
 v1::Job make_job(v1::Job::State state) {
-  v1::Job job;
+  const std::string end = state == v1::Job::FAILED ? kFailedJob : state == v1::Job::SUCCEEDED ? kSucceededJob : "";
+  auto job = cellcrush::testing::from_text<v1::Job>(kCaseOfJob + end);
   job.set_name("jobs/test");
   job.set_state(state);
-  merge(kCaseOfJob, job);
-  if (state == v1::Job::FAILED) merge(kFailedJob, job);
-  if (state == v1::Job::SUCCEEDED) merge(kSucceededJob, job);
   return job;
 }
 

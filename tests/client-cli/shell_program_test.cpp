@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "e2e/program_help.h"
 #include "program.h"
+#include "programs/program_help.h"
 
 namespace cellcrush::client::testing {
 namespace {

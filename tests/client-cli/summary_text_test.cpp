@@ -3,11 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sstream>
-
-#include "chart/display_text.h"
 #include "commands/history_csv.h"
+#include "expect_text.h"
 #include "plots/job_curves.h"
+#include "programs/text_proto.h"
 #include "scripted_job.h"
 #include "synthetic_crush.h"
 #include "terminal/job_text.h"
@@ -15,6 +14,7 @@
 namespace cellcrush::client {
 namespace {
 
+using cellcrush::testing::from_text;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -33,28 +33,20 @@ TEST(SummaryText, HasBothShockTheoriesWithTheirErrorsFrontModeAndLedger) {
 }
 
 TEST(SummaryText, SaysHowSteadyASlowCrushWasAndNothingOfAFastOne) {
-  v1::Job job;
-  job.mutable_words()->set_plates(true);
-  v1::Summary& summary = *job.mutable_summary();
-  summary.mutable_quasi_static()->set_plate_difference_relative(0.0058);
-  summary.mutable_quasi_static()->set_plate_difference_greatest(0.021);
-  summary.mutable_quasi_static()->set_kinetic_share(0.0052);
+  auto job = from_text<v1::Job>(R"(words { plates: true } summary { quasi_static {
+    plate_difference_relative: 0.0058 plate_difference_greatest: 0.021 kinetic_share: 0.0052 } })");
   const std::string slow = summary_text(job, 120);
   EXPECT_THAT(slow, ContainsRegex("plate stress difference beyond 5 % strain +0.58 %.*at most 2.10 %"));
   EXPECT_THAT(slow, ContainsRegex("largest kinetic energy +0.52 % +of the plastic work"));
-  summary.mutable_quasi_static()->set_kinetic_share(0.9);
+  job.mutable_summary()->mutable_quasi_static()->set_kinetic_share(0.9);
   EXPECT_THAT(summary_text(job, 120), Not(HasSubstr("plate stress difference")));
 }
 
 TEST(SummaryText, NamesWarningsWithTheirRemedies) {
-  v1::Job job;
-  v1::Summary& summary = *job.mutable_summary();
-  EXPECT_THAT(summary_text(job, 120), Not(HasSubstr("Warning")));
-  v1::Warning& warning = *summary.add_warnings();
-  warning.set_kind(v1::Warning::DEEP_PENETRATION);
-  warning.set_message("Walls have overlapped by 61 %.");
-  warning.set_remedy("Give a shorter numerics.time_step_s.");
-  const std::string text = summary_text(job, 120);
+  EXPECT_THAT(summary_text(from_text<v1::Job>("summary {}"), 120), Not(HasSubstr("Warning")));
+  const std::string text = summary_text(from_text<v1::Job>(R"(summary { warnings { kind: DEEP_PENETRATION
+    message: "Walls have overlapped by 61 %." remedy: "Give a shorter numerics.time_step_s." } })"),
+                                        120);
   EXPECT_THAT(text, HasSubstr("Warning (DEEP_PENETRATION): Walls have overlapped by 61 %.\n"));
   EXPECT_THAT(text, HasSubstr("Remedy: Give a shorter numerics.time_step_s.\n"));
 }
@@ -62,8 +54,7 @@ TEST(SummaryText, NamesWarningsWithTheirRemedies) {
 TEST(SummaryText, FitsItsTerminal) {
   const v1::Job job = testing::make_job(v1::Job::SUCCEEDED);
   for (const int width : {60, 80, 100}) {
-    std::istringstream lines(summary_text(job, width));
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), width) << line;
+    testing::expect_no_wider(summary_text(job, width), width);
   }
 }
 
@@ -75,11 +66,8 @@ TEST(SummaryText, SaysWhereTheoryDoesNotApply) {
 }
 
 TEST(SummaryText, OfAFrameIsTheLedgerWithWhatItStartedWith) {
-  v1::Job job;
-  v1::Summary& summary = *job.mutable_summary();
-  summary.mutable_ledger()->set_work_external_mj(500.0);
-  summary.mutable_ledger()->set_kinetic_mj(2000.0);
-  const std::string text = summary_text(job, 120);
+  const std::string text =
+      summary_text(from_text<v1::Job>("summary { ledger { work_external_mj: 500 kinetic_mj: 2000 } }"), 120);
   EXPECT_THAT(text, ContainsRegex("initial energy +1.50 J +75.00 %"));
   EXPECT_THAT(text, Not(HasSubstr("plateau")));
 }

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +13,6 @@ namespace cellcrush::client::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-using google::protobuf::util::JsonStringToMessage;
 
 Script sweep_script(const std::vector<v1::Job::State>& ends) {
   Script script;
@@ -69,11 +66,9 @@ TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
 
 TEST(Sweep, PrintsNotesOnStderrExceptInJson) {
   Script script = sweep_script(kThreeSucceed);
-  v1::Problem& note = *script.sweeps.sweep.add_notes();
-  note.set_field("material.density_kg_per_m3");
-  note.set_value("2.7");
-  note.set_message("is far below that of any solid. This applies to point 2 of 4.");
-  note.set_remedy("Give it in kg/m^3.");
+  *script.sweeps.sweep.add_notes() = from_text<v1::Problem>(R"(
+    field: "material.density_kg_per_m3" value: "2.7" remedy: "Give it in kg/m^3."
+    message: "is far below that of any solid. This applies to point 2 of 4.")");
   const FakeServer server(std::move(script));
   const std::vector<std::string> sweep = {"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100"};
   const ProgramResult result = server.run(sweep);
@@ -188,8 +183,7 @@ TEST(SweepTable, IsPrintedAsATextCsvOrJson) {
   const ProgramResult csv = server.run({"table", "sweeps/test", "--csv"});
   EXPECT_EQ(csv.output.find("loading.speed_m_per_s,job,state,"), 0U) << csv.output;
   EXPECT_EQ(std::count(csv.output.begin(), csv.output.end(), '\n'), 3);
-  v1::SweepTable table;
-  ASSERT_TRUE(JsonStringToMessage(server.run({"table", "test", "--json"}).output, &table).ok());
+  const auto table = from_json<v1::SweepTable>(server.run({"table", "test", "--json"}).output);
   EXPECT_EQ(table.rows_size(), 2);
   EXPECT_EQ(server.run({"table", "test", "--json", "--csv"}).exit_code, 2);
   EXPECT_EQ(server.run({"table", "none"}).exit_code, 5);
@@ -199,8 +193,7 @@ TEST(SweepTable, IsPrintedAsATextCsvOrJson) {
 TEST(SweepTable, OfManyPagesIsOneTable) {
   const FakeServer server(
       sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED}));
-  v1::SweepTable table;
-  ASSERT_TRUE(JsonStringToMessage(server.run({"table", "test", "--json"}).output, &table).ok());
+  const auto table = from_json<v1::SweepTable>(server.run({"table", "test", "--json"}).output);
   EXPECT_EQ(table.fields_size(), 1);
   ASSERT_EQ(table.rows_size(), 5);
   EXPECT_EQ(table.rows(4).job(), "jobs/test-5");

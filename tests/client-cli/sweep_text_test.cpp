@@ -1,16 +1,15 @@
 #include "terminal/sweep_text.h"
 
 #include <gmock/gmock.h>
-#include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <sstream>
 
 #include "command_error.h"
 #include "expect_text.h"
 #include "plots/sweep_curves.h"
+#include "programs/text_proto.h"
 #include "terminal/job_list_text.h"
 #include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_progress.h"
@@ -20,23 +19,20 @@
 namespace cellcrush::client {
 namespace {
 
+using cellcrush::testing::from_text;
+using cellcrush::testing::with_text;
 using testing::expect_no_wider;
 using testing::expect_parts_in;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 v1::Job make_job(int number, v1::Job::State state, double speed) {
-  v1::Job job;
+  auto job = from_text<v1::Job>("words { plates: true }");
   job.set_name("jobs/" + std::to_string(number));
   job.set_state(state);
   job.mutable_case_()->mutable_loading()->set_speed_m_per_s(speed);
-  job.mutable_words()->set_plates(true);
-  if (state == v1::Job::RUNNING || state == v1::Job::SUCCEEDED) {
-    job.mutable_progress()->set_fraction(0.473);
-    job.mutable_progress()->set_strain(0.31);
-    job.mutable_progress()->set_plateau_so_far_mpa(3.39);
-  }
-  return job;
+  const bool has_begun = state == v1::Job::RUNNING || state == v1::Job::SUCCEEDED;
+  return has_begun ? with_text(job, "progress { fraction: 0.473 strain: 0.31 plateau_so_far_mpa: 3.39 }") : job;
 }
 
 v1::SweepTable make_table(int succeeded) {
@@ -54,10 +50,9 @@ v1::SweepTable make_table(int succeeded) {
       continue;
     }
     v1::Summary& summary = *row.mutable_result()->mutable_summary();
-    EXPECT_TRUE(google::protobuf::TextFormat::ParseFromString(
+    summary = from_text<v1::Summary>(
         R"(step_count: 1000 plateau_window_low: 0.2 plateau_window_high: 0.4 plateau_stress_support_mpa: 0.44
-           absorbed_energy_mj: 12345 energy_error_relative: 0.0121 theory { gibson_ashby_mpa: 0.301 })",
-        &summary));
+           absorbed_energy_mj: 12345 energy_error_relative: 0.0121 theory { gibson_ashby_mpa: 0.301 })");
     summary.set_plateau_stress_impact_mpa(0.25 + 1e-4 * speed + 3e-4 * speed * speed);
     summary.set_crush_mode(i == 1 ? v1::Summary::CRUSH_MODE_V : v1::Summary::CRUSH_MODE_I);
     summary.set_crush_mode_words(i == 1 ? "V-shaped band (V)" : "layer by layer (I)");
@@ -216,14 +211,8 @@ TEST(SweepProgress, FitsItsTerminal) {
 
 TEST(SweepProgress, HasOneBarAndTheTimeLeftOfTheWholeSweep) {
   SweepView view = make_view(4);
-  v1::WatchSweepResponse response;
-  response.set_job("jobs/3");
-  v1::Progress& progress = *response.mutable_event()->mutable_progress();
-  progress.set_fraction(0.5);
-  progress.set_step_count(1000);
-  progress.set_steps_per_second(10.0);
-  progress.set_seconds_left(50.0);
-  view.apply(response);
+  view.apply(from_text<v1::WatchSweepResponse>(R"(
+    job: "jobs/3" event { progress { fraction: 0.5 step_count: 1000 steps_per_second: 10 seconds_left: 50 } })"));
   // 50 s of the running job, and 100 s for each of the two that wait.
   ASSERT_TRUE(view.seconds_left().has_value());
   EXPECT_NEAR(*view.seconds_left(), 250.0, 1e-9);
@@ -235,19 +224,11 @@ TEST(SweepProgress, HasOneBarAndTheTimeLeftOfTheWholeSweep) {
 
 TEST(SweepProgress, ShowsEveryDigitOfWhatIsVaried) {
   SweepView view;
-  v1::WatchSweepResponse snapshot;
-  snapshot.mutable_snapshot()->add_axes()->set_field("lattice.hexagon.wall_thickness_mm");
-  for (const double thickness : {0.123456, 0.123457}) {
-    const std::string name = "jobs/" + std::to_string(snapshot.snapshot().jobs_size() + 1);
-    snapshot.mutable_snapshot()->add_jobs(name);
-    v1::WatchSweepResponse response;
-    response.set_job(name);
-    v1::Job& job = *response.mutable_event()->mutable_state();
-    job.set_name(name);
-    job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_wall_thickness_mm(thickness);
-    view.apply(response);
-  }
-  view.apply(snapshot);
+  for (const char* message :
+       {R"(job: "jobs/1" event { state { name: "jobs/1" case { lattice { hexagon { wall_thickness_mm: 0.123456 }}}}})",
+        R"(job: "jobs/2" event { state { name: "jobs/2" case { lattice { hexagon { wall_thickness_mm: 0.123457 }}}}})",
+        R"(snapshot { axes { field: "lattice.hexagon.wall_thickness_mm" } jobs: ["jobs/1", "jobs/2"] })"})
+    view.apply(from_text<v1::WatchSweepResponse>(message));
   const auto lines = sweep_progress_lines(view, 79, 24, {});
   EXPECT_THAT(lines[4], HasSubstr("0.123456"));
   EXPECT_THAT(lines[5], HasSubstr("0.123457"));
@@ -260,18 +241,10 @@ TEST(SweepProgress, InALogIsOneLine) {
 }
 
 TEST(SweepText, DescribesTheAxesAndTheJobs) {
-  v1::Sweep sweep;
-  sweep.set_name("sweeps/3");
-  v1::SweepAxis& list = *sweep.add_axes();
-  list.set_field("loading.speed_m_per_s");
-  for (const double speed : {50.0, 100.0}) list.mutable_list()->add_values(speed);
-  v1::SweepAxis& seeds = *sweep.add_axes();
-  seeds.set_field("lattice.imperfection.seed");
-  seeds.set_seed_count(8);
-  sweep.add_jobs("jobs/1");
-  sweep.add_jobs("jobs/2");
-  (*sweep.mutable_state_counts())["SUCCEEDED"] = 2;
-  (*sweep.mutable_labels())["who"] = "me";
+  const auto sweep = from_text<v1::Sweep>(R"(name: "sweeps/3"
+    axes { field: "loading.speed_m_per_s" list { values: [50, 100] } }
+    axes { field: "lattice.imperfection.seed" seed_count: 8 }
+    jobs: ["jobs/1", "jobs/2"] state_counts { key: "SUCCEEDED" value: 2 } labels { key: "who" value: "me" })");
   const std::string text = description_text(sweep);
   expect_parts_in(text, {"sweeps/3: 2 jobs, 2 SUCCEEDED\n", "over loading.speed_m_per_s      50, 100\n",
                          "over lattice.imperfection.seed  1 to 8\n", "jobs/1, jobs/2\n", "who=me\n"});
@@ -332,13 +305,12 @@ TEST(SweepChart, TwoFieldsGiveASeriesAValueOfTheSecond) {
   EXPECT_THAT(chart.note, HasSubstr("squares: support plate"));
 }
 
-// A search through all jobs for each event would take minutes.
-TEST(SweepView, EventsOfAHundredThousandJobsAreAppliedInSeconds) {
+// A search through all jobs for each event would take longer than a test may.
+TEST(SweepView, EventsOfAHundredThousandJobsAreApplied) {
   constexpr int kJobs = 100'000;
   SweepView view;
   v1::WatchSweepResponse first;
   for (int i = 1; i <= kJobs; ++i) first.mutable_snapshot()->add_jobs("jobs/" + std::to_string(i));
-  const auto start = std::chrono::steady_clock::now();
   view.apply(first);
   for (int i = 1; i <= kJobs; ++i) {
     v1::WatchSweepResponse response;
@@ -346,7 +318,6 @@ TEST(SweepView, EventsOfAHundredThousandJobsAreAppliedInSeconds) {
     response.mutable_event()->mutable_state()->set_state(i % 2 == 0 ? v1::Job::SUCCEEDED : v1::Job::RUNNING);
     view.apply(response);
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
   ASSERT_EQ(view.jobs().size(), static_cast<std::size_t>(kJobs));
   EXPECT_EQ(view.jobs().back().name, "jobs/100000");
   EXPECT_EQ(view.count_ended(), kJobs / 2);

@@ -7,7 +7,7 @@
 
 #include "docs/links.h"
 #include "docs/page.h"
-#include "e2e/program_help.h"
+#include "programs/program_help.h"
 
 namespace cellcrush::docs {
 

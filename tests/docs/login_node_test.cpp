@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "docs/session.h"
-#include "e2e/process.h"
-#include "server/temporary_folder.h"
+#include "programs/process.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::docs {
 namespace {

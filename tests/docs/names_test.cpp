@@ -18,14 +18,14 @@
 #include "docs/commands.h"
 #include "docs/links.h"
 #include "docs/page.h"
-#include "e2e/process.h"
+#include "programs/process.h"
 #include "scenes/presets.h"
 
 namespace cellcrush::docs {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
+using ::testing::Contains;
+using ::testing::ElementsAre;
 
 namespace fs = std::filesystem;
 
@@ -177,7 +177,7 @@ TEST(CommandsPage, IsWhatTheProgramGenerates) {
   if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) std::ofstream(path, std::ios::binary) << made;
   EXPECT_TRUE(read_text(path) == made) << path << " is out of date: run this test with CELLCRUSH_WRITE_PAGES=1";
   for (const auto& [command, options] : e2e::read_help(CELLCRUSH_PROGRAM).commands)
-    EXPECT_THAT(made, testing::HasSubstr("\n### " + command + "\n"));
+    EXPECT_THAT(made, ::testing::HasSubstr("\n### " + command + "\n"));
 }
 
 const std::vector<Page>& pages() {
@@ -190,7 +190,7 @@ TEST(PagesName, CommandsAndOptionsThatExist) {
   EXPECT_GT(programs.at("cellcrush").commands.size(), 15U);
   EXPECT_THAT(programs.at("cellcrush").commands.at("submit"), Contains("--set"));
   EXPECT_THAT(programs.at("cellcrushd").options, Contains("--workers"));
-  EXPECT_THAT(programs.at("cellcrushd").commands, Contains(testing::Key("backup")));
+  EXPECT_THAT(programs.at("cellcrushd").commands, Contains(::testing::Key("backup")));
   EXPECT_THAT(programs.at("deploy/quickstart").options, Contains("--small"));
   const Findings findings = check_commands(programs, pages());
   EXPECT_TRUE(findings.empty()) << to_text(findings);

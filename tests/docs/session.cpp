@@ -11,8 +11,8 @@
 #include <sstream>
 #include <system_error>
 
-#include "e2e/process.h"
-#include "server/temporary_folder.h"
+#include "programs/process.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::docs {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "e2e/daemon_test.h"
-#include "server/certificates.h"
-#include "server/temporary_folder.h"
+#include "programs/certificates.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::e2e {
 namespace {

@@ -6,7 +6,7 @@
 namespace cellcrush::e2e {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class BadInput : public DaemonTest {
  protected:
@@ -21,7 +21,7 @@ class BadInput : public DaemonTest {
     }
     const Outcome listed = cellcrush({"list", "--json"});
     EXPECT_EQ(listed.exit_code, 0) << "The daemon does not go on:\n" << listed.all();
-    EXPECT_THAT(listed.output, testing::Not(HasSubstr("jobs/"))) << "A refused case was queued.";
+    EXPECT_THAT(listed.output, ::testing::Not(HasSubstr("jobs/"))) << "A refused case was queued.";
   }
 };
 

@@ -16,7 +16,7 @@ namespace cellcrush::e2e {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // The objects of a stream in JSON, one a line; a line that is none fails the test.
 std::vector<json> parse_lines(const std::string& text) {
@@ -51,8 +51,8 @@ TEST_F(Crush, SubmitAndWatchShowsBothPlateausBesideTheory) {
   EXPECT_THAT(outcome.all(), HasSubstr("jobs/"));
   EXPECT_THAT(outcome.all(), HasSubstr("SUCCEEDED"));
   EXPECT_THAT(outcome.all(), HasSubstr("MPa"));
-  EXPECT_THAT(outcome.all(), testing::ContainsRegex("[Tt]heory"));
-  EXPECT_THAT(outcome.output, testing::Not(HasSubstr("\x1b["))) << "Escape codes where there is no terminal.";
+  EXPECT_THAT(outcome.all(), ::testing::ContainsRegex("[Tt]heory"));
+  EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr("\x1b["))) << "Escape codes where there is no terminal.";
 }
 
 TEST_F(Crush, TheStreamIsASnapshotThenStatesAndSamplesCountedWithoutAGap) {
@@ -110,7 +110,7 @@ TEST_F(Crush, AJobIsListedAndShownAlsoAfterARestart) {
   EXPECT_EQ(summary["crush_mode"], "CRUSH_MODE_I");
   EXPECT_GT(summary["ledger"]["contact_damping_mj"].get<double>(), 0.0);
   const Outcome text = cellcrush({"show", job});
-  EXPECT_THAT(text.output, testing::ContainsRegex("crush mode: layer by layer \\(I\\)"));
+  EXPECT_THAT(text.output, ::testing::ContainsRegex("crush mode: layer by layer \\(I\\)"));
   EXPECT_THAT(text.output, HasSubstr("contact damping"));
 }
 

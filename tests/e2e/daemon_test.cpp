@@ -1,7 +1,6 @@
 #include "e2e/daemon_test.h"
 
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 
 namespace cellcrush::e2e {
@@ -16,22 +15,13 @@ output { sample_count: 100 frame_count: 5 }
 )";
 }
 
-void DaemonTest::SetUp() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "cellcrush-e2e-XXXXXX").string();
-  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-  folder_ = pattern;
-  start_daemon();
-}
-
 void DaemonTest::TearDown() {
   if (daemon_) stop_daemon();
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
 void DaemonTest::start_daemon() {
   daemon_ = std::make_unique<Process>(std::vector<std::string>{CELLCRUSHD_PROGRAM, "--data",
-                                                               (folder_ / "data").string(), "--listen", address(),
+                                                               (folder() / "data").string(), "--listen", address(),
                                                                "--listen", "127.0.0.1:0", "--http", "none"});
   ASSERT_TRUE(daemon_->wait_for_output("cellcrushd is listening on " + address(), kShortLimit))
       << daemon_->output() << daemon_->errors();
@@ -55,7 +45,7 @@ Outcome DaemonTest::cellcrush(std::vector<std::string> arguments, std::chrono::m
 }
 
 std::string DaemonTest::write_file(const std::string& name, const std::string& text) const {
-  const std::filesystem::path path = folder_ / name;
+  const std::filesystem::path path = folder() / name;
   std::ofstream(path, std::ios::binary) << text;
   return path.string();
 }

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "e2e/process.h"
+#include "programs/process.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::e2e {
 
@@ -20,9 +21,9 @@ inline constexpr std::chrono::seconds kCrushLimit{100};
 std::string small_case();
 
 /// A test with a temporary folder, and a cellcrushd of its own that listens on a Unix socket in it.
-class DaemonTest : public testing::Test {
+class DaemonTest : public ::testing::Test {
  protected:
-  void SetUp() override;
+  void SetUp() override { start_daemon(); }
   void TearDown() override;
 
   void start_daemon();
@@ -39,12 +40,12 @@ class DaemonTest : public testing::Test {
   /// Writes a file into the temporary folder and returns its path.
   [[nodiscard]] std::string write_file(const std::string& name, const std::string& text) const;
 
-  [[nodiscard]] std::string address() const { return "unix:" + (folder_ / "socket").string(); }
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] std::string address() const { return "unix:" + (folder() / "socket").string(); }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
   [[nodiscard]] Process& daemon() const { return *daemon_; }
 
  private:
-  std::filesystem::path folder_;
+  cellcrush::testing::TemporaryFolder folder_;
   std::unique_ptr<Process> daemon_;
 };
 

@@ -3,26 +3,16 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <functional>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "e2e/daemon_test.h"
 
 namespace cellcrush::e2e {
 namespace {
 
+using cellcrush::testing::wait_until;
 using nlohmann::json;
-using testing::HasSubstr;
-
-// Whether it becomes true in time.
-bool within(std::chrono::milliseconds limit, const std::function<bool()>& is_so) {
-  for (const auto end = std::chrono::steady_clock::now() + limit; !is_so();) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  return true;
-}
+using ::testing::HasSubstr;
 
 class Failure : public DaemonTest {
  protected:
@@ -36,7 +26,7 @@ class Failure : public DaemonTest {
       return "";
     }
     std::string job = object["name"].get<std::string>();
-    EXPECT_TRUE(within(kShortLimit, [&] { return (worker_ = worker_of(job)) > 0; })) << job << " was not started.";
+    EXPECT_TRUE(wait_until([&] { return (worker_ = worker_of(job)) > 0; }, kShortLimit)) << job << " was not started.";
     return job;
   }
 
@@ -52,7 +42,7 @@ class Failure : public DaemonTest {
 
   // Whether the process ends within 10 s; a zombie counts as ended.
   static bool ends(pid_t process) {
-    return within(std::chrono::seconds(10), [process] { return kill(process, 0) != 0; });
+    return wait_until([process] { return kill(process, 0) != 0; }, std::chrono::seconds(10));
   }
 
   pid_t worker_ = 0;
@@ -73,7 +63,7 @@ TEST_F(Failure, AKilledWorkerIsReplacedAndItsJobGoesOn) {
   const std::string job = start_long_job();
   ASSERT_GT(worker_, 0);
   ASSERT_EQ(kill(worker_, SIGKILL), 0);
-  EXPECT_TRUE(within(kShortLimit, [&] { return worker_of(job) > 0 && worker_of(job) != worker_; }));
+  EXPECT_TRUE(wait_until([&] { return worker_of(job) > 0 && worker_of(job) != worker_; }, kShortLimit));
   const Outcome shown = cellcrush({"show", job});
   EXPECT_THAT(shown.output, HasSubstr("RUNNING"));
   EXPECT_THAT(shown.output, HasSubstr("2; 1 was lost or left the job")) << shown.all();
@@ -105,7 +95,7 @@ TEST_F(Failure, AJobIsSuspendedAndResumed) {
   EXPECT_TRUE(ends(worker_));
   const Outcome resumed = cellcrush({"resume", job});
   EXPECT_EQ(resumed.exit_code, 0) << resumed.all();
-  EXPECT_TRUE(within(kShortLimit, [&] { return worker_of(job) > 0; }));
+  EXPECT_TRUE(wait_until([&] { return worker_of(job) > 0; }, kShortLimit));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "e2e/daemon_test.h"
-#include "e2e/program_help.h"
+#include "programs/program_help.h"
 
 namespace cellcrush::e2e {
 namespace {

@@ -9,7 +9,7 @@ namespace cellcrush::e2e {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class SecondDay : public DaemonTest {
  protected:

@@ -16,7 +16,7 @@
 #include "access/token_file.h"
 #include "faults/fault_fixture.h"
 #include "grpc/health/v1/health.grpc.pb.h"
-#include "server/certificates.h"
+#include "programs/certificates.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {

@@ -9,6 +9,7 @@
 #include "server/small_case.h"
 #include "store/journal_reader.h"
 #include "store/report_log.h"
+#include "translate/case_words.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -31,8 +32,10 @@ class CorruptRowTest : public FaultFixture {
   void fill() {
     fill_journal(data_folder(), count_, endless_case());
     store::JournalReader reader(journal());
-    for (auto& stored : reader.list_jobs({}, false, 1, static_cast<int>(count_)))
-      before_[stored.job.name()] = std::move(stored.job);
+    v1::ListJobsResponse stored;
+    for (auto& row : reader.list_jobs({}, false, 1, static_cast<int>(count_))) *stored.add_jobs() = std::move(row.job);
+    translate::add_words(stored);
+    for (const auto& job : stored.jobs()) before_[job.name()] = job;
   }
 
   // That all jobs but the first are served as they were, except `damaged`.
@@ -42,7 +45,6 @@ class CorruptRowTest : public FaultFixture {
     int intact = 0;
     for (const auto& [name, job] : before_) {
       if (name == damaged) continue;
-      after[name].clear_words();  // come with the answer
       ASSERT_EQ(after[name].SerializeAsString(), job.SerializeAsString()) << name;
       ++intact;
     }

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "programs/temporary_folder.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
-#include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
 

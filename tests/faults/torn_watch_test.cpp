@@ -11,6 +11,7 @@
 #include "server/small_case.h"
 #include "server/watch_contract.h"
 #include "store/journal_reader.h"
+#include "translate/case_words.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -75,15 +76,12 @@ class TornWatcher {
 
 class TornWatchTest : public FaultFixture {
  protected:
-  void expect_the_journals(std::vector<v1::JobEvent> seen, std::int64_t job) {
+  void expect_the_journals(const std::vector<v1::JobEvent>& seen, std::int64_t job) {
     store::JournalReader reader(journal());
-    const auto truth = reader.events(job, 0, 1'000'000);
+    auto truth = reader.events(job, 0, 1'000'000);
     ASSERT_EQ(seen.size(), truth.size());
     for (std::size_t i = 0; i < truth.size(); ++i) {
-      if (seen[i].has_state()) {  // words come with the answer
-        seen[i].mutable_state()->clear_words();
-        if (seen[i].state().has_summary()) seen[i].mutable_state()->mutable_summary()->clear_crush_mode_words();
-      }
+      translate::add_words(truth[i]);
       ASSERT_EQ(seen[i].SerializeAsString(), truth[i].SerializeAsString()) << "event " << i + 1;
     }
   }

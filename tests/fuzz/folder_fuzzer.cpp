@@ -16,7 +16,7 @@
 
 #include "error.h"
 #include "fuzz/prepared_folder.h"
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 #include "store/report_log.h"
 #include "worker/checkpoint_file.h"
 #include "worker/claim.h"

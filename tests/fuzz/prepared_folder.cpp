@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "cellcrush/v1/sample.pb.h"
+#include "programs/text_proto.h"
 #include "server/sample_writer.h"
 #include "server/small_case.h"
 #include "store/data_folder.h"
@@ -16,11 +17,7 @@ constexpr int kSamples = 5;
 constexpr int kFrames = 3;
 
 v1::Mesh mesh_of_two() {
-  v1::Mesh out;
-  out.set_particle_count(3);
-  for (const int node : {0, 1, 1, 2}) out.add_element_nodes(node);
-  for (const float thickness : {0.5F, 0.25F}) out.add_thickness_mm(thickness);
-  return out;
+  return testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25]");
 }
 
 v1::Sample sample_at(int step) {
@@ -53,14 +50,11 @@ void change(store::Journal& journal, std::int64_t job, v1::Job::State state, boo
 }
 
 void add_sweep(store::Journal& journal) {
-  v1::Sweep sweep;
+  auto sweep = testing::from_text<v1::Sweep>(
+      R"(owner: "local" axes { field: "loading.speed_m_per_s" list { values: [10, 20, 40] } })");
   *sweep.mutable_case_() = testing::tiny_case();
-  sweep.set_owner("local");
-  auto& axis = *sweep.add_axes();
-  axis.set_field("loading.speed_m_per_s");
-  for (const double speed : {10.0, 20.0, 40.0}) axis.mutable_list()->add_values(speed);
   std::vector<store::SweepJob> jobs;
-  for (const double speed : axis.list().values()) jobs.push_back({job_of(sweep.case_()), {speed}, 1000});
+  for (const double speed : sweep.axes(0).list().values()) jobs.push_back({job_of(sweep.case_()), {speed}, 1000});
   const auto made = journal.create_sweep(sweep, jobs, "of the sweep", "hash");
   change(journal, made.jobs[0], v1::Job::RUNNING);
   change(journal, made.jobs[0], v1::Job::FAILED);

@@ -26,8 +26,8 @@
 
 #include "error.h"
 #include "fuzz/prepared_folder.h"
+#include "programs/temporary_folder.h"
 #include "rpc/result_sources.h"
-#include "server/temporary_folder.h"
 #include "store/hdf5.h"
 #include "store/result_layout.h"
 #include "store/result_reader.h"

@@ -29,7 +29,7 @@
 #include "fuzz/prepared_folder.h"
 #include "fuzz/size_bound.h"
 #include "fuzz/wire_input.h"
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 #include "service.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);

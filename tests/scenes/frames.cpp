@@ -11,7 +11,7 @@ namespace cellcrush::scenes {
 
 void put_frame(const FrameLattice& frame, SceneSpec& spec) {
   spec.lattice = frame.walls();
-  spec.loads = frame;
+  spec.loads = frame.acting();
   spec.loading.end_time_s = frame.end_time_s;
 }
 

@@ -17,15 +17,19 @@
 
 namespace cellcrush {
 
-/// A frame with what acts on it and its end, in one list. Only put_frame gives it to a spec: its walls are private, so
+/// A frame with what acts on it and its end, in one list. Only put_frame gives it to a spec: both bases are private, so
 /// that no assignment can lose the rest.
-struct FrameLattice : private FrameWalls, LoadsSpec {
+struct FrameLattice : private FrameWalls, private LoadsSpec {
   using FrameWalls::Node, FrameWalls::Beam, FrameWalls::Support;
   using FrameWalls::nodes, FrameWalls::beams, FrameWalls::supports, FrameWalls::self_contact, FrameWalls::watched_nodes;
+  using LoadsSpec::Component, LoadsSpec::DistributedLoad, LoadsSpec::TimeFunction;
+  using LoadsSpec::gravity_x_m_per_s2, LoadsSpec::gravity_y_m_per_s2, LoadsSpec::rigid_walls;
+  using LoadsSpec::loads, LoadsSpec::motions, LoadsSpec::distributed_loads, LoadsSpec::initial_velocities;
 
   std::optional<double> end_time_s = std::nullopt;
 
   [[nodiscard]] const FrameWalls& walls() const { return *this; }
+  [[nodiscard]] const LoadsSpec& acting() const { return *this; }
 };
 
 }  // namespace cellcrush

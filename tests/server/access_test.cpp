@@ -4,8 +4,8 @@
 #include "access/tls_files.h"
 #include "access/token_file.h"
 #include "error.h"
-#include "server/certificates.h"
-#include "server/temporary_folder.h"
+#include "programs/certificates.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::access {
 namespace {

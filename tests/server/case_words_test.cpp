@@ -1,25 +1,18 @@
 #include "translate/case_words.h"
 
 #include <gmock/gmock.h>
-#include <google/protobuf/text_format.h>
+
+#include "programs/text_proto.h"
 
 namespace cellcrush {
 namespace {
 
-using google::protobuf::TextFormat;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 
-template <class Message>
-Message parse_words(const std::string& text) {
-  Message out;
-  EXPECT_TRUE(TextFormat::ParseFromString(text, &out)) << text;
-  return out;
-}
-
 v1::CaseWords words_of_case(const std::string& text) {
   v1::Job job;
-  *job.mutable_case_() = parse_words<v1::Case>(text);
+  *job.mutable_case_() = testing::from_text<v1::Case>(text);
   translate::add_words(job);
   return job.words();
 }
@@ -118,7 +111,7 @@ TEST(CaseWords, DescribeTheLoadingOfAnyLatticeAndWhereTheRunEnds) {
 }
 
 TEST(CaseWords, GoWithEveryAnswerThatHasACase) {
-  const auto job = parse_words<v1::Job>(
+  const auto job = testing::from_text<v1::Job>(
       "case { lattice { hexagon { columns: 3 rows: 2 } } depth_mm: 5 } summary { crush_mode: CRUSH_MODE_V }");
   v1::ListJobsResponse list;
   *list.add_jobs() = job;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "programs/text_proto.h"
 #include "server/daemon_fixture.h"
 #include "server/small_case.h"
 #include "translate/check_case.h"
@@ -91,9 +92,7 @@ TEST_F(CasesServiceTest, APreviewHasTheMeshThatARunWouldHave) {
 
 TEST_F(CasesServiceTest, APreviewOfABadOrHugeCaseIsRefused) {
   v1::PreviewCaseRequest request;
-  *request.mutable_case_() = small_case();
-  request.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_columns(300);
-  request.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_rows(300);
+  *request.mutable_case_() = with_text(small_case(), "lattice { hexagon { columns: 300 rows: 300 } }");
   const auto huge = try_call(*client().cases, &v1::Cases::Stub::PreviewCase, request);
   EXPECT_THAT(huge, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "elements_per_wall"));
   request.mutable_case_()->set_depth_mm(-1.0);
@@ -137,10 +136,7 @@ TEST_F(CasesServiceTest, PresetsAreListedAndEachIsSound) {
 
 TEST_F(CasesServiceTest, LargeChecksThatWereAbandonedLeaveTheirPlace) {
   v1::CheckCaseRequest request;
-  *request.mutable_case_() = small_case();
-  auto& lattice = *request.mutable_case_()->mutable_lattice()->mutable_hexagon();
-  lattice.set_columns(300);
-  lattice.set_rows(300);
+  *request.mutable_case_() = with_text(small_case(), "lattice { hexagon { columns: 300 rows: 300 } }");
   auto client = this->client();
   v1::CheckCaseResponse out;
   for (int i = 0; i < 8; ++i) {

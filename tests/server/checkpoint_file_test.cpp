@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::worker {
 namespace {

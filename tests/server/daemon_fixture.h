@@ -16,8 +16,8 @@
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "daemon.h"
+#include "programs/temporary_folder.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
 

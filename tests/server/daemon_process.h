@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "e2e/process.h"
+#include "programs/process.h"
 
 namespace cellcrush::testing {
 
@@ -37,16 +37,6 @@ class DaemonProcess {
  private:
   std::unique_ptr<e2e::Process> process_;
 };
-
-/// Looks every 20 ms; false when the condition does not hold within this time.
-template <class Condition>
-bool wait_until(const Condition& condition, std::chrono::milliseconds limit = std::chrono::seconds(20)) {
-  for (const auto end = std::chrono::steady_clock::now() + limit; !condition();) {
-    if (std::chrono::steady_clock::now() >= end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return true;
-}
 
 /// Whether the process is there and not a zombie.
 bool is_alive(pid_t process);

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "access/token_file.h"
-#include "server/certificates.h"
+#include "programs/certificates.h"
+#include "programs/temporary_folder.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
 #include "server/http/http_socket.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
 namespace {

@@ -1,5 +1,4 @@
 #include <google/protobuf/message.h>
-#include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
 #include <charconv>
@@ -7,6 +6,7 @@
 #include <string>
 
 #include "cellcrush/v1/field.pb.h"
+#include "programs/text_proto.h"
 #include "server/small_case.h"
 #include "translate/case_to_spec.h"
 #include "translate/spec_to_case.h"
@@ -85,15 +85,13 @@ TEST(FieldDefaults, AreThoseOfTheSolver) {
   crush.clear_output();
   crush.mutable_loading()->clear_end_strain();
   EXPECT_GE(compare_completed(crush), 18);
-  v1::Case frame = crush;
-  frame.clear_loading();
-  ASSERT_TRUE(google::protobuf::TextFormat::ParseFromString(R"(
+  crush.clear_loading();
+  const v1::Case frame = testing::with_text(crush, R"(lattice { frame {
     nodes { id: "a" x_mm: 0 y_mm: 0 } nodes { id: "b" x_mm: 100 y_mm: 0 }
     beams { start: "a" end: "b" thickness_mm: 1 }
     supports { node: "a" fix_x: true fix_y: true }
     initial_velocities { node: "b" y_m_per_s: 1 }
-    end_time_s: 0.001)",
-                                                            frame.mutable_lattice()->mutable_frame()));
+    end_time_s: 0.001 } })");
   EXPECT_GE(compare_completed(frame), 18);
 }
 

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "watch/frame_chunks.h"
-#include "watch/packed_frame.h"
+#include "watch/sent_frame.h"
 
 namespace cellcrush::watch {
 namespace {

@@ -12,8 +12,6 @@ namespace {
 
 using Scope = access::Scope;
 
-constexpr std::chrono::seconds kAtOnce{1};
-
 // Adds a token to the calls of a channel without TLS, for which gRPC itself refuses to.
 struct TokenBearer : grpc::experimental::Interceptor, grpc::experimental::ClientInterceptorFactoryInterface {
   explicit TokenBearer(std::string bearer_token) : token(std::move(bearer_token)) {}
@@ -98,11 +96,8 @@ std::unique_ptr<grpc::ClientContext> GateFixture::context_of(const Visitor& visi
 
 grpc::Status GateFixture::list(const Visitor& visitor, const std::string& host) const {
   const auto jobs = v1::Jobs::NewStub(channel(visitor, host));
-  const auto begin = std::chrono::steady_clock::now();
   v1::ListJobsResponse response;
-  auto status = jobs->ListJobs(context_of(visitor).get(), {}, &response);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, kAtOnce) << status.error_message();
-  return status;
+  return jobs->ListJobs(context_of(visitor).get(), {}, &response);
 }
 
 Visitor GateFixture::with(const std::string& name) const { return {authority_.certificate(), {}, tokens_.at(name)}; }

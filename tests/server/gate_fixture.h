@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "server/certificates.h"
+#include "programs/certificates.h"
 #include "server/daemon_fixture.h"
 
 namespace cellcrush::testing {
@@ -39,7 +39,7 @@ class GateFixture : public DaemonFixture {
   /// A context that carries the token where the channel does not.
   [[nodiscard]] static std::unique_ptr<grpc::ClientContext> context_of(const Visitor& visitor);
 
-  /// Calls ListJobs; the test fails when the answer takes longer than a second.
+  /// Calls ListJobs, with a deadline of ten seconds.
   [[nodiscard]] grpc::Status list(const Visitor& visitor, const std::string& host = "127.0.0.1") const;
 
   /// Who trusts the authority and has one of the tokens.

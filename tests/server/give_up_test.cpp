@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "programs/temporary_folder.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 
 namespace cellcrush::worker {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "error.h"
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::store {
 namespace {

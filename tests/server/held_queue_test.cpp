@@ -3,7 +3,7 @@
 
 #include <csignal>
 #include <filesystem>
-#include <thread>
+#include <set>
 
 #include "log_format.h"
 #include "server/daemon_fixture.h"
@@ -46,7 +46,11 @@ TEST_F(HeldQueueTest, AWorkerProgramThatIsMissingHoldsItUntilItIsThere) {
   std::vector<std::string> jobs;
   for (int i = 0; i < 20; ++i) jobs.push_back(client.create(tiny_case()));
   ASSERT_TRUE(wait_until_held(client));
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  std::set<std::string> tries;
+  ASSERT_TRUE(wait_until([&] {
+    tries.insert(client.queue().holds(0).next_try_time().SerializeAsString());
+    return tries.size() == 5;
+  }));
 
   const auto queue = client.queue();
   ASSERT_EQ(queue.holds_size(), 1);

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <thread>
 
+#include "programs/text_proto.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
 #include "server/job_numbers.h"
@@ -108,18 +109,10 @@ TEST_F(JobLifeTest, ARunningJobStopsAndWhatItHasComputedIsKept) {
 // Thin triangles at a speed and with contacts that the step is far too long for.
 TEST_F(JobLifeTest, ARunThatIsUntrueFailsByNameAndKeepsWhatItComputedBefore) {
   auto client = this->client();
-  v1::Case bad = small_case();
-  auto& triangle = *bad.mutable_lattice()->mutable_triangle();
-  triangle.set_columns(12);
-  triangle.set_rows(6);
-  triangle.set_side_mm(4.0);
-  triangle.set_wall_thickness_mm(0.1185);
-  bad.set_elements_per_wall(2);
-  bad.mutable_loading()->set_speed_m_per_s(400.0);
-  bad.mutable_contact()->set_stiffness_factor(1.0);
-  bad.mutable_numerics()->set_time_step_s(2.26e-7);
-  bad.mutable_output()->set_sample_count(1000);
-  bad.mutable_output()->set_frame_count(1);
+  const v1::Case bad = with_text(small_case(), R"(
+    lattice { triangle { columns: 12 rows: 6 side_mm: 4 wall_thickness_mm: 0.1185 } } elements_per_wall: 2
+    loading { speed_m_per_s: 400 } contact { stiffness_factor: 1 } numerics { time_step_s: 2.26e-7 }
+    output { sample_count: 1000 frame_count: 1 })");
   const std::string job = client.create(bad);
   EXPECT_TRUE(client.watch(job).status.ok());
   const auto failed = client.get(job);

@@ -64,11 +64,13 @@ TEST_F(JobListTest, AFilterFindsStatesLabelsAndTitles) {
   EXPECT_THAT(found("title : aluminium AND title : squares"), ElementsAre("jobs/3"));
   EXPECT_THAT(found("label.other = two"), IsEmpty());
   EXPECT_THAT(found("   "), SizeIs(3));
+  ASSERT_TRUE(client().remove("jobs/3").ok());
+  EXPECT_THAT(found("label.batch = two"), ElementsAre("jobs/2")) << "Its labels went with it.";
   create("Of \"two\" words", "a \"b\"");
   EXPECT_THAT(found(R"(label."batch"="a \"b\""  AND title:"of \"TWO\"" AND title : words)"), ElementsAre("jobs/4"));
 }
 
-TEST_F(JobListTest, PagesStayInPlaceWhenJobsAreMadeAndDeleted) {
+TEST_F(JobListTest, PagesAreNewestFirstAndStayInPlaceWhenJobsAreMadeAndDeleted) {
   for (int i = 0; i < 5; ++i) create("case", "one");
   v1::ListJobsRequest newest;
   newest.set_page_size(2);

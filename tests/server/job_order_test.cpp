@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 #include <thread>
+#include <tuple>
 
+#include "programs/temporary_folder.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
-#include "server/temporary_folder.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -56,18 +56,21 @@ TEST_F(JobOrderTest, TheJobsOfASweepStartLongestFirst) {
               ElementsAre("jobs/3", "jobs/2", "jobs/4", "jobs/1"));
 }
 
-TEST_F(JobOrderTest, TheNextDaemonStartsTheRestOfASweepLongestFirstToo) {
+TEST_F(JobOrderTest, TheNextDaemonStartsTheRestInTheSameOrder) {
   {
     auto client = this->client();
     const std::string running = client.create(endless_case());
     create(client, sweep_of(endless_case(), kSpeed, {4.0, 1.0, 2.0}));
+    client.create(endless_case());
+    create_with_priority(client, 12);
     ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   }
   daemon_->stop();
   start(with_workers(1));
   auto client = this->client();
   client.cancel("jobs/1");
-  EXPECT_THAT(by_start(client, {"jobs/2", "jobs/3", "jobs/4"}), ElementsAre("jobs/3", "jobs/4", "jobs/2"));
+  EXPECT_THAT(by_start(client, {"jobs/2", "jobs/3", "jobs/4", "jobs/5", "jobs/6"}),
+              ElementsAre("jobs/6", "jobs/3", "jobs/4", "jobs/2", "jobs/5"));
 }
 
 TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
@@ -128,25 +131,19 @@ TEST_F(JobOrderTest, AThousandSpeedsSeedsOrSizesOfTypeIAreQueuedTogether) {
   auto client = this->client();
   auto of_type_i = client.preset("type-i");
   of_type_i.mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.01);
-  const auto seconds_for = [&](const std::string& field, double first, double last) {
+  for (const auto& [field, first, last] : {std::tuple(kSpeed, 20.0, 220.0),
+                                           {"lattice.imperfection.seed", 1.0, 1000.0},
+                                           {"lattice.hexagon.wall_thickness_mm", 0.1, 0.6},
+                                           {"lattice.hexagon.side_mm", 3.0, 6.0}}) {
     auto request = sweep_of(of_type_i, field, {});
     auto& values = *request.mutable_sweep()->mutable_axes(0)->mutable_linear();
     values.set_first(first);
     values.set_last(last);
     values.set_count(1000);
-    const auto start = std::chrono::steady_clock::now();
     const auto sweep = create(client, request);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::cout << "type-i at 1000 of " << field << ": queued in " << seconds << " s\n";
-    EXPECT_EQ(sweep.jobs_size(), 1000);
+    EXPECT_EQ(sweep.jobs_size(), 1000) << field;
     cancel_sweep(client, sweep.name());
-    return seconds;
-  };
-  EXPECT_LT(seconds_for(kSpeed, 20.0, 220.0), 2.0) << "It takes about 0.1 s on one mesh.";
-  const char* const slow = "It takes about 1 s on two idle cores, and 5 s where three others want them.";
-  EXPECT_LT(seconds_for("lattice.imperfection.seed", 1.0, 1000.0), 20.0) << slow;
-  EXPECT_LT(seconds_for("lattice.hexagon.wall_thickness_mm", 0.1, 0.6), 20.0) << slow;
-  EXPECT_LT(seconds_for("lattice.hexagon.side_mm", 3.0, 6.0), 20.0) << slow;
+  }
 }
 
 TEST_F(JobOrderTest, AQueueIsToldOfAlsoWhenASampleOfAJobInItCannotBeRead) {

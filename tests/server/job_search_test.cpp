@@ -10,7 +10,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 
 class JobSearchTest : public JournalTest {
@@ -22,22 +21,6 @@ class JobSearchTest : public JournalTest {
     job.set_owner(owner);
     (*job.mutable_labels())["batch"] = batch;
     return journal_->create_job(job, "", "").job;
-  }
-
-  std::vector<std::int64_t> found(const JobFilter& filter) {
-    std::vector<std::int64_t> out;
-    for (const auto& job : reader_->list_jobs(filter, false, 0, 100)) out.push_back(job.number);
-    return out;
-  }
-
-  static JobFilter filter_of(v1::Job::State state, const std::string& owner, const std::string& batch,
-                             const std::string& title) {
-    JobFilter out;
-    if (state != v1::Job::JOB_STATE_UNSPECIFIED) out.states = {state};
-    if (!owner.empty()) out.owners = {owner};
-    if (!batch.empty()) out.labels = {{"batch", batch}};
-    if (!title.empty()) out.titles = {title};
-    return out;
   }
 };
 
@@ -99,29 +82,6 @@ TEST_F(JobSearchTest, NoFilterReadsTheRowsOfJobsThatAreNotWanted) {
       EXPECT_THAT(step, Not(HasSubstr("TEMP B-TREE"))) << conditions.sql();
     }
   }
-}
-
-TEST_F(JobSearchTest, ConditionsNarrowEachOther) {
-  const auto first = make("anna", "Steel Hexagons", "one");
-  const auto second = make("anna", "steel squares", "two");
-  const auto third = make("bob", "Aluminium hexagons", "one");
-  change(second, v1::Job::RUNNING);
-  EXPECT_THAT(found(filter_of({}, "anna", "", "")), ElementsAre(first, second));
-  EXPECT_THAT(found(filter_of({}, "", "one", "")), ElementsAre(first, third));
-  EXPECT_THAT(found(filter_of({}, "", "", "HEXAGONS")), ElementsAre(first, third));
-  EXPECT_THAT(found(filter_of(v1::Job::PENDING, "anna", "one", "steel")), ElementsAre(first));
-  EXPECT_THAT(found(filter_of(v1::Job::RUNNING, "", "one", "")), IsEmpty());
-  journal_->cancel_waiting({first});
-  journal_->delete_job(first);
-  EXPECT_THAT(found(filter_of({}, "", "one", "")), ElementsAre(third)) << "Its labels went with it.";
-}
-
-TEST_F(JobSearchTest, ARequestIdOfASweepIsItsOwnersOwn) {
-  v1::Sweep sweep;
-  sweep.set_owner("anna");
-  const auto of_anna = journal_->create_sweep(sweep, {SweepJob()}, "id", "hash of anna");
-  sweep.set_owner("bob");
-  EXPECT_NE(journal_->create_sweep(sweep, {SweepJob()}, "id", "hash of bob").sweep, of_anna.sweep);
 }
 
 TEST_F(JobSearchTest, ARequestThatAVersionWithoutOwnersMadeIsThatOfTheLocalCaller) {

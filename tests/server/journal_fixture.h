@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "programs/temporary_folder.h"
 #include "server/sample_writer.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "error.h"
+#include "server/refuses.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -80,12 +81,8 @@ TEST(MeshPlaces, WhoCameFirstBuildsFirstAndWhoGaveUpLeavesTheLine) {
 TEST(MeshPlaces, AfterSomeSecondsOthersAreNamedAsTheCause) {
   MeshPlaces places;
   const Place large(places, kLarge, never);
-  try {
-    const Place second(places, kLarge, never, std::chrono::seconds(1));
-    FAIL() << "two at once";
-  } catch (const ServiceError& refused) {
-    EXPECT_EQ(refused.kind(), ServiceError::Kind::exhausted);
-  }
+  EXPECT_THAT([&] { const Place second(places, kLarge, never, std::chrono::seconds(1)); },
+              testing::Refuses(ServiceError::Kind::exhausted, ""));
 }
 
 }  // namespace

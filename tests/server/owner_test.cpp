@@ -33,6 +33,7 @@ class OwnerTest : public GateFixture {
   static v1::CreateSweepRequest sweep_of_someone_else() {
     auto out = sweep_of(small_case(), kSpeed, {100.0});
     out.mutable_sweep()->set_owner("someone-else");
+    out.set_request_id("once");
     return out;
   }
 
@@ -75,7 +76,9 @@ TEST_F(OwnerTest, AnOwnerIsKeptAndAloneChangesWhatIsHis) {
   EXPECT_EQ(change_sweep(bob, sweep), (Codes{kDenied, kDenied, kDenied}));
   EXPECT_NE(bob.create(once()).name(), job) << "A request_id is its owner's own.";
   EXPECT_EQ(count(bob, "owner = anna"), 2U);
+  EXPECT_EQ(count(bob, "owner = anna AND title : other"), 0U);
   EXPECT_EQ(count(bob, "owner = \"bob\""), 1U);
+  EXPECT_NE(create(bob, sweep_of_someone_else()).name(), sweep) << "Nor is that of a sweep shared.";
   auto anna = client_of("anna");
   EXPECT_EQ(change(anna, job).back(), grpc::StatusCode::OK);
   EXPECT_NE(change_sweep(anna, sweep).back(), kDenied) << "Its job may still be CANCELLING.";

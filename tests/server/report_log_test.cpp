@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "error.h"
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 #include "store/sample_reader.h"
 
 namespace cellcrush::store {

@@ -85,9 +85,7 @@ TEST(CaseLimits, OfVeryManyProblemsTheRestIsCounted) {
     motion.set_node("a");
     motion.set_component(v1::Frame::COMPONENT_X);
   }
-  const auto begin = std::chrono::steady_clock::now();
   const auto response = translate::check_case(submitted).response;
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
   ASSERT_EQ(response.problems_size(), 1001);
   EXPECT_THAT(response.problems(1000).message(), HasSubstr("more problems."));
 }

@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "error.h"
+#include "programs/temporary_folder.h"
+#include "programs/text_proto.h"
+#include "server/refuses.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 #include "store/case_hash.h"
 #include "store/result_seal.h"
 #include "store/result_writer.h"
@@ -48,10 +50,8 @@ class ResultFileTest : public ::testing::Test {
  protected:
   void SetUp() override {
     std::filesystem::create_directories(path_.parent_path());
-    v1::Mesh mesh;
-    mesh.set_particle_count(3);
-    for (const int node : {0, 1, 1, 2}) mesh.add_element_nodes(node);
-    for (const float thickness : {0.5F, 0.25F}) mesh.add_thickness_mm(thickness);
+    const auto mesh =
+        testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25]");
     ResultWriter writer(path_, mesh);
     for (int i = 0; i < kSamples; ++i) {
       v1::Sample sample;
@@ -72,14 +72,9 @@ class ResultFileTest : public ::testing::Test {
       for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(static_cast<float>(i) / 4.0F);
       writer.add_frame(frame);
     }
-    v1::Summary summary;
-    summary.set_plateau_stress_impact_mpa(3.25);
-    summary.set_step_count(12345);
-    summary.set_energy_error_relative(0.01);
-    summary.set_crush_mode(v1::Summary::CRUSH_MODE_V);
-    summary.mutable_front()->set_shock_mpa(3.3);
-    summary.mutable_ledger()->set_contact_damping_mj(7.5);
-    summary.mutable_stage_times()->set_find_contacts_s(0.25);
+    const auto summary = testing::from_text<v1::Summary>(R"(
+      plateau_stress_impact_mpa: 3.25 step_count: 12345 energy_error_relative: 0.01 crush_mode: CRUSH_MODE_V
+      front { shock_mpa: 3.3 } ledger { contact_damping_mj: 7.5 } stage_times { find_contacts_s: 0.25 })");
     writer.finish({testing::small_case(), "1.2.3+abc", "scalar", 3, 2e-7, {"Walls are beams.", "No friction."}},
                   summary);
     file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
@@ -162,19 +157,14 @@ TEST_F(ResultFileTest, IsReadBackAsItWasWritten) {
 
 // Groups of HDF5 are in the order of their names, samples in that of the case.
 TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
-  v1::Case submitted = testing::small_case();
-  v1::Frame& frame = *submitted.mutable_lattice()->mutable_frame();
+  const v1::Case submitted = testing::with_text(
+      testing::small_case(), R"(lattice { frame { watched_nodes: ["b", "a"] rigid_walls { id: "floor" } } })");
   std::vector<v1::Sample> samples(kSamples);
-  for (const char* node : {"b", "a"}) frame.add_watched_nodes(node);
-  frame.add_rigid_walls()->set_id("floor");
-  v1::Mesh mesh;
-  mesh.set_particle_count(3);
-  for (const int node : {0, 1}) mesh.add_element_nodes(node);
-  mesh.add_thickness_mm(0.5F);
+  const auto mesh = testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1] thickness_mm: 0.5");
   ResultWriter writer(path_ = folder_.path() / "frame.h5", mesh);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].set_step(static_cast<std::int64_t>(i));
-    for (const auto& node : frame.watched_nodes()) {
+    for (const auto& node : submitted.lattice().frame().watched_nodes()) {
       auto& watched = *samples[i].add_watched();
       watched.set_node(node);
       watched.set_uy_mm(0.1 * static_cast<double>(i));
@@ -214,13 +204,7 @@ class ChangedResultTest : public ResultFileTest {
 
   void expect_damaged(const std::function<void(const ResultReader&)>& read) const {
     const ResultReader reader(path_);
-    try {
-      read(reader);
-      FAIL() << "was read";
-    } catch (const ServiceError& error) {
-      EXPECT_EQ(error.kind(), ServiceError::Kind::data_loss);
-      EXPECT_NE(std::string(error.what()).find("The result is damaged"), std::string::npos) << error.what();
-    }
+    EXPECT_THAT([&] { read(reader); }, testing::Refuses(ServiceError::Kind::data_loss, "The result is damaged"));
   }
 
   static void read_strains(const ResultReader& reader) { static_cast<void>(reader.frame_strains()); }
@@ -367,13 +351,8 @@ TEST(ResultReader, OneOfAnEarlierVersionIsNotReadAndSaysWhatCanBeDone) {
   const testing::TemporaryFolder folder;
   const auto path = folder.path() / "result.h5";
   Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "making").close("closing");
-  try {
-    const ResultReader reader(path);
-    FAIL() << "was read";
-  } catch (const ServiceError& error) {
-    EXPECT_EQ(error.kind(), ServiceError::Kind::failed_precondition);
-    EXPECT_NE(std::string(error.what()).find("Download the file"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT([&] { const ResultReader reader(path); },
+              testing::Refuses(ServiceError::Kind::failed_precondition, "Download the file"));
 }
 
 TEST(CaseHash, IsThatOfTheContent) {

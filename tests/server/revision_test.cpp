@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::testing {
 namespace {

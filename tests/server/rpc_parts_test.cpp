@@ -3,23 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <future>
 #include <new>
 #include <optional>
-#include <thread>
 
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "error.h"
 #include "error_table.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "programs/temporary_folder.h"
 #include "rpc/export_source.h"
 #include "rpc/source_stream.h"
 #include "rpc/stream_limits.h"
 #include "server/daemon_process.h"
+#include "server/held_point.h"
+#include "server/refuses.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 #include "store/journal.h"
 #include "store/resource_name.h"
 
@@ -29,6 +29,7 @@ namespace {
 using ::testing::HasSubstr;
 using Batch = MessageStream::Batch;
 using Problems = google::protobuf::RepeatedPtrField<v1::Problem>;
+using testing::Refuses;
 using testing::wait_until;
 
 void add(Problems& problems, const std::string& field) {
@@ -85,31 +86,21 @@ TEST(ErrorTable, AFaultOfTheDaemonIsInternalAndWantOfMemoryExhausted) {
   EXPECT_EQ(status_of(std::bad_alloc()).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
 }
 
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const ServiceError& refused) {
-    EXPECT_EQ(refused.kind(), ServiceError::Kind::exhausted);
-    return refused.what();
-  }
-  return "";
-}
-
 TEST(StreamLimits, BoundTheBytesThatNobodyHasRead) {
   StreamLimits limits({10, 10, 1000});
   auto first = limits.admit("anna");
   first.hold(5000);  // one alone may have its message
   auto second = limits.admit("anna");
-  EXPECT_THAT(refusal([&] { second.hold(1); }), HasSubstr("--max-call-memory"));
+  EXPECT_THAT([&] { second.hold(1); }, Refuses(ServiceError::Kind::exhausted, "--max-call-memory"));
   first.hold(900);
-  EXPECT_EQ(refusal([&] { second.hold(100); }), "");
-  EXPECT_THAT(refusal([&] { second.hold(101); }), HasSubstr("--max-call-memory"));
-  EXPECT_EQ(refusal([&] { second.hold(100); }), "") << "What was refused is not counted.";
+  EXPECT_NO_THROW(second.hold(100));
+  EXPECT_THAT([&] { second.hold(101); }, Refuses(ServiceError::Kind::exhausted, "--max-call-memory"));
+  EXPECT_NO_THROW(second.hold(100)) << "What was refused is not counted.";
 }
 
-/// What the test sees of a source of a thousand messages, of which the first takes half a second.
+/// What the test sees of a source of a thousand messages, of which the first is held.
 struct Tap {
-  std::atomic<int> begun = 0;
+  testing::HeldPoint first;
   std::atomic<int> given = 0;
   std::atomic<bool> is_open = false;
 };
@@ -123,7 +114,7 @@ class TapSource {
   void open(const std::function<void()>&) { tap_.is_open = true; }
   void close() { tap_.is_open = false; }
   std::optional<Message> next() {
-    if (tap_.begun++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    tap_.first.stand();
     ++tap_.given;
     return Message();
   }
@@ -148,10 +139,9 @@ TEST(SourceStream, CancellingWaitsForNoBatchThatIsBeingMade) {
   auto promise = std::make_shared<std::promise<Batch>>();
   auto batch = promise->get_future();
   stream->ask([promise = std::move(promise)](Batch made) { promise->set_value(std::move(made)); });
-  ASSERT_TRUE(wait_until([&] { return tap.begun == 1; }));
-  const auto before = std::chrono::steady_clock::now();
+  ASSERT_TRUE(tap.first.wait());
   stream->cancel();
-  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::milliseconds(400));
+  tap.first.open();
   EXPECT_TRUE(wait_until([&] { return !tap.is_open && limits.count() == 0; }));
   EXPECT_EQ(tap.given, 1) << "The rest of the batch was not made.";
   EXPECT_THROW(batch.get(), std::future_error) << "Nothing was delivered.";
@@ -188,13 +178,11 @@ TEST(ExportSource, AJobThatIsDeletedMeanwhileIsAnErrorNotAFileWithoutItsResults)
   ExportSource source({data, reader, places, exports}, *stored, request);
   ASSERT_TRUE(source.next()) << "the head";
   journal.delete_job(job);
-  try {
-    while (!source.ended()) source.next();
-    FAIL() << "The file ended.";
-  } catch (const ServiceError& error) {
-    EXPECT_EQ(error.kind(), ServiceError::Kind::not_found);
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("was deleted while it was exported"));
-  }
+  EXPECT_THAT(
+      [&] {
+        while (!source.ended()) source.next();
+      },
+      Refuses(ServiceError::Kind::not_found, "was deleted while it was exported"));
 }
 
 }  // namespace

@@ -1,54 +1,35 @@
 #include "server/small_case.h"
 
+#include "programs/text_proto.h"
+
 namespace cellcrush::testing {
 
 v1::Case small_case() {
-  v1::Case out;
-  out.set_title("A few cells");
-  auto& hexagon = *out.mutable_lattice()->mutable_hexagon();
-  hexagon.set_columns(6);
-  hexagon.set_rows(5);
-  hexagon.set_side_mm(4.0);
-  hexagon.set_wall_thickness_mm(0.3464);
-  out.set_depth_mm(4.0);
-  out.mutable_material()->set_youngs_modulus_mpa(69000.0);
-  out.mutable_material()->set_yield_stress_mpa(76.0);
-  out.mutable_material()->set_density_kg_per_m3(2700.0);
-  out.mutable_loading()->set_speed_m_per_s(100.0);
-  out.mutable_loading()->set_end_strain(0.5);
-  out.mutable_output()->set_sample_count(100);
-  out.mutable_output()->set_frame_count(10);
-  return out;
+  return from_text<v1::Case>(R"(
+    title: "A few cells"
+    lattice { hexagon { columns: 6 rows: 5 side_mm: 4 wall_thickness_mm: 0.3464 } }
+    depth_mm: 4
+    material { youngs_modulus_mpa: 69000 yield_stress_mpa: 76 density_kg_per_m3: 2700 }
+    loading { speed_m_per_s: 100 end_strain: 0.5 }
+    output { sample_count: 100 frame_count: 10 })");
 }
 
 v1::Case tiny_case() {
-  v1::Case out = small_case();
-  out.mutable_lattice()->mutable_hexagon()->set_columns(4);
-  out.mutable_lattice()->mutable_hexagon()->set_rows(3);
-  out.mutable_loading()->set_end_strain(0.3);
-  out.mutable_output()->set_sample_count(20);
-  out.mutable_output()->set_frame_count(2);
-  return out;
+  return with_text(small_case(), R"(
+    lattice { hexagon { columns: 4 rows: 3 } } loading { end_strain: 0.3 }
+    output { sample_count: 20 frame_count: 2 })");
 }
 
 v1::Case case_of_seconds() {
-  v1::Case out = small_case();
-  out.mutable_lattice()->mutable_hexagon()->set_columns(12);
-  out.mutable_lattice()->mutable_hexagon()->set_rows(8);
-  out.mutable_loading()->set_speed_m_per_s(5.0);
-  out.mutable_output()->set_sample_count(200);
-  out.mutable_output()->set_frame_count(20);
-  return out;
+  return with_text(small_case(), R"(
+    lattice { hexagon { columns: 12 rows: 8 } } loading { speed_m_per_s: 5 }
+    output { sample_count: 200 frame_count: 20 })");
 }
 
 v1::Case endless_case() {
-  v1::Case out = small_case();
-  out.mutable_lattice()->mutable_hexagon()->set_columns(40);
-  out.mutable_lattice()->mutable_hexagon()->set_rows(20);
-  out.mutable_loading()->set_speed_m_per_s(1.0);
-  out.mutable_output()->set_sample_count(100'000);
-  out.mutable_output()->set_frame_count(2000);
-  return out;
+  return with_text(small_case(), R"(
+    lattice { hexagon { columns: 40 rows: 20 } } loading { speed_m_per_s: 1 }
+    output { sample_count: 100000 frame_count: 2000 })");
 }
 
 }  // namespace cellcrush::testing

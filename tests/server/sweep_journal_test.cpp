@@ -63,31 +63,6 @@ TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
   EXPECT_FALSE(sweeps.rows(made.sweep, 2).has_more);
 }
 
-TEST_F(SweepJournalTest, WhatDecidesTheOrderOfWaitingJobsSurvivesReopening) {
-  auto jobs = three_jobs();
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    jobs[i].element_steps = 1'000'000'000'000 * static_cast<std::int64_t>(i + 1);
-    jobs[i].job.set_priority(-7);
-  }
-  const auto made = journal_->create_sweep({}, jobs, "", "");
-  v1::Job urgent;
-  urgent.mutable_case_()->set_title("Urgent");
-  urgent.set_priority(12);
-  const auto alone = journal_->create_job(urgent, "", "", 42).job;
-  reopen();
-  const auto waiting = reader_->queued_jobs(v1::Job::PENDING);
-  ASSERT_EQ(waiting.size(), 4U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(waiting[i].submission, made.jobs.front());
-    EXPECT_EQ(waiting[i].element_steps, jobs[i].element_steps);
-    EXPECT_EQ(waiting[i].priority, -7);
-  }
-  EXPECT_EQ(waiting[3].submission, alone);
-  EXPECT_EQ(waiting[3].element_steps, 42);
-  EXPECT_EQ(waiting[3].priority, 12);
-  EXPECT_EQ(waiting[3].sweep, 0);
-}
-
 TEST_F(SweepJournalTest, WaitingJobsAreCancelledTogetherAndDeletedOnesLeaveTheSweep) {
   const auto made = journal_->create_sweep({}, three_jobs(), "", "");
   change(made.jobs[1], v1::Job::RUNNING);

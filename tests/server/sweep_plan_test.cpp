@@ -12,6 +12,7 @@
 #include "error.h"
 #include "jobs/case_field.h"
 #include "jobs/sweep_points.h"
+#include "programs/text_proto.h"
 #include "server/small_case.h"
 
 namespace cellcrush::jobs {
@@ -91,30 +92,17 @@ TEST(SweepPoints, AGridHasEveryCombinationAndTheLastAxisChangesFastest) {
   EXPECT_EQ(points.values, (Values{{1, 1}, {1, 2}, {1, 3}, {2, 1}, {2, 2}, {2, 3}}));
 }
 
-TEST(SweepPoints, RangesMeetTheirEndsAndAreEvenlySpaced) {
-  v1::Sweep sweep;
-  auto& axis = *sweep.add_axes();
-  axis.set_field("a");
-  axis.mutable_linear()->set_first(0.1);
-  axis.mutable_linear()->set_last(0.7);
-  axis.mutable_linear()->set_count(4);
-  EXPECT_THAT(expand(sweep).values, ElementsAre(ElementsAre(0.1), ElementsAre(DoubleNear(0.3, 1e-15)),
-                                                ElementsAre(DoubleNear(0.5, 1e-15)), ElementsAre(0.7)));
-  axis.mutable_logarithmic()->set_first(1.0);
-  axis.mutable_logarithmic()->set_last(1000.0);
-  axis.mutable_logarithmic()->set_count(4);
-  EXPECT_THAT(expand(sweep).values, ElementsAre(ElementsAre(1.0), ElementsAre(DoubleNear(10.0, 1e-12)),
-                                                ElementsAre(DoubleNear(100.0, 1e-12)), ElementsAre(1000.0)));
-}
+v1::Sweep over(const std::string& axes) { return testing::from_text<v1::Sweep>(axes); }
 
-TEST(SweepPoints, WholeNumbersEvenlySpacedAreWhole) {
-  v1::Sweep sweep;
-  auto& axis = *sweep.add_axes();
-  axis.set_field("lattice.hexagon.rows");
-  axis.mutable_linear()->set_first(1.0);
-  axis.mutable_linear()->set_last(1000.0);
-  axis.mutable_linear()->set_count(1000);
-  const auto points = expand(sweep);
+TEST(SweepPoints, RangesMeetTheirEndsAreEvenlySpacedAndWholeWhereTheStepIs) {
+  EXPECT_THAT(expand(over(R"(axes { field: "a" linear { first: 0.1 last: 0.7 count: 4 } })")).values,
+              ElementsAre(ElementsAre(0.1), ElementsAre(DoubleNear(0.3, 1e-15)), ElementsAre(DoubleNear(0.5, 1e-15)),
+                          ElementsAre(0.7)));
+  EXPECT_THAT(expand(over(R"(axes { field: "a" logarithmic { first: 1 last: 1000 count: 4 } })")).values,
+              ElementsAre(ElementsAre(1.0), ElementsAre(DoubleNear(10.0, 1e-12)), ElementsAre(DoubleNear(100.0, 1e-12)),
+                          ElementsAre(1000.0)));
+  const auto points =
+      expand(over(R"(axes { field: "lattice.hexagon.rows" linear { first: 1 last: 1000 count: 1000 } })"));
   for (int i = 0; i < 1000; ++i) EXPECT_THAT(points.values[i], ElementsAre(i + 1.0));
 }
 
@@ -135,33 +123,21 @@ TEST(SweepPoints, ListedPointsKeepTheirOrder) {
 }
 
 TEST(SweepPoints, WhatCannotBeASweepIsRefusedByField) {
-  v1::Sweep sweep;
-  EXPECT_EQ(refused_field(sweep), "sweep.axes");
-  auto& axis = *sweep.add_axes();
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].field");
-  axis.set_field("a");
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[0]");
-  axis.mutable_list();
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].list");
-  axis.mutable_linear()->set_count(1);
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].linear.count");
-  axis.mutable_linear()->set_count(100'001);
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].linear.count");
-  axis.mutable_linear()->set_count(2);
-  axis.mutable_linear()->set_last(std::numeric_limits<double>::infinity());
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].linear");
-  axis.mutable_logarithmic()->set_count(2);
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].logarithmic");
-  axis.set_seed_count(-1);
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].seed_count");
-  axis.set_seed_count(1000);
-  add_list(sweep, "a", {1.0});
-  EXPECT_EQ(refused_field(sweep), "sweep.axes[1].field");
-  sweep.mutable_axes(1)->set_field("b");
-  sweep.mutable_axes(1)->set_seed_count(101);
-  EXPECT_EQ(refused_field(sweep), "sweep.axes") << "101000 points";
-  sweep.mutable_axes(1)->set_seed_count(100);
-  EXPECT_EQ(expand(sweep).values.size(), kMostPoints);
+  for (const auto& [axes, field] :
+       {std::pair{"", "sweep.axes"},
+        {"axes {}", "sweep.axes[0].field"},
+        {"axes { field: 'a' }", "sweep.axes[0]"},
+        {"axes { field: 'a' list {} }", "sweep.axes[0].list"},
+        {"axes { field: 'a' linear { count: 1 } }", "sweep.axes[0].linear.count"},
+        {"axes { field: 'a' linear { count: 100001 } }", "sweep.axes[0].linear.count"},
+        {"axes { field: 'a' linear { count: 2 last: inf } }", "sweep.axes[0].linear"},
+        {"axes { field: 'a' logarithmic { count: 2 } }", "sweep.axes[0].logarithmic"},
+        {"axes { field: 'a' seed_count: -1 }", "sweep.axes[0].seed_count"},
+        {"axes { field: 'a' seed_count: 1000 } axes { field: 'a' list { values: 1 } }", "sweep.axes[1].field"},
+        {"axes { field: 'a' seed_count: 1000 } axes { field: 'b' seed_count: 101 }", "sweep.axes"}})
+    EXPECT_EQ(refused_field(over(axes)), field) << axes;
+  EXPECT_EQ(expand(over("axes { field: 'a' seed_count: 1000 } axes { field: 'b' seed_count: 100 }")).values.size(),
+            kMostPoints);
 }
 
 TEST(SweepPoints, AxesThatAdvanceTogetherListPointsAndCombineWithTheOthers) {
@@ -194,20 +170,9 @@ bool is_never_cancelled() { return false; }
 v1::Sweep grid() {
   v1::Sweep sweep;
   *sweep.mutable_case_() = testing::small_case();
-  sweep.mutable_case_()->mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.1);
-  sweep.mutable_case_()->mutable_material()->set_density_kg_per_m3(0.5);
-  auto& seeds = *sweep.add_axes();
-  seeds.set_field("lattice.imperfection.seed");
-  seeds.set_seed_count(17);
-  return sweep;
-}
-
-void add_thicknesses(v1::Sweep& sweep, double last) {
-  auto& axis = *sweep.add_axes();
-  axis.set_field("lattice.hexagon.wall_thickness_mm");
-  axis.mutable_linear()->set_first(0.1);
-  axis.mutable_linear()->set_last(last);
-  axis.mutable_linear()->set_count(11);
+  return testing::with_text(sweep, R"(case { lattice { imperfection { amplitude_mm: 0.1 } }
+                                        material { density_kg_per_m3: 0.5 } }
+                                 axes { field: "lattice.imperfection.seed" seed_count: 17 })");
 }
 
 std::string text_of(const SweepPlan& plan) {
@@ -224,8 +189,9 @@ std::string text_of(const SweepPlan& plan) {
 TEST(SweepPlan, IsTheSameWhateverTheNumberOfThreads) {
   for (const double last : {0.3, 1e3}) {
     MeshPlaces places;
-    v1::Sweep sweep = grid();
-    add_thicknesses(sweep, last);
+    const v1::Sweep sweep = testing::with_text(
+        grid(), "axes { field: 'lattice.hexagon.wall_thickness_mm' linear { first: 0.1 count: 11 last: " +
+                    std::to_string(last) + " } }");
     const SweepPlan plan = plan_sweep(sweep, {places, 1, is_never_cancelled});
     EXPECT_EQ(plan.jobs.size(), 187U);
     EXPECT_EQ(plan.problems.empty(), last < 1.0);

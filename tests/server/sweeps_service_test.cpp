@@ -6,6 +6,7 @@
 #include "error.h"
 #include "google/rpc/status.pb.h"
 #include "jobs/convergence.h"
+#include "programs/text_proto.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 
@@ -190,16 +191,12 @@ TEST_F(SweepsServiceTest, SweepsAreListedInPagesAndUnknownOnesAreNotFound) {
 }
 
 constexpr const char* kMesh = "elements_per_wall";
-constexpr const char* kSeed = "lattice.imperfection.seed";
 
 v1::CreateSweepRequest sweep_over_meshes(const std::vector<double>& meshes, int seeds) {
-  auto request = sweep_of(small_case(), kMesh, meshes);
-  auto& sweep = *request.mutable_sweep();
-  sweep.mutable_case_()->mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.01);
-  auto& axis = *sweep.add_axes();
-  axis.set_field(kSeed);
-  axis.set_seed_count(seeds);
-  return request;
+  return with_text(sweep_of(small_case(), kMesh, meshes),
+                   "sweep { case { lattice { imperfection { amplitude_mm: 0.01 } } }"
+                   "        axes { field: 'lattice.imperfection.seed' seed_count: " +
+                       std::to_string(seeds) + " } }");
 }
 
 v1::SweepTable::Row row_of(int elements, int seed, v1::Job::State state, double plateau) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <type_traits>
 
+#include "programs/text_proto.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
 #include "server/small_case.h"
@@ -36,32 +37,15 @@ std::vector<std::string> fields_of(const v1::CheckCaseResponse& response) {
   return out;
 }
 
-v1::Case frame_case() {
+v1::Case frame_case(const std::string& more = "") {
   v1::Case out = testing::small_case();
   out.clear_loading();
-  auto& frame = *out.mutable_lattice()->mutable_frame();
-  for (const char* id : {"left", "right"}) {
-    auto& node = *frame.add_nodes();
-    node.set_id(id);
-    node.set_x_mm(frame.nodes_size() == 1 ? 0.0 : 100.0);
-    node.set_y_mm(0.0);
-  }
-  auto& beam = *frame.add_beams();
-  beam.set_start("left");
-  beam.set_end("right");
-  beam.set_thickness_mm(1.0);
-  auto& support = *frame.add_supports();
-  support.set_node("left");
-  support.set_fix_x(true);
-  support.set_fix_y(true);
-  auto& load = *frame.add_loads();
-  load.set_node("right");
-  load.set_component(v1::Frame::COMPONENT_Y);
-  auto& point = *load.mutable_force_n_or_n_mm()->add_points();
-  point.set_time_s(0.001);
-  point.set_value(5.0);
-  frame.set_end_time_s(0.01);
-  return out;
+  return testing::with_text(out, R"(lattice { frame {
+    nodes { id: "left" x_mm: 0 y_mm: 0 } nodes { id: "right" x_mm: 100 y_mm: 0 }
+    beams { start: "left" end: "right" thickness_mm: 1 }
+    supports { node: "left" fix_x: true fix_y: true }
+    loads { node: "right" component: COMPONENT_Y force_n_or_n_mm { points { time_s: 0.001 value: 5 } } }
+    end_time_s: 0.01 )" + more + "} }");
 }
 
 TEST(Translate, EveryPresetSurvivesTheWayToTheWireAndBack) {
@@ -173,28 +157,14 @@ TEST(Translate, AFramesWrongNamesAreProblemsWithTheirPaths) {
 }
 
 TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
-  v1::Case given = frame_case();
-  auto& frame = *given.mutable_lattice()->mutable_frame();
-  auto& motion = *frame.add_motions();
-  motion.set_node("right");
-  motion.set_component(v1::Frame::COMPONENT_X);
-  auto& point = *motion.mutable_displacement_mm_or_rad()->add_points();
-  point.set_time_s(0.5);
-  point.set_value(2.0);
-  auto& load = *frame.add_distributed_loads();
-  load.set_beam(0);
-  *load.mutable_y_n_per_mm()->add_points() = point;
-  frame.set_gravity_y_m_per_s2(-9.81);
-  frame.add_watched_nodes("right");
-  frame.mutable_beams(0)->mutable_material()->set_density_kg_per_m3(1.0);
-  frame.mutable_beams(0)->set_pin_end(true);
-  auto& wall = *frame.add_rigid_walls();
-  wall.set_id("floor");
-  wall.set_x_mm(1.0);
-  wall.set_y_mm(-2.0);
-  wall.set_normal_y(3.0);
-  wall.set_friction(0.25);
-  *wall.mutable_displacement_mm()->add_points() = point;
+  const v1::Case given = frame_case(R"(
+    beams { material { density_kg_per_m3: 1 } pin_end: true start: "right" end: "left" thickness_mm: 1 }
+    motions { node: "right" component: COMPONENT_X displacement_mm_or_rad { points { time_s: 0.5 value: 2 } } }
+    distributed_loads { beam: 1 y_n_per_mm { points { time_s: 0.5 value: 2 } } }
+    gravity_y_m_per_s2: -9.81
+    watched_nodes: "right"
+    rigid_walls { id: "floor" x_mm: 1 y_mm: -2 normal_y: 3 friction: 0.25
+                  displacement_mm { points { time_s: 0.5 value: 2 } } })");
   const auto reading = translate::to_spec(given);
   EXPECT_THAT(reading.problems, IsEmpty());
   const auto& spec = std::get<FrameWalls>(reading.spec.lattice);
@@ -208,9 +178,9 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
   EXPECT_TRUE(loads.distributed_loads.at(0).x_points.empty());
   EXPECT_EQ(loads.gravity_y_m_per_s2, -9.81);
   EXPECT_EQ(spec.watched_nodes, std::vector<int>{1});
-  EXPECT_EQ(spec.beams.at(0).material->density_kg_per_m3, 1.0);
-  EXPECT_FALSE(spec.beams.at(0).pin_start);
-  EXPECT_TRUE(spec.beams.at(0).pin_end);
+  EXPECT_EQ(spec.beams.at(1).material->density_kg_per_m3, 1.0);
+  EXPECT_FALSE(spec.beams.at(1).pin_start);
+  EXPECT_TRUE(spec.beams.at(1).pin_end);
   const LoadsSpec::RigidWall floor = {1.0, -2.0, 0.0, 3.0, 0.25, {{0.5, 2.0}}};
   EXPECT_EQ(loads.rigid_walls, std::vector{floor});
   const v1::Case once = translate::to_case(reading.spec);
@@ -218,17 +188,11 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
 }
 
 TEST(Translate, ARigidWallsMissingOrDoubleIdAndPlaceAreProblemsWithTheirPaths) {
-  v1::Case given = frame_case();
-  auto& frame = *given.mutable_lattice()->mutable_frame();
-  for (const char* id : {"floor", "floor", "", "a/b"}) {
-    auto& wall = *frame.add_rigid_walls();
-    wall.set_id(id);
-    wall.set_x_mm(0.0);
-    wall.set_y_mm(0.0);
-    wall.set_normal_x(1.0);
-  }
-  frame.mutable_rigid_walls(0)->clear_x_mm();
-  frame.mutable_rigid_walls(1)->mutable_displacement_mm();
+  const v1::Case given = frame_case(R"(
+    rigid_walls { id: "floor" y_mm: 0 normal_x: 1 }
+    rigid_walls { id: "floor" x_mm: 0 y_mm: 0 normal_x: 1 displacement_mm {} }
+    rigid_walls { x_mm: 0 y_mm: 0 normal_x: 1 }
+    rigid_walls { id: "a/b" x_mm: 0 y_mm: 0 normal_x: 1 })");
   EXPECT_THAT(fields_of(translate::to_spec(given).problems),
               ElementsAre("lattice.frame.rigid_walls[0].x_mm", "lattice.frame.rigid_walls[1].id",
                           "lattice.frame.rigid_walls[1].displacement_mm.points", "lattice.frame.rigid_walls[2].id",
@@ -238,17 +202,8 @@ TEST(Translate, ARigidWallsMissingOrDoubleIdAndPlaceAreProblemsWithTheirPaths) {
 TEST(Translate, LoadsAndEndOfAnyLatticeStandInTheLoading) {
   v1::Case given = testing::small_case();
   given.clear_loading();
-  v1::Loading& loading = *given.mutable_loading();
-  loading.set_end_time_s(1e-3);
-  loading.set_end_at_rest(0.01);
-  loading.set_gravity_y_m_per_s2(-9.81);
-  auto& hammer = *loading.add_rigid_walls();
-  hammer.set_id("hammer");
-  hammer.set_x_mm(0.0);
-  hammer.set_y_mm(100.0);
-  hammer.set_normal_y(-1.0);
-  hammer.set_mass_g(3.0);
-  hammer.set_speed_m_per_s(2.0);
+  given = testing::with_text(given, R"(loading { end_time_s: 1e-3 end_at_rest: 0.01 gravity_y_m_per_s2: -9.81
+    rigid_walls { id: "hammer" x_mm: 0 y_mm: 100 normal_y: -1 mass_g: 3 speed_m_per_s: 2 } })");
   const SceneSpec spec = translate::to_spec(given).spec;
   EXPECT_EQ(spec.loading.end_time_s, 1e-3);
   EXPECT_EQ(spec.loading.end_at_rest, 0.01);
@@ -262,7 +217,7 @@ TEST(Translate, LoadsAndEndOfAnyLatticeStandInTheLoading) {
   EXPECT_EQ(completed.rigid_walls(0).id(), "hammer");
   EXPECT_EQ(completed.rigid_walls(0).mass_g(), 3.0);
   EXPECT_EQ(translate::to_spec(check.response.completed_case()).spec.loads, spec.loads);
-  hammer.set_mass_g(0.0);
+  given.mutable_loading()->mutable_rigid_walls(0)->set_mass_g(0.0);
   EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("loading.rigid_walls[0].mass_g"));
 }
 
@@ -293,19 +248,15 @@ TEST(Translate, IdsThatMeanSomethingInAPathAndDoubleWatchesAreProblems) {
 }
 
 TEST(Translate, ACompletedFrameKeepsItsNodesNames) {
-  v1::Case given = frame_case();
-  given.mutable_lattice()->mutable_frame()->add_watched_nodes("right");
-  auto& wall = *given.mutable_lattice()->mutable_frame()->add_rigid_walls();
-  wall.set_id("ceiling");
-  wall.set_x_mm(0.0);
-  wall.set_y_mm(1000.0);
-  wall.set_normal_y(-1.0);
+  const v1::Case given = frame_case(R"(
+    watched_nodes: "right" rigid_walls { id: "ceiling" x_mm: 0 y_mm: 1000 normal_y: -1 })");
   const auto check = translate::check_case(given);
   ASSERT_THAT(fields_of(check.response), IsEmpty());
-  EXPECT_EQ(check.response.completed_case().lattice().frame().nodes(1).id(), "right");
-  EXPECT_EQ(check.response.completed_case().lattice().frame().watched_nodes(0), "right");
-  EXPECT_EQ(check.response.completed_case().lattice().frame().beams(0).end(), "right");
-  EXPECT_EQ(check.response.completed_case().lattice().frame().rigid_walls(0).id(), "ceiling");
+  const v1::Frame& frame = check.response.completed_case().lattice().frame();
+  EXPECT_EQ(frame.nodes(1).id(), "right");
+  EXPECT_EQ(frame.watched_nodes(0), "right");
+  EXPECT_EQ(frame.beams(0).end(), "right");
+  EXPECT_EQ(frame.rigid_walls(0).id(), "ceiling");
 }
 
 TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {

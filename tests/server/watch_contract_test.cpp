@@ -3,38 +3,28 @@
 
 #include <gmock/gmock.h>
 
+#include "programs/text_proto.h"
+
 namespace cellcrush::testing {
 namespace {
 
-v1::JobEvent snapshot_at(std::int64_t sequence) {
-  v1::JobEvent out;
-  out.set_sequence(sequence);
-  out.mutable_snapshot()->mutable_job()->set_state(v1::Job::RUNNING);
-  return out;
+v1::JobEvent at(std::int64_t sequence, const std::string& text) {
+  return with_text(from_text<v1::JobEvent>(text), "sequence: " + std::to_string(sequence));
 }
 
+v1::JobEvent snapshot_at(std::int64_t sequence) { return at(sequence, "snapshot { job { state: RUNNING } }"); }
+
 v1::JobEvent state_at(std::int64_t sequence, v1::Job::State state) {
-  v1::JobEvent out;
-  out.set_sequence(sequence);
-  out.mutable_state()->set_state(state);
-  return out;
+  return at(sequence, "state { state: " + v1::Job::State_Name(state) + " }");
 }
 
 v1::JobEvent sampled_at(std::int64_t sequence, std::int64_t step) {
-  v1::JobEvent out;
-  out.set_sequence(sequence);
-  out.mutable_sample()->set_step(step);
-  return out;
+  return at(sequence, "sample { step: " + std::to_string(step) + " }");
 }
 
 v1::JobEvent frame_at(std::int64_t sequence, int index, int skipped, int part = 0, int parts = 1) {
-  v1::JobEvent out;
-  out.set_sequence(sequence);
-  out.mutable_frame()->mutable_frame()->set_index(index);
-  out.mutable_frame()->set_skipped(skipped);
-  out.mutable_frame()->set_part(part);
-  out.mutable_frame()->set_part_count(parts);
-  return out;
+  return at(sequence, "frame { frame { index: " + std::to_string(index) + " } skipped: " + std::to_string(skipped) +
+                          " part: " + std::to_string(part) + " part_count: " + std::to_string(parts) + " }");
 }
 
 // How many promises such a watch breaks.

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "error.h"
+#include "server/refuses.h"
 #include "server/watch_fixture.h"
-#include "watch/frame_chunks.h"
+#include "watch/sent_frame.h"
 
 namespace cellcrush::watch {
 namespace {
@@ -149,13 +150,11 @@ TEST_F(WatchCursorTest, AJobThatIsDeletedMeanwhileIsNotFound) {
   auto cursor = this->cursor();
   for (int i = 0; i < 100; ++i) ASSERT_TRUE(cursor.next());
   journal_.delete_job(job_);
-  try {
-    while (cursor.next()) {
-    }
-    FAIL() << "The watch continues without its job.";
-  } catch (const ServiceError& error) {
-    EXPECT_EQ(error.kind(), ServiceError::Kind::not_found);
-  }
+  EXPECT_THAT(
+      [&] {
+        while (cursor.next()) continue;
+      },
+      testing::Refuses(ServiceError::Kind::not_found, ""));
   EXPECT_FALSE(cursor.ended());
 }
 

@@ -4,8 +4,8 @@
 
 #include <map>
 
+#include "programs/temporary_folder.h"
 #include "server/sample_writer.h"
-#include "server/temporary_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "watch/hub.h"

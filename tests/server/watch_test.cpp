@@ -133,10 +133,8 @@ TEST_F(WatchTest, ManyWatchersLeaveRoomForOtherCalls) {
     ASSERT_TRUE(reader->Read(&event));
     EXPECT_TRUE(event.has_snapshot());
   }
-  const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(client.get(job).name(), job);
   expect_complete(client.watch(client.create(small_case())), 0);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
   for (const auto& context : contexts) context->TryCancel();
 }
 

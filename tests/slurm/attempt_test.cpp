@@ -8,8 +8,8 @@
 #include <fstream>
 #include <future>
 
+#include "programs/temporary_folder.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 #include "slurm/attempt_exit.h"
 #include "slurm/attempt_folder.h"
 #include "slurm/attempt_run.h"

@@ -6,9 +6,9 @@
 
 #include <csignal>
 
-#include "e2e/process.h"
+#include "programs/process.h"
+#include "programs/temporary_folder.h"
 #include "server/daemon_process.h"
-#include "server/temporary_folder.h"
 #include "slurm/process_tree.h"
 
 namespace cellcrush::testing {

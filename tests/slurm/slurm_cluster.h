@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "e2e/process.h"
-#include "server/temporary_folder.h"
+#include "programs/process.h"
+#include "programs/temporary_folder.h"
 #include "slurm/slurm_conf.h"
 
 namespace cellcrush::testing {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "programs/temporary_folder.h"
 #include "server/small_case.h"
-#include "server/temporary_folder.h"
 #include "slurm/executor_run.h"
 #include "slurm/slurm_cluster.h"
 #include "slurm/slurm_executor.h"

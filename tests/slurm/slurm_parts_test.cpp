@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "error.h"
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 #include "slurm/attempt_folder.h"
 #include "slurm/batcher.h"
 #include "slurm/cluster_options.h"
@@ -130,13 +130,11 @@ TEST(SlurmCommands, AStateWithoutAMeaningHereIsUnknown) {
 }
 
 TEST(RunProgram, KillsWhatTakesTooLongWithAllItStarted) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto end = run_program({"sh", "-c", "echo said; echo failed >&2; sleep 100 & sleep 100"}, milliseconds(500));
+  const auto end = run_program({"sh", "-c", "echo said; echo failed >&2; sleep 1000 & sleep 1000"}, milliseconds(500));
   EXPECT_TRUE(end.timed_out);
   EXPECT_FALSE(end.exit_code.has_value());
   EXPECT_EQ(end.output, "said\n");
   EXPECT_EQ(end.errors, "failed\n");
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, seconds(10));
 }
 
 TEST(RunProgram, ReadsALongOutputAndTheExitCode) {

@@ -6,9 +6,9 @@ import { fileURLToPath } from "node:url";
 import { fromBinary } from "@bufbuild/protobuf";
 import { FileDescriptorSetSchema } from "@bufbuild/protobuf/wkt";
 
-// The messages whose fields the page explains.
-const kExplained = ["Case", "Lattice", "Material", "Section", "Contact", "Plates", "Loading", "Numerics", "Output",
-                    "Summary"];
+// The page explains the fields of all messages of the first file, and of one of the second.
+const kExplained = ["cellcrush/v1/case.proto", "cellcrush/v1/sample.proto"];
+const kExplainedSample = "Summary";
 const page = dirname(dirname(fileURLToPath(import.meta.url)));
 const protos = join(page, "../../proto");
 const gen = join(page, "gen");
@@ -46,12 +46,13 @@ function addMessage(help, comments, message, path, name) {
 
 // The comments of the protos as data, from the bytes of a FileDescriptorSet with source info: for each message its
 // fields, for each enum its values.
-function helpOf(bytes, names) {
+function helpOf(bytes) {
   const help = { messages: {}, enums: {} };
   for (const file of fromBinary(FileDescriptorSetSchema, bytes).file) {
     const comments = commentsOf(file);
     file.messageType.forEach((message, i) => {
-      if (names.includes(message.name)) addMessage(help, comments, message, `${kMessages}.${i}`, message.name);
+      if (file.name === kExplained[1] && message.name !== kExplainedSample) return;
+      addMessage(help, comments, message, `${kMessages}.${i}`, message.name);
     });
   }
   return help;
@@ -72,8 +73,7 @@ execFileSync("protoc", [
   `--proto_path=${protos}`,
   "--include_source_info",
   `--descriptor_set_out=${descriptors}`,
-  "cellcrush/v1/case.proto",
-  "cellcrush/v1/sample.proto",
+  ...kExplained,
 ]);
-writeFileSync(join(gen, "help.json"), JSON.stringify(helpOf(readFileSync(descriptors), kExplained), null, 1));
+writeFileSync(join(gen, "help.json"), JSON.stringify(helpOf(readFileSync(descriptors)), null, 1));
 rmSync(descriptors);

@@ -1,11 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
-import { CaseSchema, Lattice_HexagonSchema, Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
-import { fieldAt, groupsOf, kLatticeKinds, readField, writeField } from "../src/new_case/fields";
+import { CaseSchema, Frame_RigidWallSchema, Lattice_HexagonSchema,
+         Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
+import { caseValues, fieldAt, groupsOf, kLatticeKinds, linesOf, pathsBeside, readField,
+         writeField } from "../src/new_case/fields";
 import { labelsOf } from "../src/new_case/order";
 import { axisOf, jobCount } from "../src/new_case/sweep_axis";
-import { caseValues } from "../src/compare/numbers";
 import { defaultOf, helpOf, labelOf, limitsOf, unitOf } from "../src/new_case/words";
 
 const hexagons = () => create(CaseSchema, {
@@ -27,6 +28,8 @@ test("every field of the form is in the protos and has help", () => {
   assert.equal(limitsOf("loading.end_strain"), "Default 0.8; 0.0001 to below 0.95");
   assert.equal(limitsOf("lattice.hexagon.wall_thickness_mm"), "Required, 1e-6 to half of side_mm");
   assert.equal(limitsOf("output.sample_count"), "Default 1000; 10 to 100000");
+  assert.equal(limitsOf("loading.end_time_s"), "Required without plates only; 1e-12 to 1e12");
+  assert.equal(unitOf("loading.gravity_x_m_per_s2"), "m/s²");
 });
 
 test("fields are written and read by path, and cleared by an empty text", () => {
@@ -41,11 +44,31 @@ test("fields are written and read by path, and cleared by an empty text", () => 
   assert.equal(readField(value, "loading.speed_m_per_s"), "");
 });
 
+test("what has no field in the form stands beside it, and is removed only by name", () => {
+  const [kind, frame] = ["hexagon", "frame"].map((name) => kLatticeKinds.find((each) => each.name === name));
+  const inForm = groupsOf(kind).flatMap(({ paths }) => paths);
+  const value = hexagons();
+  for (const name of ["end_time_s", "end_at_rest", "gravity_x_m_per_s2", "gravity_y_m_per_s2"]) {
+    assert.ok(inForm.includes(`loading.${name}`) && writeField(value, `loading.${name}`, "0.5"));
+  }
+  value.loading.rigidWalls = [1, 2, 3, 4, 5].map((id) => create(Frame_RigidWallSchema, { id: `w${id}`, normalX: -1 }));
+  value.lattice.inclusions = create(Lattice_InclusionsSchema, { rows: [2, 4] });
+  assert.deepEqual(pathsBeside(value, inForm), ["lattice.inclusions", "loading.rigid_walls"]);
+  assert.deepEqual(linesOf(value, "lattice.inclusions"), ["rows 2, 4"]);
+  assert.deepEqual(linesOf(value, "loading.rigid_walls"), [
+    "id w1 normal_x -1", "id w2 normal_x -1", "id w3 normal_x -1", "and 2 more"]);
+  assert.ok(writeField(value, "loading.rigid_walls", ""));
+  assert.deepEqual(pathsBeside(value, inForm), ["lattice.inclusions"]);
+  const paths = groupsOf(frame).flatMap((group) => group.paths);
+  assert.ok(paths.includes("lattice.frame.end_time_s") && !paths.includes("loading.end_time_s"));
+});
+
 test("a text that is no value of its field is refused", () => {
   const value = hexagons();
   assert.equal(writeField(value, "depth_mm", "four"), false);
   assert.equal(writeField(value, "lattice.hexagon.rows", "2.5"), false);
   assert.equal(writeField(value, "lattice.imperfection.seed", "-1"), false);
+  assert.equal(writeField(value, "section.formulation", "FAST"), false);
 });
 
 test("values of a sweep: a list, ranges, seeds", () => {
@@ -56,9 +79,7 @@ test("values of a sweep: a list, ranges, seeds", () => {
   assert.equal(count("seeds:5"), 5);
   assert.equal(typeof axisOf("f", "fast"), "string");
   assert.equal(typeof axisOf("f", ""), "string");
-});
-
-test("a sweep over several fields has a job for each combination", () => {
+  // Each combination of several fields is a job.
   assert.equal(jobCount([axisOf("a", "1, 2, 3"), axisOf("b", "seeds:5")]), 15);
 });
 
@@ -72,7 +93,7 @@ test("a comparison sees every field of a case but its title", () => {
   value.title = "one";
   assert.ok(writeField(value, "numerics.mass_damping_per_s", "40"));
   assert.ok(writeField(value, "loading.ramp_strain", "0.01"));
-  assert.ok(writeField(value, "section.formulation", "2"));
+  assert.ok(writeField(value, "section.formulation", "DISPLACEMENT_BASED"));
   value.lattice.inclusions = create(Lattice_InclusionsSchema, { rows: [2, 4] });
   assert.deepEqual(Object.fromEntries(caseValues(value)), {
     "lattice.hexagon.columns": "20", "lattice.inclusions.rows": "2, 4", "section.formulation": "DISPLACEMENT_BASED",

@@ -83,9 +83,7 @@ test("a smooth picture has no note, a slow one tells its rate", () => {
   assert.equal(noteAfter(new Pace(), 250, 50), "slow drawing: 4 per second");
   assert.equal(noteAfter(new Pace(), 800, 50), "slow drawing: 1.3 per second");
   assert.equal(noteAfter(new Pace(), 800, 1), "");
-});
-
-test("a pause between two plays is not slow", () => {
+  // A pause between two plays is not slow.
   const pace = new Pace();
   noteAfter(pace, 16, 20);
   pace.stop();

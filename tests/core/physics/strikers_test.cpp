@@ -1,5 +1,6 @@
-// Rigid walls with a mass (E9g), gravity, rigid walls and ends of generated lattices: impact on a bar, momentum, the
-// ledger, a mass that comes to rest, light masses, checkpoints. Blind to: friction at a mass, which RigidWall has.
+// Rigid walls with a mass (E9g), gravity, rigid walls and ends of generated lattices: impact on a bar, momentum and the
+// ledger on elastic and yielding walls, a mass that comes to rest, light masses, checkpoints. Blind to: friction at a
+// mass, which RigidWall has.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "cellcrush/simulation.h"
+#include "energy/ledger.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/rigid_walls.h"
@@ -54,47 +56,95 @@ TEST(Striker, IsSlowedDownByABarAsByADashpot) {
   scenes::record_bound("way error in %", 100.0 * worst / way, 1.0);
 }
 
-/// Of a whole run: greatest residual of the ledger over the energy turned over.
-double residual_of(Simulation& simulation) {
-  double worst = 0.0;
-  Energies last;
-  for (const Sample& sample : scenes::run_to_end(simulation)) {
-    worst = std::max(worst, std::abs(sample.energies.residual));
-    last = sample.energies;
-  }
-  return worst / (last.initial + std::max(0.0, last.external));
-}
-
 /// Of lattice and first rigid wall, tonne.
 double mass_of(const Scene& scene) {
   return std::accumulate(scene.mass.begin(), scene.mass.end(), scene.rigid_walls.at(0).mass);
 }
 
-TEST(Striker, KeepsMomentumAndEnergyWhateverItsMass) {
-  double momentum_error = 0.0;
+/// What a blow on a free lattice under gravity must keep, over its whole time.
+struct Kept {
+  double momentum_error = 0.0;  // over the momentum of the mass before
+  double travel_error = 0.0;    // of the way of the mass from the sum of its speeds, over the way
+  double residual = 0.0;        // greatest of the ledger over the energy turned over
+  double plastic = 0.0;         // work over the same
+  double slowed = 0.0;          // speed of the mass after over that before
+};
+
+Kept strike(SceneSpec spec) {
+  spec.loads.gravity_y_m_per_s2 = -100.0;
+  const auto scene = scenes::build(spec);
+  Simulation simulation(scene);
+  const double step = scene->schedule.time_step;
+  double way = 0.0;
   double residual = 0.0;
+  scenes::follow(simulation, [&](const State& state) {
+    way += step * state.rigid_wall_motion[0].speed;
+    if (state.step % 50 == 0) residual = std::max(residual, std::abs(evaluate_energies(*scene, state).residual));
+  });
+  EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
+  const State& state = simulation.state();
+  const RigidWall& wall = scene->rigid_walls.at(0);
+  const RigidWallMotion& motion = state.rigid_wall_motion.at(0);
+  EXPECT_GT(state.rigid_wall_impulse.at(0).normal, 0.0);
+  const double momentum = scenes::momentum_of(*scene, state).linear.y() - wall.mass * motion.speed;
+  // Velocities are half a step old, and so is gravity's part.
+  const double fall = mass_of(*scene) * scene->gravity.y() * (state.time - 0.5 * step);
+  const double start = -wall.mass * wall.speed;
+  const Energies end = evaluate_energies(*scene, state);
+  const double turned_over = end.initial + std::max(0.0, end.external);
+  return {std::abs(momentum - fall - start) / std::abs(start), std::abs(motion.travel - way) / way,
+          residual / turned_over, end.plastic / turned_over, motion.speed / wall.speed};
+}
+
+SceneSpec struck_by(double share, double speed_m_per_s) {
+  SceneSpec spec = scenes::struck_hexagons(1.0, speed_m_per_s);
+  spec.loads.rigid_walls[0].own["mass_g"] = share * scenes::mass_in_grams(spec);
+  return spec;
+}
+
+TEST(Striker, KeepsMomentumAndEnergyWhateverItsMass) {
+  Kept worst;
   for (const double share : {0.02, 0.3, 5.0}) {
-    SceneSpec spec = scenes::struck_hexagons(1.0, 10.0);
+    SceneSpec spec = struck_by(share, 10.0);
     spec.material.yield_stress_mpa = 1e9;
-    const double lattice = scenes::mass_in_grams(spec);
-    spec.loads.rigid_walls[0].own["mass_g"] = share * lattice;
-    spec.loads.gravity_y_m_per_s2 = -100.0;
-    const auto scene = scenes::build(spec);
-    Simulation simulation(scene);
-    residual = std::max(residual, residual_of(simulation));
-    const State& state = simulation.state();
-    const RigidWall& wall = scene->rigid_walls.at(0);
-    const double momentum =
-        scenes::momentum_of(*scene, state).linear.y() - wall.mass * state.rigid_wall_motion.at(0).speed;
-    // Velocities are half a step old, and so is gravity's part.
-    const double fall = mass_of(*scene) * scene->gravity.y() * (state.time - 0.5 * scene->schedule.time_step);
-    const double start = -wall.mass * wall.speed;
-    momentum_error = std::max(momentum_error, std::abs(momentum - fall - start) / std::abs(start));
-    EXPECT_LT(state.rigid_wall_motion[0].speed, 0.99 * wall.speed) << share;
-    EXPECT_GT(state.rigid_wall_impulse[0].normal, 0.0);
+    const Kept kept = strike(spec);
+    worst.momentum_error = std::max(worst.momentum_error, kept.momentum_error);
+    worst.residual = std::max(worst.residual, kept.residual);
+    EXPECT_LT(kept.slowed, 0.99) << share;
   }
-  scenes::record_bound("momentum error", momentum_error, 1e-9);
-  scenes::record_bound("residual in %", 100.0 * residual, 0.1);
+  scenes::record_bound("momentum error", worst.momentum_error, 1e-9);
+  scenes::record_bound("residual in %", 100.0 * worst.residual, 0.1);
+}
+
+// A fibre that crosses into yielding within a step dissipates too much, by the square of the step (E10). An error of
+// half a step or of a sign in the motion, the work or the energy of the mass would be of first order or stay: halving
+// the step would divide the residual by 2 or 1 instead of 4.
+TEST(Striker, KeepsThemOnYieldingWallsByTheSquareOfTheStep) {
+  Kept worst;
+  double coarse = 0.0;
+  for (const double share : {0.3, 5.0}) {
+    SceneSpec spec = struck_by(share, 5.0);
+    const double chosen = scenes::build(spec)->schedule.time_step;
+    double before = 0.0;
+    for (const double refined : {1.0, 2.0, 4.0}) {
+      spec.numerics.time_step_s = chosen / refined;
+      const Kept kept = strike(spec);
+      EXPECT_GT(kept.plastic, 0.1) << share;
+      if (refined == 1.0) {
+        coarse = std::max(coarse, kept.residual);
+      } else {
+        EXPECT_LT(kept.residual, before / 3.0) << share << " " << refined;
+      }
+      before = kept.residual;
+      worst.momentum_error = std::max(worst.momentum_error, kept.momentum_error);
+      worst.travel_error = std::max(worst.travel_error, kept.travel_error);
+    }
+    worst.residual = std::max(worst.residual, before);
+  }
+  scenes::record_bound("momentum error", worst.momentum_error, 1e-9);
+  scenes::record_bound("way error", worst.travel_error, 1e-9);
+  scenes::record_bound("residual in %", 100.0 * coarse, 0.2);
+  scenes::record_bound("residual in % at a quarter of the step", 100.0 * worst.residual, 0.01);
 }
 
 TEST(Striker, TakesAShorterStepOnlyIfItIsLight) {

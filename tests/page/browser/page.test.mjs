@@ -114,6 +114,29 @@ test('the rigid wall of a frame is in its picture', async () => {
   assert.ok(shares[1] > 0.005, `${shares}`);
 });
 
+test('a case keeps its loads in the form, and problems stand at what they are about', async () => {
+  const rigidWalls = [{ id: 'floor', xMm: 0, yMm: -3, normalY: 1 },
+                      { id: 'ram', xMm: 160, yMm: 20, normalX: -1, massG: 5 }];
+  const submitted = await daemon.presetCase('hexagon-small', (each) => {
+    Object.assign(each.loading, { endTimeS: 0.0001, gravityYMPerS2: -9.5, rigidWalls });
+  });
+  const { name } = await daemon.call('Jobs/CreateJob', { case: submitted });
+  await page.goto(`${daemon.url}/new?from=${name}`);
+  assert.equal(await page.getByLabel('Gravity along y').inputValue(), '-9.5');
+  await page.getByText('id ram x_mm 160 y_mm 20').waitFor();
+  assert.deepEqual(await seriousFindings(page), []);
+  await page.getByLabel('Side').fill('8');
+  await page.locator('.beside', { hasText: 'Rigid walls' }).getByText('[1]').waitFor();
+  await page.getByLabel('Side').fill('4');
+  await page.getByLabel('End at rest').fill('2');
+  await page.locator('.field', { hasText: 'End at rest' }).getByText('Is too large.').waitFor();
+  await page.getByLabel('End at rest').fill('0.25');
+  await page.getByRole('button', { name: 'Start the job' }).click();
+  await page.waitForURL((url) => /jobs/.test(url.pathname));
+  const { case: sent } = await daemon.call('Jobs/GetJob', { name: new URL(page.url()).pathname.slice(1) });
+  assert.deepEqual(sent.loading, { ...submitted.loading, endAtRest: 0.25 });
+});
+
 test('nothing serious stands in the way of people who cannot see or point', async () => {
   for (const colorScheme of ['light', 'dark']) {
     await page.emulateMedia({ colorScheme });

@@ -88,9 +88,8 @@ TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
   watch::Pump pump(2);
   access::Gate gate({});
   rpc::MethodTable methods(gate, pump);
-  FountainService service{sent};
-  methods.stream("/cellcrush.v1.Jobs/DownloadResult", access::Scope::read, {pump, metrics, limits, {}}, service,
-                 &FountainService::open);
+  methods.stream("/cellcrush.v1.Jobs/DownloadResult", access::Scope::read, {pump, metrics, limits, {}},
+                 std::make_shared<FountainService>(sent), &FountainService::open);
   http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, methods, {});
   const HttpSocket socket(std::stoi(gateway.url().substr(gateway.url().rfind(':') + 1)), 64 * 1024);
   const std::string body = envelope("");

@@ -1,6 +1,6 @@
 // The token that a daemon with --tokens asks for. It stays in the tab, or in the browser if the user wants that.
 import { Code, ConnectError, type Interceptor } from "@connectrpc/connect";
-import { h } from "../dom/element";
+import { h, labelled } from "../dom/element";
 
 const kKey = "cellcrush-token";
 let isAsking = false;
@@ -21,7 +21,7 @@ export function forgetToken(): void {
 function askForToken(reason: string): void {
   if (isAsking) return;
   isAsking = true;
-  const token = h("input", { type: "password", id: "token", autocomplete: "off", required: true });
+  const token = h("input", { type: "password", autocomplete: "off", required: true });
   const keep = h("input", { type: "checkbox" });
   const submit = (event: Event): void => {
     event.preventDefault();
@@ -32,8 +32,7 @@ function askForToken(reason: string): void {
   };
   const dialog = h("dialog", { class: "token", cancel: (event: Event) => event.preventDefault() },
     h("h2", {}, "This daemon asks for a token"), h("p", {}, reason),
-    h("form", { submit },
-      h("div", { class: "field" }, h("label", { for: "token" }, "Token"), token),
+    h("form", { submit }, labelled("Token", token),
       h("label", { class: "keep" }, keep, " keep it in this browser"),
       h("div", { class: "buttons" }, h("button", { type: "submit", class: "primary" }, "Continue"))));
   document.body.append(dialog);

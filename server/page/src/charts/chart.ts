@@ -4,18 +4,14 @@ import uPlot from "uplot";
 import { h, replaceChildren, setText, svg } from "../dom/element";
 import { number } from "../dom/format";
 import { onThemeChange, themeColour } from "../picture/colours";
-import { markPath, type ChartData, type MarkShape, type Series } from "./chart_data";
+import { legendOf, markPath, type ChartData, type MarkShape, type Series } from "./chart_data";
 import { bandShapes, drawShapes, markShapes } from "./chart_marks";
 import { indexBefore } from "./curves";
 
 const kFont = "11px ";
 
-function kindOf(series: Series): string {
-  return series.fill ? "area" : series.points ? "point" : "line";
-}
-
 /** A mark in the colour `--colour`, for legends. */
-export function markSwatch(shape: MarkShape): SVGElement {
+function markSwatch(shape: MarkShape): SVGElement {
   return svg("svg", { viewBox: "-7 -7 14 14", class: "mark", "aria-hidden": "true" },
     svg("path", { d: markPath(shape, 5) }));
 }
@@ -159,21 +155,15 @@ export class Chart {
   }
 
   private buildLegend(data: ChartData): void {
-    const entry = (label: string, colour: string, dash: number[] | undefined, kind: string,
-                   mark?: MarkShape): HTMLElement => {
+    this.values = [];
+    replaceChildren(this.legend, ...legendOf(data).map(({ label, colour, dash, mark, kind }) => {
       const swatch = mark ? markSwatch(mark) : h("i", { class: `swatch ${kind}` });
       swatch.style.setProperty("--colour", `var(--${colour})`);
       if (dash?.length) swatch.classList.add(dash[0] <= 2 ? "dotted" : "dashed");
       const value = h("b", {});
       if (kind !== "level") this.values.push(value);
-      return h("span", { class: "entry" }, swatch, h("span", {}, label), kind === "level" ? null : value);
-    };
-    this.values = [];
-    replaceChildren(this.legend,
-      ...data.series.filter((series) => !series.quiet)
-        .map((series) => entry(series.label, series.colour, series.dash, kindOf(series), series.mark)),
-      ...(data.levels ?? []).filter((level) => level.label)
-        .map((level) => entry(level.label, level.colour, level.dash, "level")));
+      return h("span", { class: "entry" }, swatch, h("span", {}, label), kind !== "level" && value);
+    }));
   }
 
   // The values of the legend: at the pointer, otherwise at the playhead.

@@ -67,3 +67,11 @@ export interface ChartData {
   xLog?: boolean;
   note?: string;
 }
+
+/** What a legend has: curves, then levels, which have no value at a place. */
+export const legendOf = ({ series, levels = [] }: ChartData) => [
+  ...series.filter(({ quiet }) => !quiet).map(({ label, colour, dash, fill, points, mark = "circle" }) =>
+    ({ label, colour, dash, kind: fill ? "area" as const : "line" as const, mark: points ? mark : undefined })),
+  ...levels.filter(({ label }) => label).map(({ label, colour, dash }) =>
+    ({ label, colour, dash, kind: "level" as const, mark: undefined })),
+];

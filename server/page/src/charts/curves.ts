@@ -68,8 +68,8 @@ export function indexBefore<T>(items: T[], value: number, xOf: (item: T) => numb
 }
 
 /** Indices of at most about `most` points, with the least and the greatest y of each run of points. */
-export function thin(y: number[], most: number): number[] | undefined {
-  if (y.length <= most) return undefined;
+export function thin(y: number[], most: number): number[] {
+  if (y.length <= most) return [...y.keys()];
   const size = Math.ceil((2 * y.length) / most);
   const kept: number[] = [];
   for (let start = 0; start < y.length; start += size) {

@@ -25,9 +25,8 @@ const kVisibleShare = 0.002; // a term that stays below this part of the work is
 const kMostPoints = 1500;
 
 export function energyChart(samples: Sample[], axis: Axis, workOf = "work of the plates"): ChartData {
-  let kept = finite(samples, axis);
-  const places = thin(kept.map((s) => s.energyKineticMj), kMostPoints);
-  if (places) kept = places.map((place) => kept[place]);
+  const all = finite(samples, axis);
+  const kept = thin(all.map((s) => s.energyKineticMj), kMostPoints).map((place) => all[place]);
   const most = kept.reduce((value, s) => Math.max(value, s.workExternalMj), 0);
   const [unit, perMj] = most < 100 ? ["mJ", 1] : most < 1e6 ? ["J", 1e-3] : ["kJ", 1e-6];
   const terms = kTerms.filter((term) => kept.some((s) => Math.abs(term.value(s)) > kVisibleShare * most));

@@ -58,10 +58,10 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
   const kept = finite(samples, axis);
   const smooth = smoothedStress(samples, axis);
   const top = stressTop(smooth, summary, note ? undefined : theory);
-  let columns = [smooth.strain, kept.map((s) => s.stressImpactMpa), kept.map((s) => s.stressSupportMpa),
-                 smooth.impact, smooth.support];
-  const places = thin(columns[1], kMostPoints);
-  if (places) columns = columns.map((column) => places.map((place) => column[place]));
+  const curves = [smooth.strain, kept.map((s) => s.stressImpactMpa), kept.map((s) => s.stressSupportMpa),
+                  smooth.impact, smooth.support];
+  const places = thin(curves[1], kMostPoints);
+  const columns = curves.map((column) => places.map((place) => column[place]));
   const peak = kept.reduce((most, s) => Math.max(most, s.stressImpactMpa, s.stressSupportMpa), 0);
   const bands: Band[] = [{ from: 0.2, to: 0.4, label: "plateau window" }];
   const densification = summary?.densificationStrain;
@@ -88,7 +88,7 @@ export function forceChart(samples: Sample[], axis: Axis): ChartData | undefined
   const walls = samples[0]?.rigidWalls.slice(0, kMostWalls) ?? [];
   if (walls.length === 0) return undefined;
   const places = thin(samples.map((s) => s.rigidWalls[0]?.normalForceN ?? 0), kMostForces);
-  const kept = places ? places.map((place) => samples[place]) : samples;
+  const kept = places.map((place) => samples[place]);
   const columns = walls.map((_, i) => kept.map((sample) => sample.rigidWalls[i]?.normalForceN ?? null));
   const top = columns.flat().reduce<number>((most, value) => Math.max(most, value ?? 0), 0);
   const series: Series[] = walls.map((wall, i) => ({ label: wall.wall, colour: `series-${i}`, width: 1.8 }));

@@ -1,6 +1,6 @@
 // Up to six jobs: their curves in one chart, their pictures at equal strain.
-import { errorText, isNotFound } from "../api/errors";
-import { idOf, pathOf } from "../api/names";
+import { errorText, isNotFound } from "../api/clients";
+import { idOf, pathOf } from "../dom/format";
 import { Chart } from "../charts/chart";
 import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
@@ -13,8 +13,7 @@ import { Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
 import { go, keepInUrl, type View } from "../router";
 import { saveChartButton } from "../take_away/menus";
-import { comparisonChart } from "./curves";
-import { comparisonTable } from "./numbers";
+import { comparisonChart, comparisonTable } from "./side_by_side";
 
 const kMostJobs = 6;
 const kDrawMs = 200;
@@ -65,15 +64,14 @@ export class ComparePage implements View {
   private readonly numbers = h("div", {});
   private readonly bar: PlayerBar;
   private readonly jobs: Compared[];
-  private wantedStrain: number;
   private readonly drawing = new Later(() => this.draw(), kDrawMs);
   private readonly url = new Later(() => {
-    if (!Number.isFinite(this.wantedStrain)) keepInUrl({ strain: String(Number(this.player.value.toFixed(4))) });
+    if (this.player.wanted === undefined) keepInUrl({ strain: String(Number(this.player.value.toFixed(4))) });
   }, kUrlMs);
 
   constructor(query: URLSearchParams) {
     const ids = [...new Set((query.get("jobs") ?? "").split(",").filter((id) => /^\d+$/.test(id)))].slice(0, kMostJobs);
-    this.wantedStrain = Number(query.get("strain") ?? 0.4);
+    this.player.wanted = Number(query.get("strain") ?? 0.4);
     this.jobs = ids.map((id, i) => new Compared(new JobData(`jobs/${id}`), i, () =>
       go(`/compare?jobs=${ids.filter((other) => other !== id).join(",")}`)));
     this.bar = new PlayerBar(this.player, {
@@ -131,10 +129,6 @@ export class ComparePage implements View {
     this.player.fullEnd = end;
     const reached = Math.max(0, ...datas.map((data) => data.samples[data.samples.length - 1]?.strain ?? 0));
     this.player.setEnd(reached);
-    if (Number.isFinite(this.wantedStrain) && reached > 0) {
-      this.player.seek(Math.min(this.wantedStrain, reached));
-      if (reached >= this.wantedStrain) this.wantedStrain = NaN;
-    }
     this.showPlace();
   }
 

@@ -43,9 +43,28 @@ export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** Shows a text in a banner, or no banner. */
+export function setBanner(banner: HTMLElement, text: string): void {
+  banner.hidden = !text;
+  setText(banner, text);
+}
+
 export function replaceChildren(element: Element, ...children: Child[]): void {
   element.replaceChildren();
   append(element, children);
+}
+
+let inputs = 0;
+
+/** An input with its label; `hint` below it tells its limits or what is wrong. */
+export function labelled(label: string, input: HTMLElement, hint?: HTMLElement, unit = ""): HTMLElement {
+  input.id ||= `field-${++inputs}`;
+  if (hint) {
+    hint.id = `${input.id}-hint`;
+    input.setAttribute("aria-describedby", hint.id);
+  }
+  return h("div", { class: "field" }, h("label", { for: input.id }, label),
+    h("div", { class: "with-unit" }, input, unit ? h("span", { class: "unit" }, unit) : null), hint);
 }
 
 export function button(label: string, click: () => void, attributes: Attributes = {}): HTMLButtonElement {

@@ -1,4 +1,4 @@
-// Numbers, times and sizes as text.
+// Numbers, times, sizes, and names of jobs and sweeps as text.
 
 const kMissing = "–";
 
@@ -67,4 +67,13 @@ export function fullTime(time: Instant | undefined): string {
 
 export function plural(value: number, noun: string): string {
   return `${count(value)} ${noun}${value === 1 ? "" : "s"}`;
+}
+
+// Names, such as "jobs/12", are the paths of their pages without the first slash.
+export const pathOf = (name: string): string => `/${name}`;
+export const idOf = (name: string): string => name.slice(name.indexOf("/") + 1);
+
+/** The order of names by number. */
+export function byNumber(a: string, b: string): number {
+  return Number(idOf(a)) - Number(idOf(b));
 }

@@ -29,11 +29,6 @@ export function latticeOf(mesh: Mesh): Lattice {
   };
 }
 
-/** Position of the impact plate's face at a strain. */
-export function impactPlateAt(lattice: Lattice, strain: number): number {
-  return lattice.impactPlate + strain * lattice.length;
-}
-
 export function boxOf(position: Float32Array): Box {
   const box = { lowX: Infinity, highX: -Infinity, lowY: Infinity, highY: -Infinity };
   for (let i = 0; i + 1 < position.length; i += 2) {
@@ -53,13 +48,14 @@ export function viewBox(lattice: Lattice): Box {
   const box = boxOf(lattice.undeformed);
   const width = box.highX - box.lowX;
   const height = box.highY - box.lowY;
-  const plate = plateThickness(lattice);
+  const plate = wallThickness(box);
   const bulge = 0.04 * (lattice.alongY ? width : height);
   const along = lattice.plates ? 1.6 * plate : 0.04 * Math.max(width, height);
   const [dx, dy] = lattice.alongY ? [bulge + plate, along] : [along, bulge + plate];
   return { lowX: box.lowX - dx, highX: box.highX + dx, lowY: box.lowY - dy, highY: box.highY + dy };
 }
 
-export function plateThickness(lattice: Lattice): number {
-  return 0.009 * Math.max(lattice.length, 1e-9);
+/** Of plates and rigid walls across a box, in a picture. */
+export function wallThickness(box: Box): number {
+  return 0.009 * Math.hypot(box.highX - box.lowX, box.highY - box.lowY);
 }

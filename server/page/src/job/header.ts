@@ -2,9 +2,8 @@
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import { isExported } from "../api/exported";
-import { idOf, pathOf } from "../api/names";
-import { h, replaceChildren, setText } from "../dom/element";
-import { clock, count, duration, fullTime, strainText } from "../dom/format";
+import { h, replaceChildren, setBanner, setText } from "../dom/element";
+import { clock, count, duration, fullTime, idOf, pathOf, strainText } from "../dom/format";
 import { icon } from "../dom/icons";
 import { actionsOf, attempt } from "../jobs/actions";
 import { causeWords, hasEnded, setChip, stateChip, titleOf, whereOf } from "../jobs/states";
@@ -84,9 +83,8 @@ export class JobHeader {
 
   private updateCause(job: Job): void {
     const text = [job.causeMessage, job.remedy].filter(Boolean).join(" ");
-    this.cause.hidden = !text;
     this.cause.className = `banner ${job.state === Job_State.FAILED ? "error" : "warning"}`;
     const name = job.state === Job_State.FAILED ? `${causeWords(job.cause)}: ` : "";
-    setText(this.cause, name + text);
+    setBanner(this.cause, text && name + text);
   }
 }

@@ -4,13 +4,13 @@ import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb"
 import type { JobEvent } from "../../gen/cellcrush/v1/event_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import { FieldFrame_Encoding, type Sample } from "../../gen/cellcrush/v1/sample_pb";
-import { api } from "../api/clients";
-import { isAway } from "../api/errors";
+import { api, ifAny, isAway } from "../api/clients";
 import { Later, Listeners } from "../dom/calls";
 import { watch, type WatchedJob } from "../api/watch";
 import { FrameStore } from "../frames/frame_store";
 import { FrameReader } from "../frames/parts";
 import { elsewhere, hasEnded } from "../jobs/states";
+import { keepUntold } from "../jobs/store";
 
 const kAgainMs = 2500;
 const kPlaceMs = 10_000; // between questions for the place of a job on a cluster
@@ -88,23 +88,16 @@ export class JobData implements WatchedJob {
   // Events do not tell the place.
   private async loadPlace(): Promise<void> {
     const { signal } = this.abort;
-    try {
-      const { place } = await api.jobs.getJob({ name: this.name }, { signal });
-      if (!this.job || hasEnded(this.job)) return;
-      this.job.place = place;
-      this.jobChanges.tell();
-    } catch {
-      // The watch says that the daemon is away.
-    }
-    if (!signal.aborted) this.place.afresh();
+    const told = await ifAny(api.jobs.getJob({ name: this.name }, { signal }));
+    if (signal.aborted || !this.job || hasEnded(this.job)) return;
+    if (told) this.job.place = told.place;
+    this.jobChanges.tell();
+    this.place.afresh();
   }
 
   putJob(job: Job): void {
     const old = this.job;
-    if (!job.case && old?.case) [job.case, job.words] = [old.case, old.words];
-    if (!job.title && old?.title) job.title = old.title;
-    if (!job.progress && old?.progress && !hasEnded(job)) job.progress = old.progress;
-    if (!job.place && old?.place && !hasEnded(job)) job.place = old.place;
+    keepUntold(job, old);
     this.job = job;
     this.jobChanges.tell();
     if (elsewhere(job.executor) && !hasEnded(job) && old?.state !== job.state) {
@@ -187,26 +180,18 @@ export class JobData implements WatchedJob {
     }
   }
 
-  // The lattice of a job that waits; its watch sends the mesh once it runs.
+  // The lattice of a job that waits, unless it is too large for a preview; its watch sends the mesh once it runs.
   private async loadPreview(job: Job): Promise<void> {
     if (!job.case) return;
-    try {
-      const { mesh } = await api.cases.previewCase({ case: job.case }, { signal: this.abort.signal });
-      if (mesh && !this.frames.lattice) this.frames.setMesh(mesh);
-    } catch {
-      // A lattice too large for a preview is shown with the first frame.
-    }
+    const preview = await ifAny(api.cases.previewCase({ case: job.case }, { signal: this.abort.signal }));
+    if (preview?.mesh && !this.frames.lattice) this.frames.setMesh(preview.mesh);
   }
 
   // What is modelled, and the theory of a job that has no summary yet.
   private async loadCheck(): Promise<void> {
     if (!this.job?.case) return;
-    try {
-      this.check = await api.cases.checkCase({ case: this.job.case }, { signal: this.abort.signal });
-      this.jobChanges.tell();
-    } catch {
-      // The page then shows the job without these notes.
-    }
+    this.check = await ifAny(api.cases.checkCase({ case: this.job.case }, { signal: this.abort.signal }));
+    if (this.check) this.jobChanges.tell();
   }
 
   destroy(): void {

@@ -1,9 +1,9 @@
 // The page of a job: the crush, its curves and its numbers, with one cursor through all.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
-import { errorText, isAway, isNotFound } from "../api/errors";
+import { errorText, isAway, isNotFound } from "../api/clients";
 import { isExported } from "../api/exported";
-import { idOf } from "../api/names";
+import { idOf } from "../dom/format";
 import { Chart } from "../charts/chart";
 import { strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";
@@ -49,7 +49,6 @@ export class JobPage implements View {
   private readonly problem = h("div", { class: "banner error", hidden: true });
   private readonly grid = h("div", { class: "job-grid" });
   private axis: Axis = strainAxis(0.8);
-  private wantedStrain: number | undefined;
   private readonly curves = new Later(() => this.updateCurves(), kCurvesMs);
   private readonly url = new Later(() => this.keepUrl(), kUrlMs);
   private detailsKey = "";
@@ -66,7 +65,7 @@ export class JobPage implements View {
     this.frames = new FrameView(this.data.frames, (frame) => this.axis.frame(frame), "The lattice as it is crushed",
                                 (time) => this.rigidWalls.at(time));
     this.frames.picture.camera.text = query.get("view") ?? "";
-    if (query.has("strain")) this.wantedStrain = Number(query.get("strain"));
+    if (query.has("strain")) this.player.wanted = Number(query.get("strain"));
     this.bar = new PlayerBar(this.player, {
       neighbour: (direction) => this.frames.neighbour(this.player.value, direction),
       text: (value) => this.axis.text(value),
@@ -106,10 +105,6 @@ export class JobPage implements View {
       if (job && job !== this.data.job) this.data.putJob(job);
     });
     document.addEventListener("keydown", this.key);
-    // What the user does counts from then on, not the place in the URL.
-    for (const event of ["pointerdown", "keydown"]) {
-      this.grid.addEventListener(event, () => { this.wantedStrain = undefined; }, { capture: true });
-    }
   }
 
   private readonly key = (event: KeyboardEvent): void => {
@@ -143,13 +138,14 @@ export class JobPage implements View {
 
   private followState(job: Job): void {
     const { lattice, loading } = job.case ?? {};
-    const ofFrame = lattice?.kind.case === "frame" ? lattice.kind.value.endTimeS : undefined;
+    const walls = lattice?.kind.value;
+    const ofWalls = walls && "endTimeS" in walls ? walls.endTimeS : undefined;
     if (job.words?.plates ?? true) this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
-    else this.setAxis(timeAxis(loading?.endTimeS ?? ofFrame ?? 1));
+    else this.setAxis(timeAxis(loading?.endTimeS ?? ofWalls ?? 1));
     const isLive = !hasEnded(job);
-    if (isLive && !this.wasLive && this.wantedStrain === undefined) this.player.follow();
+    if (isLive && !this.wasLive && this.player.wanted === undefined) this.player.follow();
     // An ended crush opens half way, where there is something to see.
-    if (!isLive && !this.isShown && this.wantedStrain === undefined) this.wantedStrain = 0.5 * this.axis.end;
+    if (!isLive && !this.isShown) this.player.wanted ??= 0.5 * this.axis.end;
     this.isShown = true;
     this.wasLive ||= isLive;
     this.bar.setLive(isLive);
@@ -200,10 +196,7 @@ export class JobPage implements View {
     const lastSample: Sample | undefined = samples[samples.length - 1];
     const lastFrame = frames.frames[frames.frames.length - 1];
     const end = Math.max(lastSample ? this.axis.sample(lastSample) : 0, lastFrame ? this.axis.frame(lastFrame) : 0);
-    this.player.setEnd(Number.isFinite(end) ? end : 0);
-    if (this.wantedStrain === undefined) return;
-    this.player.seek(this.wantedStrain);
-    if (this.wantedStrain <= end || this.data.isComplete) this.wantedStrain = undefined;
+    this.player.setEnd(Number.isFinite(end) ? end : 0, this.data.isComplete);
   }
 
   private showPlace(): void {
@@ -216,7 +209,7 @@ export class JobPage implements View {
 
   private keepUrl(): void {
     const { player } = this;
-    if (player.playing || this.wantedStrain !== undefined) return;
+    if (player.playing || player.wanted !== undefined) return;
     const strain = player.following || player.value === 0 ? undefined : String(Number(player.value.toFixed(4)));
     keepInUrl({ strain, view: this.frames.picture.camera.text || undefined });
   }

@@ -2,24 +2,22 @@
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import { h } from "../dom/element";
 import { count, duration, number, percent, strainText } from "../dom/format";
-import { fieldHelp } from "../help";
+import { fieldHelp } from "../new_case/words";
 
 /** A number of a summary for tables: its path in the message, and its text in the unit of the name. */
-export interface SummaryNumber {
+interface SummaryNumber {
   name: string;
   field: string;
   value(s: Summary): number | undefined;
-  text(value: number | undefined): string;
+  text?: (value: number | undefined) => string;
 }
 
-const plain = (value: number | undefined): string => number(value);
+export const summaryText = ({ value, text = number }: SummaryNumber, s: Summary): string => text(value(s));
 
 export const kSummaryNumbers: SummaryNumber[] = [
-  { name: "Impact plateau, MPa", field: "plateau_stress_impact_mpa", value: (s) => s.plateauStressImpactMpa,
-    text: plain },
-  { name: "Support plateau, MPa", field: "plateau_stress_support_mpa", value: (s) => s.plateauStressSupportMpa,
-    text: plain },
-  { name: "Shock theory (Eq. 51), MPa", field: "theory.shock_mpa", value: (s) => s.theory?.shockMpa, text: plain },
+  { name: "Impact plateau, MPa", field: "plateau_stress_impact_mpa", value: (s) => s.plateauStressImpactMpa },
+  { name: "Support plateau, MPa", field: "plateau_stress_support_mpa", value: (s) => s.plateauStressSupportMpa },
+  { name: "Shock theory (Eq. 51), MPa", field: "theory.shock_mpa", value: (s) => s.theory?.shockMpa },
   { name: "Densification strain", field: "densification_strain", value: (s) => s.densificationStrain,
     text: strainText },
   { name: "Absorbed energy, J", field: "absorbed_energy_mj", value: (s) => s.absorbedEnergyMj,

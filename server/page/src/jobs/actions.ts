@@ -1,8 +1,7 @@
 // What a user can do with a job in its state.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
-import { api } from "../api/clients";
-import { errorText } from "../api/errors";
-import { idOf } from "../api/names";
+import { api, errorText } from "../api/clients";
+import { idOf } from "../dom/format";
 import { ask, say } from "../dom/dialog";
 import type { IconName } from "../dom/icons";
 import { go } from "../router";

@@ -1,12 +1,10 @@
 // The page of all jobs and sweeps, live.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
-import { api } from "../api/clients";
-import { errorText } from "../api/errors";
-import { idOf } from "../api/names";
+import { api, errorText } from "../api/clients";
 import { watch } from "../api/watch";
 import { Later } from "../dom/calls";
 import { button, h, setText } from "../dom/element";
-import { plural } from "../dom/format";
+import { idOf, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
 import { QueuePanel } from "./queue";
 import { hasEnded, kActiveStates, kStates, stateWord, titleOf } from "./states";
@@ -18,6 +16,9 @@ const kPage = 50;
 const kMostPagesAtOnce = 6; // while few of the jobs on a page pass the filter
 const kMostCompared = 6;
 const kTypingMs = 250;
+
+const withState = (filter: string, state: string): string =>
+  [filter, `state = ${state}`].filter(Boolean).join(" AND ");
 
 export class JobsPage implements View {
   readonly title = "Jobs";
@@ -114,7 +115,7 @@ export class JobsPage implements View {
   }
 
   private async loadPages(generation: number, filter: string): Promise<void> {
-    const state = this.state.value ? [filter, `state = ${this.state.value}`].filter(Boolean).join(" AND ") : filter;
+    const state = this.state.value ? withState(filter, this.state.value) : filter;
     let shown = 0;
     for (let i = 0; i < kMostPagesAtOnce && shown < kPage / 2; ++i) {
       const page = await api.jobs.listJobs({ pageSize: kPage, pageToken: this.token, filter: state });
@@ -129,8 +130,7 @@ export class JobsPage implements View {
 
   private async listActive(filter: string): Promise<Job[]> {
     const lists = await Promise.all(kActiveStates.map((state) =>
-      api.jobs.listJobs({ pageSize: 200, filter: [filter, `state = ${Job_State[state]}`].filter(Boolean)
-        .join(" AND ") })));
+      api.jobs.listJobs({ pageSize: 200, filter: withState(filter, Job_State[state]) })));
     return lists.flatMap((list) => list.jobs);
   }
 

@@ -1,6 +1,6 @@
 // Why jobs wait: the order of the queue, and the shortages that hold it.
 import type { Queue_Entry, Queue_Hold } from "../../gen/cellcrush/v1/admin_service_pb";
-import { api } from "../api/clients";
+import { api, ifAny } from "../api/clients";
 import { Later } from "../dom/calls";
 import { h, replaceChildren } from "../dom/element";
 import { clock } from "../dom/format";
@@ -24,17 +24,13 @@ export class QueuePanel {
   }
 
   private async fetch(): Promise<void> {
-    try {
-      const queue = await api.admin.getQueue({});
-      if (this.isDestroyed) return;
-      this.entries = new Map(queue.entries.map((entry) => [entry.job, entry]));
-      this.waitingCount = queue.entries.length + queue.moreCount;
-      this.showHolds(queue.holds);
-      this.changed();
-      if (queue.entries.length > 0 || queue.holds.length > 0) this.next.soon(kAgainMs);
-    } catch {
-      // The watch says that the daemon is away; the next change of a state asks again.
-    }
+    const queue = await ifAny(api.admin.getQueue({})); // if none, the next change of a state asks again
+    if (!queue || this.isDestroyed) return;
+    this.entries = new Map(queue.entries.map((entry) => [entry.job, entry]));
+    this.waitingCount = queue.entries.length + queue.moreCount;
+    this.showHolds(queue.holds);
+    this.changed();
+    if (queue.entries.length > 0 || queue.holds.length > 0) this.next.soon(kAgainMs);
   }
 
   private showHolds(holds: Queue_Hold[]): void {

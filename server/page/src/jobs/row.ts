@@ -1,9 +1,8 @@
 // One row of the table of jobs.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
-import { idOf, pathOf } from "../api/names";
 import { h, setText } from "../dom/element";
-import { clock, duration, fullTime, milliseconds, number, strainText } from "../dom/format";
+import { clock, duration, fullTime, idOf, milliseconds, number, pathOf, strainText } from "../dom/format";
 import { iconButton } from "../dom/icons";
 import { actionsOf, attempt } from "./actions";
 import { elsewhere, hasEnded, sceneWords, setChip, stateChip, titleOf, whereOf } from "./states";

@@ -4,7 +4,7 @@ import type { CaseWords } from "../../gen/cellcrush/v1/problem_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { Warning_Kind } from "../../gen/cellcrush/v1/sample_pb";
 import { h, setText, svg } from "../dom/element";
-import { idOf } from "../api/names";
+import { idOf } from "../dom/format";
 
 const kWords: Record<Job_State, string> = {
   [Job_State.JOB_STATE_UNSPECIFIED]: "unknown",

@@ -4,6 +4,15 @@ import { Listeners } from "../dom/calls";
 import { watch } from "../api/watch";
 import { hasEnded } from "./states";
 
+/** Keeps what the watch does not tell of a job: its case, which does not change, its title, progress and place. */
+export function keepUntold(job: Job, old: Job | undefined): void {
+  if (!old) return;
+  if (!job.case && old.case) [job.case, job.words] = [old.case, old.words];
+  job.title ||= old.title;
+  if (!hasEnded(job)) job.progress ??= old.progress;
+  if (job.state === old.state) job.place ||= old.place;
+}
+
 export class JobStore {
   readonly jobs = new Map<string, Job>();
   /** Told at most once per picture of the screen. */
@@ -24,13 +33,10 @@ export class JobStore {
     ];
   }
 
-  /** Adds or replaces a job. Jobs of the watch come without their case, which does not change. */
+  /** Adds or replaces a job. */
   put(job: Job): void {
     const old = this.jobs.get(job.name);
-    if (!job.case && old?.case) [job.case, job.words] = [old.case, old.words];
-    if (!job.title && old?.title) job.title = old.title;
-    if (!job.progress && old?.progress && !hasEnded(job)) job.progress = old.progress;
-    if (!job.place && old?.state === job.state) job.place = old.place; // events do not tell it
+    keepUntold(job, old);
     this.jobs.set(job.name, job);
     this.schedule();
     if (old?.state !== job.state) this.stateChanges.tell();

@@ -1,13 +1,11 @@
 // The sweeps, newest first, each with the states of its jobs as a bar.
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
-import { api } from "../api/clients";
-import { errorText } from "../api/errors";
-import { byNumber, idOf, pathOf } from "../api/names";
+import { api, errorText, ifAny } from "../api/clients";
 import { watch } from "../api/watch";
 import { Later } from "../dom/calls";
 import { button, h, replaceChildren } from "../dom/element";
-import { clock, fullTime, plural } from "../dom/format";
+import { byNumber, clock, fullTime, idOf, pathOf, plural } from "../dom/format";
 import { stateBar, titleOfSweep, variedFields } from "./states";
 
 const kPage = 6;
@@ -54,14 +52,10 @@ export class SweepsList {
   private async refresh(): Promise<void> {
     const names = [...this.pending];
     this.pending.clear();
-    try {
-      for (const sweep of await Promise.all(names.map((name) => api.sweeps.getSweep({ name })))) {
-        this.sweeps.set(sweep.name, sweep);
-      }
-      this.show();
-    } catch {
-      // A sweep that was deleted meanwhile disappears by its own event.
+    for (const sweep of await Promise.all(names.map((name) => ifAny(api.sweeps.getSweep({ name }))))) {
+      if (sweep) this.sweeps.set(sweep.name, sweep);
     }
+    this.show();
   }
 
   private async load(isMore: boolean): Promise<void> {

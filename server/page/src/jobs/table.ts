@@ -1,7 +1,7 @@
 // The table of jobs: those that have not ended first, in the order of the queue, then the others, newest first.
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
-import { byNumber } from "../api/names";
+import { byNumber } from "../dom/format";
 import { h } from "../dom/element";
 import { JobRow } from "./row";
 import { hasEnded } from "./states";

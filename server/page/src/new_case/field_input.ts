@@ -1,8 +1,7 @@
 // One field of the form: label, input, unit, and a line that holds its limits or its problem.
 import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { Problem_Kind } from "../../gen/cellcrush/v1/problem_pb";
-import { h, setText } from "../dom/element";
-import { fieldAt } from "./fields";
+import { h, labelled, setText } from "../dom/element";
 import { choicesOf, defaultOf, helpOf, labelOf, limitsOf, unitOf } from "./words";
 
 /** Shows below an input of a form what it may be, or why its text is no value. */
@@ -11,33 +10,27 @@ export function showHint(hint: HTMLElement, text: string, isValue: boolean): voi
   hint.parentElement!.dataset.kind = isValue ? "" : "error";
 }
 
-let count = 0;
-
 export class FieldInput {
   readonly element: HTMLElement;
   private readonly input: HTMLInputElement | HTMLSelectElement;
   private readonly line = h("div", { class: "limits" });
   private readonly limits: string;
 
-  constructor(readonly path: string, on: { changed(text: string): void; focused(path: string): void }) {
+  constructor(path: string, on: { changed(text: string): void; focused(path: string): void }) {
     this.limits = limitsOf(path);
-    const id = `field-${++count}`;
-    this.line.id = `${id}-limits`;
-    const attributes = { id, "aria-describedby": this.line.id };
     const choices = choicesOf(path);
     if (choices.length) {
-      this.input = h("select", attributes, h("option", { value: "" }, `default: ${defaultOf(path)
+      this.input = h("select", {}, h("option", { value: "" }, `default: ${defaultOf(path)
         .toLowerCase().replaceAll("_", " ")}`),
         ...choices.map((choice) => h("option", { value: choice.value, title: choice.help }, choice.label)));
     } else {
-      this.input = h("input", { ...attributes, type: "text", inputmode: "decimal", autocomplete: "off",
-                                spellcheck: "false", placeholder: defaultOf(path) });
+      this.input = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false",
+                                placeholder: defaultOf(path) });
     }
     this.input.addEventListener("input", () => on.changed(this.input.value));
     this.input.addEventListener("focus", () => on.focused(path));
-    const unit = unitOf(path);
-    this.element = h("div", { class: "field" }, h("label", { for: id, title: helpOf(path) }, labelOf(path)),
-      h("div", { class: "with-unit" }, this.input, unit ? h("span", { class: "unit" }, unit) : null), this.line);
+    this.element = labelled(labelOf(path), this.input, this.line, unitOf(path));
+    this.element.firstElementChild!.setAttribute("title", helpOf(path));
     this.showProblem(undefined);
   }
 
@@ -45,17 +38,15 @@ export class FieldInput {
     this.input.value = text;
   }
 
-  /** Whether the text cannot be a value of the field. */
-  showUnreadable(isUnreadable: boolean): void {
-    if (isUnreadable) this.show("error", fieldAt(this.path).field.fieldKind === "scalar" ? "This is not a number."
-      : "This is not a value.");
+  showUnreadable(): void {
+    this.show("error", "This is not a number.");
   }
 
   showProblem(problem: Problem | undefined): void {
     if (!problem) return this.show("", this.limits);
-    const kind = problem.kind === Problem_Kind.IMPLAUSIBLE ? "warning" : "error";
     const message = `${problem.message} ${problem.remedy}`.trim();
-    this.show(kind, message.charAt(0).toUpperCase() + message.slice(1));
+    this.show(problem.kind === Problem_Kind.IMPLAUSIBLE ? "warning" : "error",
+              message.charAt(0).toUpperCase() + message.slice(1));
   }
 
   private show(kind: string, text: string): void {

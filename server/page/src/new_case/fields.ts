@@ -1,39 +1,49 @@
-// The fields of the form, and access to them by their paths in the protos.
-import type { Case } from "../../gen/cellcrush/v1/case_pb";
-import { CaseSchema, LatticeSchema } from "../../gen/cellcrush/v1/case_pb";
-import { create, type DescField, type DescMessage } from "@bufbuild/protobuf";
+// The fields of the form, and access to the fields of a case by their paths in the protos.
+import { create, getOption, ScalarType, type DescField, type DescMessage } from "@bufbuild/protobuf";
 import { reflect, type ReflectMessage } from "@bufbuild/protobuf/reflect";
+import { CaseSchema, LatticeSchema, LoadingSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
+import { rules } from "../../gen/cellcrush/v1/field_pb";
 
 export type LatticeKind = DescField & { fieldKind: "message" };
 
+export const kLatticeKinds = LatticeSchema.oneofs.find(({ name }) => name === "kind")!.fields.filter(
+  (field): field is LatticeKind => field.fieldKind === "message");
+
+/** Whether the walls of a kind are listed one by one, which a form cannot do. */
+export const isListed = (kind: LatticeKind): boolean =>
+  kind.message.fields.some((field) => field.fieldKind === "list" && getOption(field, rules).required);
+
+/** A group that is not open is folded until the case, or a problem, has something of it. */
 export interface Group { title: string; paths: string[]; isOpen: boolean }
 
-/** All kinds of lattices of equal cells. */
-export const kLatticeKinds = LatticeSchema.oneofs.find(({ name }) => name === "kind")!.fields.filter(
-  (field): field is LatticeKind => field.fieldKind === "message" && field.name !== "frame");
+const singleFields = (message: DescMessage): string[] => message.fields.filter(({ fieldKind }) =>
+  fieldKind === "scalar" || fieldKind === "enum").map(({ name }) => name);
 
-/** The groups of the form for a kind of lattice; rarely changed fields are folded away. */
+const kCrush = ["direction", "speed_m_per_s", "end_strain", "ramp_strain"];
+
+/** The groups of the form for a kind of lattice. What a kind has at a place of its own is not in its loading. */
 export function groupsOf(kind: LatticeKind): Group[] {
-  const sizes = kind.message.fields.map(({ name }) => `lattice.${kind.name}.${name}`);
-  return [
-    { title: "Lattice", isOpen: true, paths: [...sizes, "depth_mm"] },
-    { title: "Material", isOpen: true, paths: ["youngs_modulus_mpa", "yield_stress_mpa", "density_kg_per_m3",
-      "hardening_modulus_mpa"].map((name) => `material.${name}`) },
-    { title: "Crush", isOpen: true, paths: ["loading.direction", "loading.speed_m_per_s", "loading.end_strain",
-      "loading.ramp_strain", "plates.friction"] },
-    { title: "Imperfection", isOpen: false, paths: ["amplitude_mm", "seed", "bow_mm"].map((name) =>
-      `lattice.imperfection.${name}`) },
-    { title: "Material, further", isOpen: false, paths: ["isotropic_fraction", "plane", "poissons_ratio"].map((name) =>
-      `material.${name}`) },
+  const ofKind = singleFields(kind.message);
+  const further = singleFields(LoadingSchema).filter((name) => !kCrush.includes(name) && !ofKind.includes(name));
+  const under = (parent: string, names: string[]): string[] => names.map((name) => `${parent}.${name}`);
+  const groups = [
+    { title: "Lattice", isOpen: true, paths: [...under(`lattice.${kind.name}`, ofKind), "depth_mm"] },
+    { title: "Material", isOpen: true, paths: under("material", ["youngs_modulus_mpa", "yield_stress_mpa",
+      "density_kg_per_m3", "hardening_modulus_mpa"]) },
+    { title: "Crush", isOpen: !isListed(kind), paths: [...under("loading", kCrush), "plates.friction"] },
+    { title: "Further loads and ends", isOpen: false, paths: under("loading", further) },
+    { title: "Imperfection", isOpen: false, paths: isListed(kind) ? []
+      : under("lattice.imperfection", ["amplitude_mm", "seed", "bow_mm"]) },
+    { title: "Material, further", isOpen: false, paths: under("material", ["isotropic_fraction", "plane",
+      "poissons_ratio"]) },
     { title: "Mesh and section", isOpen: false, paths: ["numerics.fidelity", "elements_per_wall",
-      "section.formulation", "section.axial_points", "section.depth_points", "section.depth_rule",
-      "section.area_rule"] },
-    { title: "Contact", isOpen: false, paths: ["friction", "stiffness_factor", "damping_ratio", "search",
-      "impact_speed_m_per_s"].map((name) => `contact.${name}`) },
-    { title: "Run", isOpen: false, paths: ["numerics.threads", "numerics.time_step_s", "numerics.mass_damping_per_s",
-      "numerics.mass_scaling", "numerics.rotary_scaling", "numerics.fibre_precision", "output.sample_count",
-      "output.frame_count"] },
+      ...under("section", ["formulation", "axial_points", "depth_points", "depth_rule", "area_rule"])] },
+    { title: "Contact", isOpen: false, paths: under("contact", ["friction", "stiffness_factor", "damping_ratio",
+      "search", "impact_speed_m_per_s"]) },
+    { title: "Run", isOpen: false, paths: [...under("numerics", ["threads", "time_step_s", "mass_damping_per_s",
+      "mass_scaling", "rotary_scaling", "fibre_precision"]), ...under("output", ["sample_count", "frame_count"])] },
   ];
+  return groups.filter(({ paths }) => paths.length > 0);
 }
 
 export interface Place { field: DescField; parent: DescMessage }
@@ -67,12 +77,62 @@ function holderOf(value: Case, path: string, makes: boolean): ReflectMessage | u
   return message;
 }
 
+// One entry of a list: a message in one line, or a value.
+const entryText = (entry: unknown): string => typeof entry !== "object" || entry === null ? String(entry)
+  : [...valuesOf(entry as ReflectMessage, "")].map(([name, text]) => `${name} ${text}`).join(" ");
+
+function textOf(message: ReflectMessage, field: DescField): string {
+  if (field.fieldKind === "list") return [...message.get(field)].map(entryText).join(", ");
+  if (field.fieldKind === "message") return entryText(message.get(field));
+  if (field.fieldKind === "enum") return field.enum.value[message.get(field)]?.name ?? "unknown";
+  return String(message.get(field));
+}
+
+// All that is set, by its path; lists are one value.
+function* valuesOf(message: ReflectMessage, prefix: string): Generator<[string, string]> {
+  for (const field of message.fields) {
+    if (!message.isSet(field)) continue;
+    const path = prefix + field.name;
+    if (field.fieldKind === "message") yield* valuesOf(message.get(field), `${path}.`);
+    else yield [path, textOf(message, field)];
+  }
+}
+
+/** The value of every field of a case, by its path; a title names a job and is none of them. */
+export function caseValues(value: Case): Map<string, string> {
+  const values = new Map(valuesOf(reflect(CaseSchema, value), ""));
+  values.delete("title");
+  return values;
+}
+
+/** The paths of what a case has beside the title and the fields of a form: of messages, if they have none of these. */
+export function pathsBeside(value: Case, inForm: string[]): string[] {
+  const walk = (message: ReflectMessage, prefix: string): string[] => message.fields.flatMap((field) => {
+    const path = prefix + field.name;
+    if (!message.isSet(field) || inForm.includes(path) || path === "title") return [];
+    const isSplit = field.fieldKind === "message" && inForm.some((each) => each.startsWith(`${path}.`));
+    return isSplit ? walk(message.get(field) as ReflectMessage, `${path}.`) : [path];
+  });
+  return walk(reflect(CaseSchema, value), "");
+}
+
+const kLines = 3;
+
+/** What is set at a path in lines: the first entries of a list, or a value. */
+export function linesOf(value: Case, path: string): string[] {
+  const { field } = fieldAt(path);
+  const holder = holderOf(value, path, false)!;
+  if (field.fieldKind !== "list") return [textOf(holder, field)];
+  const entries = [...holder.get(field)];
+  const more = entries.length - kLines;
+  return [...entries.slice(0, kLines).map(entryText), ...(more > 0 ? [`and ${more} more`] : [])];
+}
+
 /** The value at a path as text; empty if it is not set. */
 export function readField(value: Case, path: string): string {
   const { field } = fieldAt(path);
   const holder = holderOf(value, path, false);
-  if (!holder?.isSet(field)) return "";
-  return String(holder.get(field));
+  return holder?.isSet(field) ? textOf(holder, field) : "";
 }
 
 /** Sets the value at a path from text; an empty text clears it. Returns whether the text is a value of the field. */
@@ -84,24 +144,25 @@ export function writeField(value: Case, path: string, text: string): boolean {
     holder?.clear(field);
     return true;
   }
-  if (!holder) return false;
-  if (field.fieldKind === "enum") return setValue(holder, field, Number(trimmed));
-  if (field.fieldKind !== "scalar") return false;
-  const plain = trimmed.replace(",", ".").replace(/\s/g, "");
-  if (typeof scalarZero(field) === "bigint") return /^\d+$/.test(plain) && setValue(holder, field, BigInt(plain));
-  const number = Number(plain);
-  return Number.isFinite(number) && setValue(holder, field, number);
-}
-
-function scalarZero(field: DescField): unknown {
-  return field.fieldKind === "scalar" && (field.scalar === 4 || field.scalar === 3) ? 0n : 0; // uint64, int64
-}
-
-function setValue(holder: ReflectMessage, field: DescField, value: number | bigint): boolean {
+  const parsed = parse(field, trimmed);
+  if (!holder || parsed === undefined) return false;
   try {
-    holder.set(field as never, value as never);
+    holder.set(field as never, parsed as never);
     return true;
   } catch {
     return false; // such as a fraction for a count
+  }
+}
+
+function parse(field: DescField, text: string): unknown {
+  if (field.fieldKind === "enum") return field.enum.values.find(({ name }) => name === text)?.number;
+  if (field.fieldKind !== "scalar") return undefined;
+  const plain = text.replace(",", ".").replace(/\s/g, "");
+  switch (field.scalar) {
+    case ScalarType.STRING: return text;
+    case ScalarType.BOOL: return text === "true";
+    case ScalarType.INT64:
+    case ScalarType.UINT64: return /^\d+$/.test(plain) ? BigInt(plain) : undefined;
+    default: return Number.isFinite(Number(plain)) ? Number(plain) : undefined;
   }
 }

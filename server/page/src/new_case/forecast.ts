@@ -38,8 +38,4 @@ export class Forecast {
     replaceChildren(this.notes, note ? h("p", { class: "faint note" }, note) : null,
       ...unplaced.map((problem) => entry(problem, isValid ? "warning" : "error")));
   }
-
-  showError(text: string): void {
-    replaceChildren(this.notes, h("div", { class: "banner error" }, text));
-  }
 }

@@ -1,20 +1,24 @@
-// The form of a case: groups of fields that read and write the message.
-import type { Case } from "../../gen/cellcrush/v1/case_pb";
+// The form of a case: groups of fields that read and write the message, and what else the case has.
 import { create } from "@bufbuild/protobuf";
-import { LatticeSchema } from "../../gen/cellcrush/v1/case_pb";
+import { LatticeSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
 import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
-import { h, replaceChildren } from "../dom/element";
+import { h, labelled, replaceChildren, setText } from "../dom/element";
+import { iconButton } from "../dom/icons";
 import { FieldInput } from "./field_input";
-import { groupsOf, kLatticeKinds, readField, writeField, type LatticeKind } from "./fields";
+import { groupsOf, isListed, kLatticeKinds, linesOf, pathsBeside, readField, writeField, type Group,
+         type LatticeKind } from "./fields";
+import { defaultOf, fieldHelp, helpOf, labelOf } from "./words";
 
 export class CaseForm {
   readonly element = h("div", { class: "case-form" });
   /** Paths whose text is no value. */
   readonly unreadable = new Set<string>();
   private inputs = new Map<string, FieldInput>();
-  private readonly title = h("input", { type: "text", id: "case-title", maxlength: 200, autocomplete: "off" });
-  private readonly kind = h("select", { id: "case-kind" }, ...kLatticeKinds.map((kind) =>
-    h("option", { value: kind.localName }, `${kind.name.replaceAll("_", " ")}s`)));
+  private beside = new Map<string, HTMLElement>(); // where their problems are told
+  private readonly title = h("input", { type: "text", maxlength: 200, autocomplete: "off" });
+  private readonly kinds = kLatticeKinds.filter((kind) => !isListed(kind));
+  private readonly kind = h("select", {}, ...this.kinds.map(({ name }) =>
+    h("option", { value: name }, fieldHelp("Lattice", name).replace(/\.$/, "") || name)));
   private value!: Case;
 
   constructor(private readonly on: { changed(): void; focused(path: string): void }) {
@@ -23,7 +27,7 @@ export class CaseForm {
       on.changed();
     });
     this.kind.addEventListener("change", () => {
-      this.changeKind(kLatticeKinds[this.kind.selectedIndex]);
+      this.changeKind(this.kinds[this.kind.selectedIndex]);
       this.build();
       on.changed();
     });
@@ -36,11 +40,7 @@ export class CaseForm {
     this.build();
   }
 
-  private get isFrame(): boolean {
-    return this.value.lattice?.kind.case === "frame";
-  }
-
-  /** The numeric fields of the form, for the axis of a sweep. */
+  /** The fields of the form, for the axis of a sweep. */
   get paths(): string[] {
     return [...this.inputs.keys()];
   }
@@ -48,23 +48,35 @@ export class CaseForm {
   private build(): void {
     this.inputs = new Map();
     this.unreadable.clear();
-    const isOwnGeometry = this.isFrame;
-    const kind = kLatticeKinds.find(({ localName }) => localName === this.value.lattice?.kind.case);
-    if (kind) this.kind.value = kind.localName;
-    const groups = groupsOf(kind ?? kLatticeKinds[0]).filter((group) =>
-      !isOwnGeometry || !["Lattice", "Crush", "Imperfection"].includes(group.title));
+    const kind = kLatticeKinds.find(({ localName }) => localName === this.value.lattice?.kind.case) ?? this.kinds[0];
+    this.kind.value = kind.name;
+    const groups = groupsOf(kind).map((group) => this.groupOf(group));
+    const beside = pathsBeside(this.value, this.paths);
+    this.beside = new Map(beside.map((path) => [path, h("div", { class: "bad" })]));
     replaceChildren(this.element,
-      h("div", { class: "field wide" }, h("label", { for: "case-title" }, "Title"), this.title),
-      isOwnGeometry ? h("p", { class: "banner warning" },
-        "This case is a frame of beams. Its geometry, loads and motions stay as they are.")
-        : h("div", { class: "field wide" }, h("label", { for: "case-kind" }, "Cells"), this.kind),
-      ...groups.map((group) => this.groupOf(group.title, group.paths, group.isOpen)));
+      labelled("Title", this.title), !isListed(kind) && labelled("Cells", this.kind),
+      beside.length > 0 && h("dl", { class: "facts beside" }, ...beside.map((path) => this.rowBeside(path))),
+      ...groups);
   }
 
-  private groupOf(title: string, paths: string[], isOpen: boolean): HTMLElement {
+  // What has no field is kept as it is, or removed.
+  private rowBeside(path: string): HTMLElement {
+    const label = labelOf(path);
+    const remove = iconButton("minus", `Remove: ${label}`, () => {
+      writeField(this.value, path, "");
+      this.build();
+      this.on.changed();
+    });
+    const lines = linesOf(this.value, path).map((line) => h("div", {}, line));
+    return h("div", { title: helpOf(path) }, h("dt", {}, label),
+      h("dd", {}, h("div", {}, ...lines, this.beside.get(path)), defaultOf(path) !== "required" && remove));
+  }
+
+  private groupOf({ title, paths, isOpen }: Group): HTMLElement {
     const fields = h("div", { class: "fields" }, ...paths.map((path) => this.inputOf(path).element));
-    const isGiven = paths.some((path) => readField(this.value, path) !== "");
-    return h("details", { open: isOpen || (isGiven && title === "Imperfection") }, h("summary", {}, title), fields);
+    const isDefault = (path: string): boolean => ["", defaultOf(path).split(" ")[0]].includes(
+      readField(this.value, path));
+    return h("details", { open: isOpen || !paths.every(isDefault) }, h("summary", {}, title), fields);
   }
 
   private inputOf(path: string): FieldInput {
@@ -81,23 +93,21 @@ export class CaseForm {
     const isValue = writeField(this.value, path, text);
     if (isValue) this.unreadable.delete(path);
     else this.unreadable.add(path);
-    input.showProblem(undefined);
-    input.showUnreadable(!isValue);
+    if (isValue) input.showProblem(undefined);
+    else input.showUnreadable();
     this.on.changed();
   }
 
-  // Keeps the sizes, which all regular lattices have.
+  // Keeps the fields of the same names.
   private changeKind(kind: LatticeKind): void {
-    const old = this.value.lattice?.kind;
-    const { columns, rows, sideMm, wallThicknessMm } = old?.case && old.case !== "frame" ? old.value
-      : { columns: 20, rows: 10, sideMm: 4, wallThicknessMm: 0.3 };
-    const value = create(kind.message, { columns, rows, sideMm, wallThicknessMm });
-    this.value.lattice ??= create(LatticeSchema);
-    this.value.lattice.kind = { case: kind.localName, value } as unknown as typeof this.value.lattice.kind;
-    this.value.lattice.inclusions = undefined;
+    const lattice = (this.value.lattice ??= create(LatticeSchema));
+    const old = lattice.kind.value as Record<string, unknown> | undefined;
+    const kept = kind.message.fields.map(({ localName }) => [localName, old?.[localName]]);
+    const value = create(kind.message, Object.fromEntries(kept));
+    lattice.kind = { case: kind.localName, value } as unknown as typeof lattice.kind;
   }
 
-  /** Shows problems at their fields; returns those without a field of the form. */
+  /** Shows problems at what they are about; returns those that the form does not have. */
   showProblems(problems: Problem[]): Problem[] {
     const byPath = new Map(problems.map((problem) => [problem.field, problem]));
     for (const [path, input] of this.inputs) {
@@ -105,6 +115,14 @@ export class CaseForm {
       input.showProblem(byPath.get(path));
       if (byPath.has(path)) input.element.closest("details")!.open = true;
     }
-    return problems.filter((problem) => !this.inputs.has(problem.field));
+    const ofPath = (path: string, { field }: Problem): boolean => field === path || field.startsWith(`${path}.`)
+      || field.startsWith(`${path}[`);
+    for (const [path, line] of this.beside) {
+      const found = problems.filter((problem) => ofPath(path, problem));
+      setText(line, found.map(({ field, message, remedy }) =>
+        `${field.slice(path.length).replace(".", "")} ${message} ${remedy}`).join(" "));
+    }
+    const shown = [...this.inputs.keys(), ...this.beside.keys()];
+    return problems.filter((problem) => !shown.some((path) => ofPath(path, problem)));
   }
 }

@@ -1,5 +1,5 @@
 // Labels and priority of a new job or sweep.
-import { h } from "../dom/element";
+import { h, labelled } from "../dom/element";
 import { showHint } from "./field_input";
 
 /** The labels that a text such as "series=a, batch=2" gives, or what is wrong with the text. */
@@ -19,19 +19,17 @@ export interface Order { labels: Record<string, string>; priority: number }
 
 export class OrderInput {
   readonly element: HTMLElement;
-  private readonly labels = h("input", { type: "text", id: "labels", autocomplete: "off", spellcheck: "false",
-                                         placeholder: "series=a, batch=2", "aria-describedby": "labels-hint" });
-  private readonly priority = h("input", { type: "number", id: "priority", min: -100, max: 100, step: 1, value: 0,
-                                           "aria-describedby": "priority-hint" });
-  private readonly labelsHint = h("div", { class: "limits", id: "labels-hint" });
-  private readonly priorityHint = h("div", { class: "limits", id: "priority-hint" });
+  private readonly labels = h("input", { type: "text", autocomplete: "off", spellcheck: "false",
+                                         placeholder: "series=a, batch=2" });
+  private readonly priority = h("input", { type: "number", min: -100, max: 100, step: 1, value: 0 });
+  private readonly labelsHint = h("div", { class: "limits" });
+  private readonly priorityHint = h("div", { class: "limits" });
 
   constructor(changed: () => void) {
     for (const input of [this.labels, this.priority]) input.addEventListener("input", changed);
     this.element = h("details", { class: "order" }, h("summary", {}, "Labels and priority"),
-      h("div", { class: "fields" },
-        h("div", { class: "field" }, h("label", { for: "labels" }, "Labels"), this.labels, this.labelsHint),
-        h("div", { class: "field" }, h("label", { for: "priority" }, "Priority"), this.priority, this.priorityHint)));
+      h("div", { class: "fields" }, labelled("Labels", this.labels, this.labelsHint),
+        labelled("Priority", this.priority, this.priorityHint)));
     this.read();
   }
 

@@ -3,12 +3,10 @@ import { clone, create } from "@bufbuild/protobuf";
 import { CaseSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
 import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb";
 import { SweepSchema, type Sweep, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
-import { api } from "../api/clients";
-import { errorText, problemsOf } from "../api/errors";
-import { idOf, pathOf } from "../api/names";
+import { api, errorText, ifAny, problemsOf } from "../api/clients";
 import { Later } from "../dom/calls";
-import { h, replaceChildren, setText } from "../dom/element";
-import { duration, plural } from "../dom/format";
+import { h, labelled, replaceChildren, setBanner, setText } from "../dom/element";
+import { duration, idOf, pathOf, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
 import { OrderInput } from "./order";
 import { Forecast } from "./forecast";
@@ -22,26 +20,23 @@ const kTypingMs = 300;
 
 // The executor of a new job or sweep, where the daemon has several.
 class ExecutorInput {
-  readonly element: HTMLElement;
-  private readonly choice = h("select", { id: "executor" });
+  private readonly choice = h("select");
+  readonly element = labelled("Executor", this.choice);
 
   constructor(changed: () => void) {
     this.choice.addEventListener("change", changed);
-    this.element = h("div", { class: "field executor", hidden: true },
-      h("label", { for: "executor" }, "Executor"), this.choice);
+    this.element.hidden = true;
     void this.load();
   }
 
   // Without an answer the daemon decides.
   private async load(): Promise<void> {
-    try {
-      const { executors, defaultExecutor } = await api.admin.getCapabilities({});
-      replaceChildren(this.choice, ...executors.map(({ name }) => h("option", { value: name }, name)));
-      this.choice.value = defaultExecutor;
-      this.element.hidden = executors.length < 2;
-    } catch {
-      this.element.hidden = true;
-    }
+    const capabilities = await ifAny(api.admin.getCapabilities({}));
+    if (!capabilities) return;
+    const { executors, defaultExecutor } = capabilities;
+    replaceChildren(this.choice, ...executors.map(({ name }) => h("option", { value: name }, name)));
+    this.choice.value = defaultExecutor;
+    this.element.hidden = executors.length < 2;
   }
 
   /** Name of the chosen executor; empty for the daemon's default. */
@@ -112,7 +107,7 @@ export class NewCasePage implements View {
                       ...options);
       this.source.value = from;
     } catch (error) {
-      this.showProblem(errorText(error));
+      setBanner(this.problem, errorText(error));
     }
   }
 
@@ -129,7 +124,7 @@ export class NewCasePage implements View {
         this.setCase(preset.case);
       }
     } catch (error) {
-      this.showProblem(errorText(error));
+      setBanner(this.problem, errorText(error));
     }
   }
 
@@ -160,13 +155,13 @@ export class NewCasePage implements View {
       const isValid = check.problems.length === 0;
       const unplaced = this.form.showProblems(isValid ? check.notes : check.problems);
       this.forecast.show(check, unplaced);
-      this.problem.hidden = true;
+      setBanner(this.problem, "");
       if (isValid) void this.preview.show(this.value, Number(check.elementCount));
       await this.updateStart(abort.signal);
     } catch (error) {
       if (abort.signal.aborted) return;
       this.start.disabled = true;
-      this.showProblem(errorText(error));
+      setBanner(this.problem, errorText(error));
     }
   }
 
@@ -208,15 +203,10 @@ export class NewCasePage implements View {
       go(pathOf(created.name));
     } catch (error) {
       const problems = problemsOf(error);
-      this.showProblem(problems.length ? problems.map((p) => `${p.field} ${p.message} ${p.remedy}`).join(" ")
+      setBanner(this.problem, problems.length ? problems.map((p) => `${p.field} ${p.message} ${p.remedy}`).join(" ")
         : errorText(error));
       this.start.disabled = false;
     }
-  }
-
-  private showProblem(text: string): void {
-    this.problem.hidden = false;
-    setText(this.problem, text);
   }
 
   destroy(): void {

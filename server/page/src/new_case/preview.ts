@@ -4,6 +4,7 @@ import { api } from "../api/clients";
 import { latticeOf } from "../frames/lattice";
 import { h, setText } from "../dom/element";
 import { Picture } from "../picture/picture";
+import { facesOf } from "../picture/rigid_walls";
 
 const kMostElements = 150_000;
 
@@ -21,8 +22,10 @@ export class Preview {
 
   /** Draws the lattice of a valid case, if it is another one than before. */
   async show(value: Case, elementCount: number): Promise<void> {
-    const key = JSON.stringify([value.lattice, value.loading?.direction, value.elementsPerWall,
-                                value.numerics?.fidelity], (_, part) => (typeof part === "bigint" ? `${part}` : part));
+    const { lattice: walls, loading, elementsPerWall, numerics } = value;
+    const parts = [walls, loading?.direction, loading?.speedMPerS === undefined, loading?.rigidWalls, elementsPerWall,
+                   numerics?.fidelity];
+    const key = JSON.stringify(parts, (_, part) => (typeof part === "bigint" ? `${part}` : part));
     if (key === this.shownKey) return;
     this.shownKey = key;
     this.abort.abort();
@@ -32,9 +35,8 @@ export class Preview {
       const { mesh } = await api.cases.previewCase({ case: value }, { signal: abort.signal });
       if (!mesh || abort.signal.aborted) return;
       setText(this.note, "");
-      const lattice = latticeOf(mesh);
-      this.picture.setLattice(lattice);
-      this.picture.show({ position: lattice.undeformed, plastic: new Float32Array(lattice.thickness.length) }, 0);
+      this.picture.setLattice(latticeOf(mesh));
+      this.picture.showUndeformed(facesOf(value));
     } catch {
       this.shownKey = ""; // the check has told the problem; the next change draws again
     }

@@ -1,11 +1,10 @@
 // The fields that a sweep varies, and their values: a list, or a range as "10:200:8" or "10:200:8:log".
 import { create } from "@bufbuild/protobuf";
 import { SweepAxisSchema, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
-import { button, h, replaceChildren } from "../dom/element";
+import { button, h, labelled, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { showHint } from "./field_input";
-import { fieldAt } from "./fields";
-import { labelOf, unitOf } from "./words";
+import { choicesOf, labelOf, unitOf } from "./words";
 
 /** The axis that a text describes, or what is wrong with the text. */
 export function axisOf(field: string, text: string): SweepAxis | string {
@@ -40,8 +39,6 @@ export function jobCount(axes: SweepAxis[]): number {
   return axes.reduce((product, axis) => product * valueCount(axis), 1);
 }
 
-let count = 0;
-
 class AxisInput {
   readonly element: HTMLElement;
   private readonly field = h("select");
@@ -50,19 +47,14 @@ class AxisInput {
   readonly remove: HTMLButtonElement;
 
   constructor(changed: () => void, removed: () => void) {
-    this.field.id = `axis-field-${++count}`;
-    this.values.id = `axis-values-${count}`;
-    this.hint.id = `axis-hint-${count}`;
-    this.values.setAttribute("aria-describedby", this.hint.id);
     this.field.addEventListener("change", () => {
       this.values.value = this.isSeed ? "seeds:5" : "";
       changed();
     });
     this.values.addEventListener("input", changed);
     this.remove = iconButton("minus", "Remove field", removed);
-    this.element = h("div", { class: "axis" },
-      h("div", { class: "field" }, h("label", { for: this.field.id }, "Varied field"), this.field),
-      h("div", { class: "field" }, h("label", { for: this.values.id }, "Values"), this.values, this.hint), this.remove);
+    this.element = h("div", { class: "axis" }, labelled("Varied field", this.field),
+      labelled("Values", this.values, this.hint), this.remove);
   }
 
   private get isSeed(): boolean {
@@ -116,7 +108,7 @@ export class SweepInput {
   }
 
   setPaths(paths: string[]): void {
-    this.paths = paths.filter((path) => fieldAt(path).field.fieldKind === "scalar");
+    this.paths = paths.filter((path) => choicesOf(path).length === 0);
     if (this.axes.length === 0 && this.paths.length > 0) {
       const first = this.append();
       const speed = "loading.speed_m_per_s";

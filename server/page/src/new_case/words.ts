@@ -1,8 +1,27 @@
 // Labels, units, limits and help of the fields, from their names, and the options and comments of the protos.
-import { getOption } from "@bufbuild/protobuf";
+import { getOption, ScalarType } from "@bufbuild/protobuf";
 import { rules, type FieldRules } from "../../gen/cellcrush/v1/field_pb";
-import { fieldHelp, nameOf, valueHelp } from "../help";
+import help from "../../gen/help.json";
 import { fieldAt } from "./fields";
+
+const messages: Record<string, Record<string, string>> = help.messages;
+const enums: Record<string, Record<string, string>> = help.enums;
+
+/** Help of a field; `message` is its name without the package, such as "Lattice.Hexagon". */
+export function fieldHelp(message: string, field: string): string {
+  return messages[message]?.[field] ?? "";
+}
+
+const kUnits: [RegExp, string][] = [[/_kg_per_m3$/, "kg/m³"], [/_m_per_s2$/, "m/s²"], [/_m_per_s$/, "m/s"],
+                                    [/_mpa$/, "MPa"], [/_mm$/, "mm"], [/_per_s$/, "1/s"], [/_s$/, "s"],
+                                    [/_deg$/, "°"], [/_rad$/, "rad"], [/_g$/, "g"]];
+
+/** The last name of a path in words, and its unit: "wall thickness" in "mm". The unit may be empty. */
+export function nameOf(path: string): { words: string; unit: string } {
+  const name = path.slice(path.lastIndexOf(".") + 1);
+  const [pattern, unit] = kUnits.find(([ending]) => ending.test(name)) ?? [/$/, ""];
+  return { words: name.replace(pattern, "").replaceAll("_", " "), unit };
+}
 
 const kLabels: Record<string, string> = {
   youngs_modulus_mpa: "Young’s modulus", poissons_ratio: "Poisson’s ratio",
@@ -10,6 +29,7 @@ const kLabels: Record<string, string> = {
   "contact.friction": "Friction between walls", amplitude_mm: "Offset of joints, at most",
   bow_mm: "Bow of walls, at most", plane: "Plane stress or strain", direction: "Direction",
   sample_count: "Samples", frame_count: "Frames", vertical_wall_thickness_mm: "Thickness of the walls along y",
+  gravity_x_m_per_s2: "Gravity along x", gravity_y_m_per_s2: "Gravity along y",
 };
 
 export const unitOf = (path: string): string => nameOf(path).unit;
@@ -31,17 +51,22 @@ export function helpOf(path: string): string {
 
 const rulesOf = (path: string): FieldRules => getOption(fieldAt(path).field, rules);
 
+// "required without ...": where only some cases have to give a field.
+const isSometimesRequired = ({ required, limits }: FieldRules): boolean => required && limits.startsWith("required ");
+
 /** The default of a field, for an empty input. */
 export function defaultOf(path: string): string {
-  const { required, default: value } = rulesOf(path);
-  return required ? "required" : value;
+  const of = rulesOf(path);
+  return isSometimesRequired(of) ? "" : of.required ? "required" : of.default;
 }
 
 /** What a field may be, from its options: "Required, 2 to 10000" or "Default 0.8; 0.0001 to below 0.95". */
 export function limitsOf(path: string): string {
-  const { required, default: value, minimum, maximum, below, upTo, limits } = rulesOf(path);
+  const of = rulesOf(path);
+  const { required, default: value, minimum, maximum, below, upTo, limits } = of;
   const most = maximum === undefined ? upTo : number(maximum);
   const range = minimum === undefined ? "" : `${number(minimum)} to ${below ? "below " : ""}${most}`;
+  if (isSometimesRequired(of)) return [`R${limits.slice(1)}`, range].filter(Boolean).join("; ");
   const all = [range, limits].filter(Boolean).join(", ");
   const start = required ? "Required" : value && `Default ${value}`;
   return [start, all].filter(Boolean).join(required ? ", " : "; ");
@@ -52,16 +77,16 @@ const number = (value: number): string =>
   (Math.abs(value) >= 1e6 || (value !== 0 && Math.abs(value) < 1e-4) ? value.toExponential() : String(value))
     .replace("e+", "e");
 
-export interface Choice { value: number; label: string; help: string }
+export interface Choice { value: string; label: string; help: string }
 
-/** The values of an enum field, without the one that stands for the default. */
+/** The values of an enum field, without the one that stands for the default, or of a field that is true or false. */
 export function choicesOf(path: string): Choice[] {
   const { field } = fieldAt(path);
+  if (field.fieldKind === "scalar" && field.scalar === ScalarType.BOOL) {
+    return ["true", "false"].map((value) => ({ value, label: value, help: "" }));
+  }
   if (field.fieldKind !== "enum") return [];
-  const name = messageName(field.enum.typeName);
-  return field.enum.values.filter((value) => value.number !== 0).map((value) => ({
-    value: value.number,
-    label: value.name.toLowerCase().replaceAll("_", " "),
-    help: valueHelp(name, value.name),
-  }));
+  const of = messageName(field.enum.typeName);
+  return field.enum.values.filter((value) => value.number !== 0).map(({ name }) =>
+    ({ value: name, label: name.toLowerCase().replaceAll("_", " "), help: enums[of]?.[name] ?? "" }));
 }

@@ -2,7 +2,6 @@
 import type { FieldFrame } from "../../gen/cellcrush/v1/sample_pb";
 import { indexBefore } from "../charts/curves";
 import type { FrameStore } from "../frames/frame_store";
-import type { Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { Picture } from "./picture";
 import type { Face } from "./rigid_walls";
@@ -35,7 +34,10 @@ export class FrameView {
     const { frames, lattice } = store;
     if (!lattice || lattice.undeformed.length === 0) return;
     this.picture.setLattice(lattice);
-    if (frames.length === 0) return this.showUndeformed(lattice);
+    if (frames.length === 0) { // a job that has none yet
+      this.shownKey = "";
+      return this.picture.showUndeformed(this.facesAt(0));
+    }
     if (!lattice.plates) this.includeLast();
     const before = this.placeBefore(value);
     const after = Math.min(before + 1, frames.length - 1);
@@ -53,13 +55,6 @@ export class FrameView {
     const between = (a: number, b: number): number => a + mix * (b - a);
     const faces = this.facesAt(between(frames[before].timeS, frames[after].timeS));
     this.picture.show(this.mixed, between(frames[before].strain, frames[after].strain), faces);
-  }
-
-  // The mesh of a job that has no frame yet.
-  private showUndeformed(lattice: Lattice): void {
-    this.shownKey = "";
-    const plastic = new Float32Array(lattice.thickness.length);
-    this.picture.show({ position: lattice.undeformed, plastic }, 0, this.facesAt(0));
   }
 
   private includeLast(): void {

@@ -1,9 +1,9 @@
 // What is drawn over the walls: plates, the place where the impact plate started, a scale bar, the wall under the
 // pointer.
-import { impactPlateAt, plateThickness, type Box, type Lattice } from "../frames/lattice";
+import type { Box, Lattice } from "../frames/lattice";
 import type { Camera } from "./camera";
 import { themeColour } from "./colours";
-import { drawRigidWalls, type Face } from "./rigid_walls";
+import { drawFaces, platesOf, type Face } from "./rigid_walls";
 import { kSegmentFloats, type Segments } from "./segments";
 
 export interface OverlayState {
@@ -15,20 +15,6 @@ export interface OverlayState {
   /** Of rigid walls. */
   faces: Face[];
   hovered: number;
-}
-
-type Plates = Pick<OverlayState, "lattice" | "box" | "strain">;
-
-function plate(context: CanvasRenderingContext2D, camera: Camera, state: Plates, face: number,
-               outwards: number): void {
-  const thickness = plateThickness(state.lattice) * outwards;
-  const { box } = state;
-  const [x0, x1, y0, y1] = state.lattice.alongY ? [box.lowX, box.highX, face, face + thickness]
-    : [face, face + thickness, box.lowY, box.highY];
-  const left = camera.toScreenX(Math.min(x0, x1));
-  const top = camera.toScreenY(Math.max(y0, y1));
-  context.fillRect(left, top, Math.max(3, camera.scale * Math.abs(x1 - x0)),
-                   Math.max(3, camera.scale * Math.abs(y1 - y0)));
 }
 
 // Between two points of the lattice.
@@ -78,22 +64,14 @@ function hoveredWall(context: CanvasRenderingContext2D, camera: Camera, segments
   context.globalAlpha = 1;
 }
 
-/** Both plates; alone, for small pictures. */
-export function drawPlates(context: CanvasRenderingContext2D, camera: Camera, state: Plates): void {
-  context.fillStyle = themeColour("plate");
-  plate(context, camera, state, impactPlateAt(state.lattice, state.strain), -1);
-  plate(context, camera, state, state.lattice.supportPlate, 1);
-}
-
 export function drawOverlay(context: CanvasRenderingContext2D, camera: Camera, state: OverlayState): void {
   const { lattice } = state;
   if (lattice.plates) {
     context.strokeStyle = themeColour("line-strong");
     context.lineWidth = 1;
     if (state.strain > 0.005) startLine(context, camera, state);
-    drawPlates(context, camera, state);
   }
-  drawRigidWalls(context, camera, state.faces, state.box);
+  drawFaces(context, camera, [...platesOf(lattice, state.strain), ...state.faces], state.box);
   context.strokeStyle = context.fillStyle = themeColour("ink-2");
   context.lineWidth = 1.5;
   context.font = `12px ${themeColour("font")}`;

@@ -89,6 +89,12 @@ export class Picture {
     this.drawSoon();
   }
 
+  showUndeformed(faces: Face[]): void {
+    const { lattice } = this;
+    if (!lattice) return;
+    this.show({ position: lattice.undeformed, plastic: new Float32Array(lattice.thickness.length) }, 0, faces);
+  }
+
   /** A line of text over the picture. */
   note(text: string): void {
     setText(this.noted, text);

@@ -13,20 +13,27 @@ export class Player {
   playing = false;
   /** Shows the newest frame of a running job. */
   following = false;
+  /** Where to be once the crush has come so far, such as the place of a URL; what the user does ends it. */
+  wanted: number | undefined;
   rate = 1;
   readonly changes = new Listeners<void>();
   private lastTick = 0;
   private frame = 0;
 
-  setEnd(end: number): void {
+  /** `isLast`: the end will not move any further. */
+  setEnd(end: number, isLast = false): void {
     this.end = end;
     if (this.following) this.value = end;
-    this.changes.tell();
+    const { wanted } = this;
+    if (wanted === undefined) return this.changes.tell();
+    this.seek(wanted);
+    if (wanted > end && !isLast) this.wanted = wanted;
   }
 
   seek(value: number): void {
     this.stopPlaying();
     this.following = false;
+    this.wanted = undefined;
     this.value = Math.min(Math.max(value, 0), this.end);
     this.changes.tell();
   }
@@ -34,6 +41,7 @@ export class Player {
   follow(): void {
     this.stopPlaying();
     this.following = true;
+    this.wanted = undefined;
     this.value = this.end;
     this.changes.tell();
   }
@@ -49,6 +57,7 @@ export class Player {
     } else {
       if (this.value >= this.end) this.value = 0;
       this.following = false;
+      this.wanted = undefined;
       this.playing = true;
       this.lastTick = performance.now();
       this.frame = requestAnimationFrame(this.tick);

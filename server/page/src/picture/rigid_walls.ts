@@ -1,21 +1,27 @@
-// The rigid walls of a case: where their faces are at a time, and their drawing.
+// Plates and the rigid walls of a case: where their faces are, and their drawing.
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
 import type { Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
 import { indexBefore } from "../charts/curves";
-import type { Box } from "../frames/lattice";
+import { wallThickness, type Box, type Lattice } from "../frames/lattice";
 import type { Camera } from "./camera";
 import { themeColour } from "./colours";
 
 /** A point of the face in mm, and the unit normal out of the wall. */
 export interface Face { x: number; y: number; normalX: number; normalY: number }
 
-const kThickness = 0.014; // of the diagonal of the view
+/** The faces of the plates at a strain, if there are plates. */
+export function platesOf({ plates, alongY, impactPlate, supportPlate, length }: Lattice, strain: number): Face[] {
+  const [x, y] = alongY ? [0, 1] : [1, 0];
+  const face = (at: number, out: number): Face => ({ x: at * x, y: at * y, normalX: out * x, normalY: out * y });
+  return plates ? [face(impactPlate + strain * length, 1), face(supportPlate, -1)] : [];
+}
 
-function facesOf(submitted: Case | undefined): Face[] {
-  const kind = submitted?.lattice?.kind;
-  const ofFrame = kind?.case === "frame" ? kind.value.rigidWalls : [];
-  return [...ofFrame, ...submitted?.loading?.rigidWalls ?? []].map((wall) => {
+/** The faces at the start, of the rigid walls of the loading or of the lattice. */
+export function facesOf(submitted: Case | undefined): Face[] {
+  const lattice = submitted?.lattice?.kind.value;
+  const ofLattice = lattice && "rigidWalls" in lattice ? lattice.rigidWalls : [];
+  return [...ofLattice, ...submitted?.loading?.rigidWalls ?? []].map((wall) => {
     const [x, y] = [wall.normalX ?? 0, wall.normalY ?? 0];
     const length = Math.hypot(x, y) || 1;
     return { x: wall.xMm ?? 0, y: wall.yMm ?? 0, normalX: x / length, normalY: y / length };
@@ -44,11 +50,11 @@ export class RigidWalls {
   }
 }
 
-/** Draws the walls as bands behind their faces, across the box. */
-export function drawRigidWalls(context: CanvasRenderingContext2D, camera: Camera, faces: Face[], box: Box): void {
+/** Draws bands behind the faces, across the box. */
+export function drawFaces(context: CanvasRenderingContext2D, camera: Camera, faces: Face[], box: Box): void {
   const [width, height] = [box.highX - box.lowX, box.highY - box.lowY];
   const [middleX, middleY] = [0.5 * (box.lowX + box.highX), 0.5 * (box.lowY + box.highY)];
-  const depth = Math.max(kThickness * Math.hypot(width, height), 3 / camera.scale);
+  const depth = Math.max(wallThickness(box), 3 / camera.scale);
   context.fillStyle = themeColour("plate");
   for (const { x, y, normalX, normalY } of faces) {
     const [alongX, alongY] = [-normalY, normalX];

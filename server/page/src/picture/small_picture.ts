@@ -5,7 +5,7 @@ import type { Fields } from "../frames/packed";
 import { h } from "../dom/element";
 import { Camera } from "./camera";
 import { isDark, onThemeChange } from "./colours";
-import { drawPlates } from "./overlay";
+import { drawFaces, platesOf } from "./rigid_walls";
 import { fillSegments } from "./segments";
 import { PixelWalls } from "./walls_pixels";
 
@@ -43,7 +43,7 @@ export class SmallPicture {
     this.walls.draw(camera, ratio);
     const context = element.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    if (shown.lattice.plates) drawPlates(context, camera, { ...shown, box });
+    drawFaces(context, camera, platesOf(shown.lattice, shown.strain), box);
   }
 
   destroy(): void {

@@ -2,9 +2,8 @@
 import { ConnectError, Code } from "@connectrpc/connect";
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { idOf } from "../api/names";
 import { h, setText } from "../dom/element";
-import { strainText } from "../dom/format";
+import { idOf, strainText } from "../dom/format";
 import { FrameStore } from "../frames/frame_store";
 import { streamFrames } from "../job/job_data";
 import { hasEnded, stateWord } from "../jobs/states";

@@ -2,7 +2,7 @@
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
-import { nameOf } from "../help";
+import { nameOf } from "../new_case/words";
 import { colourLegend } from "../picture/colours";
 import { Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
@@ -13,6 +13,7 @@ import { isSeed } from "./points";
 const kMostCells = 24;
 const kLoads = 2; // at once, as browsers allow six connections to a host
 const kAgainMs = 5000; // for the frames of running jobs
+const kFirstStrain = 0.4;
 const kUrlMs = 400;
 
 export class CrushGrid {
@@ -24,28 +25,22 @@ export class CrushGrid {
   private cells: CrushCell[] = [];
   private cellsKey = "";
   private loads = 0;
-  private wanted: number;
   private again = 0;
-  private readonly url = new Later(() => keepInUrl({ strain: String(Number(this.player.value.toFixed(3))) }), kUrlMs);
+  private readonly url = new Later(() => {
+    const strain = Number(this.player.value.toFixed(3));
+    keepInUrl({ strain: strain === kFirstStrain ? undefined : String(strain) });
+  }, kUrlMs);
   private readonly observer = new IntersectionObserver((entries) => this.see(entries), { rootMargin: "200px" });
 
   /** `strain` is that of the URL. */
-  constructor(strain: number) {
-    this.wanted = Number.isFinite(strain) ? strain : 0.4;
+  constructor(strain: number | undefined) {
+    this.player.wanted = strain ?? kFirstStrain;
     this.bar = new PlayerBar(this.player, {
       neighbour: (direction) => this.player.value + 0.01 * direction,
       text: (value) => `strain ${value.toFixed(2)}`,
     });
     this.player.changes.add(() => this.showPlace());
-    this.element.addEventListener("keydown", (event) => {
-      const { wanted } = this;
-      this.wanted = NaN;
-      if (!this.bar.key(event)) this.wanted = wanted;
-    });
-    // What the user does counts from then on, not the place in the URL.
-    for (const event of ["input", "click"]) {
-      this.bar.element.addEventListener(event, () => { this.wanted = NaN; }, { capture: true });
-    }
+    this.element.addEventListener("keydown", (event) => this.bar.key(event));
     this.element.append(h("div", { class: "picture-head" }, h("h3", {}, "Deformed shapes at equal strain"),
       h("span", { class: "spacer" }), colourLegend()), this.bar.element, this.grid, this.note);
     this.again = window.setInterval(() => this.loadNext(), kAgainMs);
@@ -100,15 +95,13 @@ export class CrushGrid {
   }
 
   private setEnd(): void {
-    const end = Math.max(0, ...this.cells.map((cell) => cell.end));
-    this.player.setEnd(end);
-    if (!Number.isNaN(this.wanted)) this.player.seek(this.wanted);
+    this.player.setEnd(Math.max(0, ...this.cells.map((cell) => cell.end)));
   }
 
   private showPlace(): void {
     const { value, playing } = this.player;
     for (const cell of this.cells) cell.showAt(value);
-    if (!playing && Number.isNaN(this.wanted)) this.url.afresh();
+    if (!playing && this.player.wanted === undefined) this.url.afresh();
     else this.url.stop();
   }
 

@@ -1,9 +1,8 @@
 // Other sweeps over the same field, in the chart of a sweep: which of them, and why not others.
 import type { Sweep, SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { api } from "../api/clients";
-import { errorText, isNotFound } from "../api/errors";
+import { api, errorText, ifAny, isNotFound } from "../api/clients";
 import { Later, Listeners } from "../dom/calls";
-import { idOf, pathOf } from "../api/names";
+import { idOf, pathOf } from "../dom/format";
 import { watch } from "../api/watch";
 import { h, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
@@ -123,12 +122,9 @@ export class SweepOverlay {
   }
 
   private async list(): Promise<void> {
-    try {
-      this.listed = (await api.sweeps.listSweeps({ pageSize: kListed }, { signal: this.abort.signal })).sweeps;
-      this.show();
-    } catch {
-      // The watch says that the daemon is away.
-    }
+    const page = await ifAny(api.sweeps.listSweeps({ pageSize: kListed }, { signal: this.abort.signal }));
+    if (page) this.listed = page.sweeps;
+    this.show();
   }
 
   // Why a sweep over these fields cannot be drawn over the field of the chart; empty if it can.

@@ -1,21 +1,18 @@
 // The page of a sweep: plateau stresses against the varied field, filling in as jobs end.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sweep, SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { api } from "../api/clients";
-import { errorText, isNotFound } from "../api/errors";
-import { idOf } from "../api/names";
+import { api, errorText, ifAny, isNotFound } from "../api/clients";
 import { watch } from "../api/watch";
 import { Chart } from "../charts/chart";
 import { Later } from "../dom/calls";
 import { ask } from "../dom/dialog";
-import { download } from "../dom/download";
-import { button, h, replaceChildren, setText } from "../dom/element";
-import { clock, plural } from "../dom/format";
+import { button, h, replaceChildren, setBanner, setText } from "../dom/element";
+import { clock, idOf, plural } from "../dom/format";
 import { icon, type IconName } from "../dom/icons";
 import { attempt } from "../jobs/actions";
 import { hasEnded, kStates, stateBar, stateWord, titleOfSweep, variedFields } from "../jobs/states";
 import { go, keepInUrl, setTitle, type View } from "../router";
-import { saveButton, saveChartButton } from "../take_away/menus";
+import { download, saveButton, saveChartButton } from "../take_away/menus";
 import { CrushGrid } from "./crush_grid";
 import { axisName, isSeed, sweepChart } from "./points";
 import { loadSweep, SweepOverlay } from "./overlay";
@@ -46,7 +43,7 @@ export class SweepPage implements View {
 
   constructor(private readonly name: string, query: URLSearchParams) {
     this.overlay = new SweepOverlay(name, (query.get("with") ?? "").split(","));
-    this.crushes = new CrushGrid(Number(query.get("strain") ?? NaN));
+    this.crushes = new CrushGrid(query.has("strain") ? Number(query.get("strain")) : undefined);
     this.title = `Sweep ${idOf(name)}`;
     this.axisChoice.addEventListener("change", () => this.draw());
     this.chart.addTools(this.axisChoice, saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`));
@@ -69,7 +66,7 @@ export class SweepPage implements View {
         if (sweep.name === this.name) void this.load();
       }),
       watch.deletedSweeps.add((deleted) => {
-        if (deleted === this.name) this.showProblem("This sweep was deleted.");
+        if (deleted === this.name) setBanner(this.problem, "This sweep was deleted.");
       }),
       watch.freshStarts.add(() => void this.load()),
     ];
@@ -82,18 +79,13 @@ export class SweepPage implements View {
       this.sweep = sweep;
       this.rows = rows;
       this.fields = fields;
-      this.problem.hidden = true;
+      setBanner(this.problem, "");
       this.showHead();
       this.draw();
     } catch (error) {
       if (this.abort.signal.aborted) return;
-      this.showProblem(isNotFound(error) ? `${this.title} does not exist, or was deleted.` : errorText(error));
+      setBanner(this.problem, isNotFound(error) ? `${this.title} does not exist, or was deleted.` : errorText(error));
     }
-  }
-
-  private showProblem(text: string): void {
-    this.problem.hidden = false;
-    setText(this.problem, text);
   }
 
   private takeJob(job: Job): void {
@@ -105,12 +97,8 @@ export class SweepPage implements View {
   }
 
   private async completeRow(row: SweepTable_Row): Promise<void> {
-    try {
-      row.result = await api.jobs.getJob({ name: row.job });
-      this.drawing.soon();
-    } catch {
-      // The job was deleted meanwhile.
-    }
+    row.result = await ifAny(api.jobs.getJob({ name: row.job })) ?? row.result;
+    this.drawing.soon();
   }
 
   private showHead(): void {

@@ -1,7 +1,7 @@
 // The points of a sweep for its chart: plateau stresses against one varied field, with mean and spread over seeds.
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { kMarkShapes, type ChartData, type Series, type Spread } from "../charts/chart_data";
-import { nameOf } from "../help";
+import { nameOf } from "../new_case/words";
 
 export const isSeed = (path: string): boolean => path.endsWith(".seed");
 

@@ -2,11 +2,11 @@
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { idOf, pathOf } from "../api/names";
-import { csvBlob } from "../dom/download";
+import { idOf, pathOf } from "../dom/format";
 import { button, h, replaceChildren } from "../dom/element";
-import { kSummaryNumbers } from "../job/results";
+import { kSummaryNumbers, summaryText } from "../job/results";
 import { setChip, stateChip } from "../jobs/states";
+import { csvBlob } from "../take_away/menus";
 import { axisName } from "./points";
 
 const kRowsAtFirst = 300;
@@ -42,7 +42,7 @@ export class SweepTableView {
     const { summary } = row.result ?? {};
     return h("tr", {}, ...row.values.map((value) => h("td", { class: "figure" }, Number(value.toPrecision(6)))),
       h("td", {}, h("a", { href: pathOf(row.job) }, `job ${idOf(row.job)}`)), h("td", {}, chip),
-      ...kSummaryNumbers.map(({ text, value }) => h("td", { class: "figure" }, summary ? text(value(summary)) : "")));
+      ...kSummaryNumbers.map((column) => h("td", { class: "figure" }, summary && summaryText(column, summary))));
   }
 
   csv(): Blob {

@@ -1,6 +1,6 @@
 // A chart as an SVG file for a paper: black on white, in the colours of the light theme.
 import { bandShapes, markShapes, type Place, type Shape } from "../charts/chart_marks";
-import { markPath, type ChartData, type Series } from "../charts/chart_data";
+import { legendOf, markPath, type ChartData, type Series } from "../charts/chart_data";
 import { themeColour } from "../picture/colours";
 import { svg } from "../dom/element";
 
@@ -76,22 +76,17 @@ function drawn(shape: Shape): SVGElement {
   });
 }
 
+const kThick = { area: 9, line: 2.5, level: 1.5 };
+
 function legend(data: ChartData, top: number): SVGElement[] {
-  const entries = [
-    ...data.series.filter((s) => !s.quiet).map((s) => ({
-      label: s.label, colour: themeColour(s.colour), dash: s.dash, thick: s.fill ? 9 : 2.5,
-      mark: s.points ? s.mark ?? "circle" as const : undefined })),
-    ...(data.levels ?? []).filter((l) => l.label).map((l) => ({
-      label: l.label, colour: "#444", dash: l.dash, thick: 1.5, mark: undefined }))];
-  return entries.flatMap((entry, i) => {
+  return legendOf(data).flatMap(({ label, colour: name, dash, mark, kind }, i) => {
     const x = kPlot.left + (i % 2) * 330;
     const y = top + 20 * Math.floor(i / 2);
-    const sign = entry.mark
-      ? svg("path", { d: markPath(entry.mark, 4), fill: entry.colour, transform: `translate(${x + 15},${y})` })
-      : svg("path", { d: `M${x},${y}h30`, stroke: entry.colour, "stroke-width": entry.thick,
-                      "stroke-dasharray": entry.dash?.join(" ") || undefined });
-    return [sign,
-            svg("text", { x: x + 38, y: y + 4, ...kFont }, entry.label)];
+    const colour = kind === "level" ? "#444" : themeColour(name);
+    const sign = mark ? svg("path", { d: markPath(mark, 4), fill: colour, transform: `translate(${x + 15},${y})` })
+      : svg("path", { d: `M${x},${y}h30`, stroke: colour, "stroke-width": kThick[kind],
+                      "stroke-dasharray": dash?.join(" ") || undefined });
+    return [sign, svg("text", { x: x + 38, y: y + 4, ...kFont }, label)];
   });
 }
 

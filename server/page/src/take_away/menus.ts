@@ -1,10 +1,9 @@
 // Buttons that save what the page shows.
 import { api } from "../api/clients";
 import { isExported } from "../api/exported";
-import { idOf } from "../api/names";
+import { idOf } from "../dom/format";
 import type { Chart } from "../charts/chart";
 import { say } from "../dom/dialog";
-import { csvBlob, download } from "../dom/download";
 import { button, h, setText } from "../dom/element";
 import { attempt } from "../jobs/actions";
 import { hasEnded, titleOf } from "../jobs/states";
@@ -15,6 +14,28 @@ import { chartSvg } from "./chart_svg";
 import { canRecord, picturePng, recordCrush } from "./picture_files";
 import { ScalarType, type DescMessage } from "@bufbuild/protobuf";
 import { FrontSchema, SampleSchema, type Front, type Sample } from "../../gen/cellcrush/v1/sample_pb";
+
+/** Saves a blob as a file of the user. */
+export function download(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  const link = document.createElement("a");
+  link.href = url;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+/** A CSV file of numbers and texts. Texts that a spreadsheet could run as a formula get a quote in front. */
+export function csvBlob(header: string[], rows: (string | number | undefined)[][]): Blob {
+  const cell = (value: string | number | undefined): string => {
+    if (value === undefined) return "";
+    if (typeof value === "number") return String(value);
+    const safe = /^[=+\-@\t]/.test(value) ? `'${value}` : value;
+    return /[",\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+  };
+  const lines = [header, ...rows].map((row) => row.map(cell).join(","));
+  return new Blob([lines.join("\n") + "\n"], { type: "text/csv" });
+}
 
 interface Column { name: string; value: (sample: Sample) => number | undefined }
 

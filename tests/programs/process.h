@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace cellcrush::e2e {
@@ -61,3 +62,16 @@ class Process {
 Outcome run(const std::vector<std::string>& command, std::chrono::milliseconds limit);
 
 }  // namespace cellcrush::e2e
+namespace cellcrush::testing {
+
+/// Looks every 20 ms; false when the condition does not hold within this time.
+template <class Condition>
+bool wait_until(const Condition& condition, std::chrono::milliseconds limit = std::chrono::seconds(20)) {
+  for (const auto end = std::chrono::steady_clock::now() + limit; !condition();) {
+    if (std::chrono::steady_clock::now() >= end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+}  // namespace cellcrush::testing

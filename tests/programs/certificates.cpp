@@ -1,4 +1,4 @@
-#include "server/certificates.h"
+#include "programs/certificates.h"
 
 #include <openssl/evp.h>
 #include <openssl/pem.h>

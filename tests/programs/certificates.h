@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 
 namespace cellcrush::testing {
 

@@ -1,4 +1,4 @@
-#include "server/temporary_folder.h"
+#include "programs/temporary_folder.h"
 
 #include <cstdlib>
 #include <fstream>

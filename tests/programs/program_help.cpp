@@ -1,4 +1,4 @@
-#include "e2e/program_help.h"
+#include "programs/program_help.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-#include "e2e/process.h"
+#include "programs/process.h"
 
 namespace cellcrush::e2e {
 

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "access/gate.h"
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
@@ -35,5 +40,18 @@ struct ServiceParts {
   int owner_max_running = 0;  ///< jobs of one owner that run at once on one executor; 0: no limit
   StreamParts streams;
 };
+
+// Each adds the calls of one service. `parts` outlives the table.
+void add_cases_methods(MethodTable& table, const ServiceParts& parts);
+void add_jobs_methods(MethodTable& table, const ServiceParts& parts);
+void add_sweeps_methods(MethodTable& table, const ServiceParts& parts);
+/// `drain`: called once a client has asked for it.
+void add_admin_methods(MethodTable& table, const ServiceParts& parts, std::function<void()> drain);
+
+/// grpc.reflection.v1 and v1alpha: describe the named services and themselves, from the descriptors linked into this
+/// program. A stream holds no thread while its client is silent, and counts against the limits. The limits and the gate
+/// outlive the services. Thread-safe.
+std::vector<std::unique_ptr<grpc::Service>> make_reflection_services(std::vector<std::string> names, access::Gate& gate,
+                                                                     StreamLimits& limits);
 
 }  // namespace cellcrush::rpc

@@ -7,6 +7,10 @@
 
 namespace cellcrush::watch {
 
+/// The frame with its numbers packed (FieldFrame.Packed). `mesh` is the one that receivers have; null: they have none.
+/// Without positions in it the displacements are the positions.
+v1::FieldFrame pack(const v1::FieldFrame& frame, const v1::Mesh* mesh);
+
 /// Maximum size of the numbers in one part of a frame or mesh, so that every part passes gRPC's default limit of 4 MiB.
 inline constexpr std::size_t kChunkBytes = 3'000'000;
 
