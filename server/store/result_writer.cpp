@@ -76,7 +76,7 @@ void ResultWriter::write_gathered() {
   make_columns(gathered_.front());
   std::vector<double> rows(gathered_.size());
   for (const auto& [column, dataset] : columns_) {
-    std::ranges::transform(gathered_, rows.begin(), [&](const auto& sample) { return column.get(sample); });
+    std::ranges::transform(gathered_, rows.begin(), [&of = column](const auto& sample) { return of.get(sample); });
     append_rows(dataset.id(), H5T_NATIVE_DOUBLE, rows.size(), rows.data());
   }
   gathered_.clear();

@@ -10,6 +10,7 @@
 
 #include "error.h"
 #include "programs/temporary_folder.h"
+#include "store/sample_reader.h"
 
 namespace cellcrush::store {
 namespace {
@@ -79,7 +80,7 @@ TEST_F(ReportLogTest, WhatAKilledWriterLeftHalfWrittenIsCutOffWhereverItWasKille
     ASSERT_EQ(reader.read(report), Read::message);
     ASSERT_EQ(reader.read(report), Read::end) << size;
     // The reader has seen the half, and goes on behind what is written in its place.
-    ReportLog(path()).append(frame_report(2));
+    ReportLog(path()).append(frame_report(2, 50));
     ASSERT_EQ(reader.read(report), Read::message) << size;
     EXPECT_EQ(report.frame().index(), 2);
   }
@@ -99,6 +100,27 @@ TEST_F(ReportLogTest, AFlippedBitIsBroken) {
     worker::Report report;
     EXPECT_EQ(ReportLogReader(path()).read(report), Read::broken) << at;
   }
+}
+
+TEST_F(ReportLogTest, SamplesThatWereCutOffAndReportedAnewAreReadFromTheStart) {
+  const std::filesystem::path log = folder_.path() / "jobs/1/reports";
+  std::filesystem::create_directories(log.parent_path());
+  const auto report_samples = [&](bool with_frames) {
+    std::filesystem::remove(log);
+    for (int step = 1; step <= 4; ++step) {
+      worker::Report report;
+      report.mutable_sample()->set_step(step);
+      ReportLog(log).append(report);
+      if (with_frames) ReportLog(log).append(frame_report(step));
+    }
+  };
+  SampleReader reader(folder_.path());
+  report_samples(true);
+  ASSERT_EQ(reader.read({1, 0, 0, 2}, {}).samples.size(), 2U);
+  report_samples(false);
+  const auto found = reader.read({1, 0, 2, 2}, {});
+  ASSERT_EQ(found.samples.size(), 2U);
+  EXPECT_EQ(found.samples.back().step(), 4);
 }
 
 TEST_F(ReportLogTest, AnAbsentLogIsAnErrorThatNamesIt) {
