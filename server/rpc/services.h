@@ -45,7 +45,7 @@ struct ServiceParts {
 void add_cases_methods(MethodTable& table, const ServiceParts& parts);
 void add_jobs_methods(MethodTable& table, const ServiceParts& parts);
 void add_sweeps_methods(MethodTable& table, const ServiceParts& parts);
-/// `drain`: called once a client has asked for it.
+/// `drain`: called each time a client asks for it.
 void add_admin_methods(MethodTable& table, const ServiceParts& parts, std::function<void()> drain);
 
 /// grpc.reflection.v1 and v1alpha: describe the named services and themselves, from the descriptors linked into this

@@ -34,7 +34,8 @@ OpenFile open_file(const std::filesystem::path& path, int flags, std::string_vie
 OpenFile open_to_read(const std::filesystem::path& path, ServiceError::Kind otherwise) {
   OpenFile file = open_file(path, O_RDONLY | O_NONBLOCK, "read");
   struct stat status {};
-  if (fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode)) return file;
+  if (fstat(file.get(), &status) != 0) throw_file_error(path, "read", errno);
+  if (S_ISREG(status.st_mode)) return file;
   throw ServiceError(otherwise, path.string() + " cannot be read: it is not a regular file. Move it away.");
 }
 

@@ -1,4 +1,4 @@
-// How jobs are added to the journal and deleted from it.
+// How jobs and sweeps are added to the journal and deleted from it, its size, and the service clock.
 #include <string>
 #include <utility>
 

@@ -13,9 +13,9 @@ namespace cellcrush::store {
 namespace {
 
 constexpr std::int64_t kMarkEvery = 4096;
-constexpr std::size_t kMostPlaces = 256;
-constexpr std::int64_t kBlockSamples = 1024;
-constexpr std::size_t kMostBlocks = 8;
+constexpr std::size_t kMostPlaces = 4096;
+constexpr std::int64_t kBlockSamples = 256;
+constexpr std::size_t kMostBlocks = 32;
 constexpr std::size_t kMostBlockBytes = 1 << 20;
 
 bool is_there(const std::filesystem::path& path) {

@@ -62,7 +62,7 @@ class SampleReader {
   std::filesystem::path root_;
   Mutex mutex_;
   std::deque<Place> places_ CELLCRUSH_GUARDED_BY(mutex_);  ///< where reading ended or passed, the latest last
-  std::deque<std::shared_ptr<const Block>> blocks_ CELLCRUSH_GUARDED_BY(mutex_);  ///< read lately, the latest last
+  std::deque<std::shared_ptr<const Block>> blocks_ CELLCRUSH_GUARDED_BY(mutex_);  ///< decoded lately, the latest last
 };
 
 }  // namespace cellcrush::store

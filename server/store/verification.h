@@ -20,8 +20,8 @@ struct Verification {
 
 /// Reads a whole backup or data folder, even while a daemon runs on it. Checks the journal (SQLite's own checks and
 /// every row), and that every job with a summary has a result with a matching seal; for a backup also every file
-/// against the manifest. Changes nothing. Throws ServiceError: not_found if the folder has no journal, internal if it
-/// cannot be read.
+/// against the manifest. Changes nothing. Throws ServiceError: not_found if the folder has no journal,
+/// failed_precondition if it is of another version, internal if it cannot be read.
 Verification verify_folder(const std::filesystem::path& folder);
 
 }  // namespace cellcrush::store

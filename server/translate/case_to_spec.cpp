@@ -55,6 +55,25 @@ void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   if (in.imperfection().has_seed()) spec.imperfection.seed = in.imperfection().seed();
 }
 
+// Whether the wire's enum ends with `last`, which is number `place` of the spec's values.
+template <class Wire, class Out>
+constexpr bool ends_alike(Wire greatest, Wire last, Out place, Out first = Out()) {
+  return greatest == last && static_cast<int>(last) - 1 == static_cast<int>(place) - static_cast<int>(first);
+}
+using Precision = NumericsSpec::FibrePrecision;
+static_assert(ends_alike(v1::Lattice::Inclusions::Model_MAX, v1::Lattice::Inclusions::MESHED,
+                         Inclusions::Model::meshed));
+static_assert(ends_alike(v1::Material::Plane_MAX, v1::Material::PLANE_STRAIN, MaterialSpec::Plane::strain));
+static_assert(ends_alike(v1::Section::Formulation_MAX, v1::Section::DISPLACEMENT_BASED,
+                         SectionSpec::Formulation::displacement_based));
+static_assert(ends_alike(v1::Section::DepthRule_MAX, v1::Section::LOBATTO, SectionSpec::DepthRule::lobatto));
+static_assert(ends_alike(v1::Section::AreaRule_MAX, v1::Section::CONSTANT_AREA, SectionSpec::AreaRule::constant_area));
+static_assert(ends_alike(v1::Contact::Search_MAX, v1::Contact::BUCKETS, ContactSpec::Search::buckets));
+static_assert(ends_alike(v1::Loading::Direction_MAX, v1::Loading::Y, LoadingSpec::Direction::y));
+static_assert(ends_alike(v1::Numerics::FibrePrecision_MAX, v1::Numerics::DOUBLE, Precision::double_precision));
+static_assert(ends_alike(v1::Numerics::Fidelity_MAX, v1::Numerics::REFERENCE, NumericsSpec::Fidelity::reference,
+                         NumericsSpec::Fidelity::draft));
+
 // Sets `out` to the meaning of the wire value; 0 (unspecified) leaves it unchanged. The enum of the spec lists the same
 // values in the same order, from `first` on.
 template <class Wire, class Out>

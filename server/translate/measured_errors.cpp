@@ -124,9 +124,12 @@ std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, 
   add_if(!is_near(*material.youngs_modulus_mpa, *measured.material.youngs_modulus_mpa), "material.youngs_modulus_mpa");
   add_if(!is_near(*material.yield_stress_mpa, *measured.material.yield_stress_mpa), "material.yield_stress_mpa");
   add_if(!is_near(*material.density_kg_per_m3, *measured.material.density_kg_per_m3), "material.density_kg_per_m3");
-  for (const LawParameter& parameter : kLawParameters)
-    add_if(!is_near(material.*parameter.value, measured.material.*parameter.value),
+  const bool hardens = material.hardening_modulus_mpa != 0.0 || measured.material.hardening_modulus_mpa != 0.0;
+  for (const LawParameter& parameter : kLawParameters) {
+    const bool acts = hardens || parameter.value != &LawParameters::isotropic_fraction;
+    add_if(acts && !is_near(material.*parameter.value, measured.material.*parameter.value),
            std::string("material.") + parameter.name);
+  }
   add_if(spec.loading.direction != specimen.direction, "loading.direction");
   const auto [lowest, highest] = speeds_of(specimen);
   add_if(*spec.loading.speed_m_per_s < lowest || *spec.loading.speed_m_per_s > highest, "loading.speed_m_per_s");

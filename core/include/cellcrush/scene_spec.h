@@ -19,7 +19,7 @@ inline constexpr double kTonnePerGram = 1e-6;
 // The request of a user, before any check. This is the boundary: names carry units and equal the field paths of a case
 // ("loading.speed_m_per_s"). Scene holds the same in the units of the solver (mm, tonne, s, N, MPa).
 // A std::optional must be given where it applies, unless its comment names a default; if missing, it is reported.
-// An enum lists its values in the order of the case's enum, where 0 is none of them.
+// An enum lists its values in the order of the case's enum, whose 0 is unspecified (server/translate/case_to_spec.cpp).
 
 /// A lattice of equal cells. Its kind says how cells lie and are counted (core/lattice/kinds).
 struct RegularLattice {

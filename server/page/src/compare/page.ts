@@ -9,7 +9,7 @@ import { JobData } from "../job/job_data";
 import { sceneWords, titleOf } from "../jobs/states";
 import { FrameView } from "../picture/frame_view";
 import { colourLegend } from "../picture/colours";
-import { Player } from "../picture/player";
+import { placeIn, Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
 import { go, keepInUrl, type View } from "../router";
 import { saveChartButton } from "../take_away/menus";
@@ -71,7 +71,7 @@ export class ComparePage implements View {
 
   constructor(query: URLSearchParams) {
     const ids = [...new Set((query.get("jobs") ?? "").split(",").filter((id) => /^\d+$/.test(id)))].slice(0, kMostJobs);
-    this.player.wanted = Number(query.get("strain") ?? 0.4);
+    this.player.wanted = placeIn(query) ?? 0.4;
     this.jobs = ids.map((id, i) => new Compared(new JobData(`jobs/${id}`), i, () =>
       go(`/compare?jobs=${ids.filter((other) => other !== id).join(",")}`)));
     this.bar = new PlayerBar(this.player, {

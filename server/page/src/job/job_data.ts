@@ -190,8 +190,10 @@ export class JobData implements WatchedJob {
   // What is modelled, and the theory of a job that has no summary yet.
   private async loadCheck(): Promise<void> {
     if (!this.job?.case) return;
-    this.check = await ifAny(api.cases.checkCase({ case: this.job.case }, { signal: this.abort.signal }));
-    if (this.check) this.jobChanges.tell();
+    const check = await ifAny(api.cases.checkCase({ case: this.job.case }, { signal: this.abort.signal }));
+    if (!check) return;
+    this.check = check;
+    this.jobChanges.tell();
   }
 
   destroy(): void {

@@ -15,7 +15,7 @@ import { hasEnded, sceneWords, titleOf, warningWords } from "../jobs/states";
 import { JobStore } from "../jobs/store";
 import { FrameView } from "../picture/frame_view";
 import { colourLegend } from "../picture/colours";
-import { Player } from "../picture/player";
+import { placeIn, Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
 import { RigidWalls } from "../picture/rigid_walls";
 import { keepInUrl, setTitle, type View } from "../router";
@@ -65,7 +65,7 @@ export class JobPage implements View {
     this.frames = new FrameView(this.data.frames, (frame) => this.axis.frame(frame), "The lattice as it is crushed",
                                 (time) => this.rigidWalls.at(time));
     this.frames.picture.camera.text = query.get("view") ?? "";
-    if (query.has("strain")) this.player.wanted = Number(query.get("strain"));
+    this.player.wanted = placeIn(query);
     this.bar = new PlayerBar(this.player, {
       neighbour: (direction) => this.frames.neighbour(this.player.value, direction),
       text: (value) => this.axis.text(value),

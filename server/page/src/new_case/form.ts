@@ -68,12 +68,14 @@ export class CaseForm {
     const label = labelOf(path);
     const remove = iconButton("minus", `Remove: ${label}`, () => {
       writeField(this.value, path, "");
-      this.build();
+      (row.parentElement?.childElementCount === 1 ? row.parentElement : row).remove();
+      this.beside.delete(path);
       this.on.changed();
     });
     const lines = linesOf(this.value, path).map((line) => h("div", {}, line));
-    return h("div", { title: helpOf(path) }, h("dt", {}, label),
+    const row = h("div", { title: helpOf(path) }, h("dt", {}, label),
       h("dd", {}, h("div", {}, ...lines, this.beside.get(path)), defaultOf(path) !== "required" && remove));
+    return row;
   }
 
   private groupOf({ title, paths, isOpen }: Group): HTMLElement {

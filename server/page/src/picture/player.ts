@@ -4,6 +4,12 @@ import { Listeners } from "../dom/calls";
 export const kRates = [0.1, 0.2, 0.5, 1, 2, 5, 10];
 const kSecondsAtOne = 10; // a whole crush at rate 1
 
+/** The place that a URL names, if it is a number. */
+export function placeIn(query: URLSearchParams): number | undefined {
+  const place = Number.parseFloat(query.get("strain") ?? "");
+  return Number.isFinite(place) ? place : undefined;
+}
+
 export class Player {
   value = 0;
   /** The last value so far. */
@@ -24,10 +30,13 @@ export class Player {
   setEnd(end: number, isLast = false): void {
     this.end = end;
     if (this.following) this.value = end;
-    const { wanted } = this;
-    if (wanted === undefined) return this.changes.tell();
-    this.seek(wanted);
-    if (wanted > end && !isLast) this.wanted = wanted;
+    if (this.wanted !== undefined) {
+      this.stopPlaying();
+      this.following = false;
+      this.value = Math.min(Math.max(this.wanted, 0), end);
+      if (this.wanted <= end || isLast) this.wanted = undefined;
+    }
+    this.changes.tell();
   }
 
   seek(value: number): void {

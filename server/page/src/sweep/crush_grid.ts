@@ -27,6 +27,7 @@ export class CrushGrid {
   private loads = 0;
   private again = 0;
   private readonly url = new Later(() => {
+    if (this.player.wanted !== undefined) return;
     const strain = Number(this.player.value.toFixed(3));
     keepInUrl({ strain: strain === kFirstStrain ? undefined : String(strain) });
   }, kUrlMs);

@@ -11,6 +11,7 @@ import { clock, idOf, plural } from "../dom/format";
 import { icon, type IconName } from "../dom/icons";
 import { attempt } from "../jobs/actions";
 import { hasEnded, kStates, stateBar, stateWord, titleOfSweep, variedFields } from "../jobs/states";
+import { placeIn } from "../picture/player";
 import { go, keepInUrl, setTitle, type View } from "../router";
 import { download, saveButton, saveChartButton } from "../take_away/menus";
 import { CrushGrid } from "./crush_grid";
@@ -43,7 +44,7 @@ export class SweepPage implements View {
 
   constructor(private readonly name: string, query: URLSearchParams) {
     this.overlay = new SweepOverlay(name, (query.get("with") ?? "").split(","));
-    this.crushes = new CrushGrid(query.has("strain") ? Number(query.get("strain")) : undefined);
+    this.crushes = new CrushGrid(placeIn(query));
     this.title = `Sweep ${idOf(name)}`;
     this.axisChoice.addEventListener("change", () => this.draw());
     this.chart.addTools(this.axisChoice, saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`));
