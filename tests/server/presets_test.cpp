@@ -90,6 +90,12 @@ TEST(MeasuredErrors, AreThoseOfTheSpeedsBesideTheCases) {
     spec.loading.speed_m_per_s = speed;
     EXPECT_THAT(fields_beside_measured(spec), ElementsAre("loading.speed_m_per_s"));
   }
+  spec.loading.speed_m_per_s = 100.0;
+  spec.material.isotropic_fraction = 0.5;
+  EXPECT_THAT(fields_beside_measured(spec), IsEmpty()) << "It has no effect without hardening.";
+  spec.material.hardening_modulus_mpa = 100.0;
+  EXPECT_THAT(fields_beside_measured(spec),
+              ElementsAre("material.hardening_modulus_mpa", "material.isotropic_fraction"));
 }
 
 TEST(MeasuredErrors, BetweenTwoSpeedsTheLargerCounts) {

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { kMarkShapes, markPath } from "../src/charts/chart_data";
+import { placeIn, Player } from "../src/picture/player";
 import { placeOf, sweepChart } from "../src/sweep/points";
 
 const kSpeed = "loading.speed_m_per_s";
@@ -47,4 +48,16 @@ test("a field of one lattice is that of another", () => {
 test("every mark is an outline of its own", () => {
   assert.equal(new Set(kMarkShapes.map((shape) => markPath(shape, 4))).size, kMarkShapes.length);
   for (const shape of kMarkShapes) assert.match(markPath(shape, 4), /^M[-\d., aL]+Z$/);
+});
+
+test("the place of a URL is wanted until the crush has come so far", () => {
+  for (const text of ["", "strain=", "strain=abc"]) assert.equal(placeIn(new URLSearchParams(text)), undefined);
+  const player = new Player();
+  player.wanted = placeIn(new URLSearchParams("strain=0.6"));
+  const told = [];
+  player.changes.add(() => told.push([player.value, player.wanted]));
+  player.setEnd(0.2);
+  player.setEnd(0.7);
+  player.setEnd(0.8);
+  assert.deepEqual(told, [[0.2, 0.6], [0.6, undefined], [0.6, undefined]]);
 });

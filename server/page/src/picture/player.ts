@@ -31,7 +31,6 @@ export class Player {
     this.end = end;
     if (this.following) this.value = end;
     if (this.wanted !== undefined) {
-      this.stopPlaying();
       this.following = false;
       this.value = Math.min(Math.max(this.wanted, 0), end);
       if (this.wanted <= end || isLast) this.wanted = undefined;
