@@ -9,6 +9,7 @@
 #include "case_file/field_names.h"
 #include "command_error.h"
 #include "help/field_rules.h"
+#include "usage/suggestion.h"
 
 namespace cellcrush::client {
 

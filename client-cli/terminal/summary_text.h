@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cellcrush/v1/case.pb.h"
+#include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "terminal/terminal.h"
 

@@ -52,7 +52,8 @@ struct LaneMaterial {
 
   template <double LawParameters::*kValue>
   [[nodiscard]] HWY_INLINE Lane<D> parameter() const {
-    return of_law[index_of(kValue)];
+    constexpr std::size_t kPlace = index_of(kValue);
+    return of_law[kPlace];
   }
   [[nodiscard]] HWY_INLINE Lane<D> hardening() const { return parameter<&LawParameters::hardening_modulus_mpa>(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
 #include "fields/field_checker.h"
 

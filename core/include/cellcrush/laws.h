@@ -30,7 +30,7 @@ inline constexpr std::size_t kLawParameterCount = std::size(kLawParameters);
 static_assert(sizeof(LawParameters) == kLawParameterCount * sizeof(double), "list every parameter");
 
 /// Place of a parameter in the list.
-consteval std::size_t index_of(double LawParameters::*value) {
+constexpr std::size_t index_of(double LawParameters::*value) {
   std::size_t i = 0;
   while (kLawParameters[i].value != value) {
     ++i;
