@@ -50,7 +50,7 @@ std::int64_t move_samples(Database& database, const SampledJob& job, const std::
   while (read.step()) {
     worker::Report report;
     if (!report.mutable_sample()->ParseFromString(read.bytes(0))) {
-      spdlog::error("Event {} of {} cannot be read: the journal was damaged. The history goes on without it.",
+      spdlog::error("Event {} of {} cannot be read: the journal was damaged. The history continues without it.",
                     read.integer(1), name_of(job.number));
       continue;
     }
