@@ -8,47 +8,70 @@
 
 namespace cellcrush::watch {
 
-RecentEvents::Answers& RecentEvents::answers_of(std::int64_t job, std::uint64_t stamp) {
-  if (!answers_.contains(job) && answers_.size() >= kMostJobs) {
-    answers_.erase(std::min_element(answers_.begin(), answers_.end(), [](const auto& one, const auto& other) {
-      return one.second.turn < other.second.turn;
-    }));
+bool begins_again(const v1::JobEvent& event) {
+  return event.has_state() && event.state().begun_again_sequence() == event.sequence();
+}
+
+std::shared_ptr<RecentEvents::Window> RecentEvents::window_of(std::int64_t job) {
+  const MutexLock lock(mutex_);
+  if (!windows_.contains(job) && windows_.size() >= kMostJobs) {
+    windows_.erase(std::ranges::min_element(windows_, {}, [](const auto& entry) { return entry.second->turn.load(); }));
   }
-  Answers& out = answers_[job];
-  out.turn = ++turn_;
-  if (std::exchange(out.stamp, std::max(out.stamp, stamp)) < stamp) out.events.clear();
+  auto& out = windows_[job];
+  if (!out) out = std::make_shared<Window>();
+  out->turn = ++turn_;
+  return out;
+}
+
+std::vector<RecentEvents::Event> RecentEvents::read(store::JournalReader& journal, std::int64_t job,
+                                                    std::int64_t after) {
+  ++reads_;
+  std::vector<Event> out;
+  for (auto& event : journal.events(job, after, kAtOnce))
+    out.push_back(std::make_shared<const v1::JobEvent>(std::move(event)));
+  if (out.empty() && !journal.has_job(job))
+    throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::name_of(job) + ".");
   return out;
 }
 
 std::vector<RecentEvents::Event> RecentEvents::after(store::JournalReader& journal, std::int64_t job,
                                                      std::int64_t after, std::uint64_t stamp) {
-  {
-    const MutexLock lock(mutex_);
-    const auto& known = answers_of(job, stamp).events;
-    if (const auto found = known.find(after); found != known.end()) return found->second;
-    ++reads_;
+  const auto window = window_of(job);
+  // Others who are at the same event wait for what the first of them reads.
+  MutexLock lock(window->mutex);
+  if (after < window->before) {
+    lock.unlock();
+    return read(journal, job, after);
   }
-  // Without the lock, as a result may be large.
-  std::vector<Event> out;
-  std::size_t bytes = 0;
-  for (auto& event : journal.events(job, after, kAtOnce)) {
-    bytes += event.ByteSizeLong();
-    out.push_back(std::make_shared<const v1::JobEvent>(std::move(event)));
+  if (after < window->last) {
+    const auto first = std::ranges::partition_point(
+        window->events, [after](const Event& event) { return event->sequence() <= after; });
+    return {first, first + std::min<std::ptrdiff_t>(kAtOnce, window->events.end() - first)};
   }
-  if (out.empty() && !journal.has_job(job))
-    throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::name_of(job) + ".");
-  const MutexLock lock(mutex_);
-  Answers& answers = answers_of(job, stamp);
-  if (stamp < answers.stamp || bytes > kMostBytes) return out;
-  answers.events.emplace(after, out);
-  // That of the watcher that lags most goes first.
-  if (answers.events.size() > kMostAnswers) answers.events.erase(answers.events.begin());
+  const auto begin_behind = [&window](std::int64_t event) CELLCRUSH_REQUIRES(window->mutex) {
+    window->events.clear();
+    window->bytes = 0;
+    window->before = window->last = event;
+    window->end_stamp.reset();
+  };
+  if (after > window->last) begin_behind(after);
+  if (window->end_stamp && *window->end_stamp >= stamp) return {};
+  auto out = read(journal, job, after);
+  if (out.empty()) {
+    window->end_stamp = stamp;
+    return out;
+  }
+  // When a job begins again, its samples no longer count.
+  if (std::ranges::any_of(out, [](const Event& event) { return begins_again(*event); })) begin_behind(after);
+  window->last = out.back()->sequence();
+  for (const Event& event : out) window->bytes += event->ByteSizeLong();
+  window->events.insert(window->events.end(), out.begin(), out.end());
+  while (window->bytes > kMostBytes) {
+    window->before = window->events.front()->sequence();
+    window->bytes -= window->events.front()->ByteSizeLong();
+    window->events.pop_front();
+  }
   return out;
-}
-
-std::int64_t RecentEvents::reads() const {
-  const MutexLock lock(mutex_);
-  return reads_;
 }
 
 void Channel::publish(v1::Mesh mesh) {

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,39 +22,45 @@
 
 namespace cellcrush::watch {
 
-/// What was last read of the events of the jobs that are watched. Watchers that are up to date ask for the same: the
-/// first of them reads it for all others. Memory is bounded: at most kMostJobs times kMostAnswers times kMostBytes.
-/// Thread-safe.
+/// Whether the job restarts from step 0 with this event.
+bool begins_again(const v1::JobEvent& event);
+
+/// The latest events of the jobs that are watched. Each is read once, by the first watcher that asks for it, and shared.
+/// Memory is bounded: at most kMostJobs times kMostBytes. Thread-safe.
 class RecentEvents {
  public:
   using Event = std::shared_ptr<const v1::JobEvent>;
 
   static constexpr int kAtOnce = 256;  ///< events
   static constexpr std::size_t kMostJobs = 64;
-  static constexpr std::size_t kMostAnswers = 4;         ///< of a job
-  static constexpr std::size_t kMostBytes = 128 * 1024;  ///< of an answer that is kept, encoded
+  static constexpr std::size_t kMostBytes = 512 * 1024;  ///< of a job, encoded
 
   /// Up to kAtOnce events after event `after`, in order; none only if there are none. `stamp`: Channel::stamp, from
-  /// before the call: an answer holds as long as it is the same. Throws ServiceError: not_found if there is no such
-  /// job, and the errors of JournalReader::events.
+  /// before the call: the journal has no other events as long as it is the same. Throws ServiceError: not_found if
+  /// there is no such job, and the errors of JournalReader::events.
   std::vector<Event> after(store::JournalReader& journal, std::int64_t job, std::int64_t after, std::uint64_t stamp);
 
   /// How often the journal was read.
-  [[nodiscard]] std::int64_t reads() const;
+  [[nodiscard]] std::int64_t reads() const { return reads_; }
 
  private:
-  struct Answers {
-    std::uint64_t stamp = 0;
-    std::map<std::int64_t, std::vector<Event>> events;  ///< by the number of the event before
-    std::uint64_t turn = 0;                             ///< when they were last used
+  /// Successive events of a job.
+  struct Window {
+    Mutex mutex;
+    std::int64_t before CELLCRUSH_GUARDED_BY(mutex) = 0;  ///< number of the event before the first
+    std::int64_t last CELLCRUSH_GUARDED_BY(mutex) = 0;    ///< number of the last event; `before` if there is none
+    std::deque<Event> events CELLCRUSH_GUARDED_BY(mutex);
+    std::size_t bytes CELLCRUSH_GUARDED_BY(mutex) = 0;
+    std::optional<std::uint64_t> end_stamp CELLCRUSH_GUARDED_BY(mutex);  ///< at which nothing followed the last one
+    std::atomic<std::uint64_t> turn = 0;                                 ///< when it was last used
   };
-  /// Of a job, without those of another stamp.
-  Answers& answers_of(std::int64_t job, std::uint64_t stamp) CELLCRUSH_REQUIRES(mutex_);
+  std::shared_ptr<Window> window_of(std::int64_t job);
+  std::vector<Event> read(store::JournalReader& journal, std::int64_t job, std::int64_t after);
 
-  mutable Mutex mutex_;
-  std::map<std::int64_t, Answers> answers_ CELLCRUSH_GUARDED_BY(mutex_);  ///< by job
+  Mutex mutex_;
+  std::map<std::int64_t, std::shared_ptr<Window>> windows_ CELLCRUSH_GUARDED_BY(mutex_);  ///< by job
   std::uint64_t turn_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
-  std::int64_t reads_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::atomic<std::int64_t> reads_ = 0;
 };
 
 /// A frame that any number of watchers read, as numbers or packed. It is packed once, by the first who asks.

@@ -60,7 +60,7 @@ std::optional<v1::JobEvent> WatchCursor::next() {
   events_.pop_front();
   after_ = event.sequence();
   ended_ = event.has_state() && store::is_terminal(event.state().state());
-  if (event.has_state() && event.state().begun_again_sequence() == after_) mesh_queued_ = false;
+  if (begins_again(event)) mesh_queued_ = false;
   return event;
 }
 
