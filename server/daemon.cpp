@@ -121,8 +121,8 @@ void prepare_grpc_once() {
   std::call_once(once, [] {
     // The service answers grpc.health.v1 itself.
     grpc::EnableDefaultHealthCheckService(false);
-    // Held to the end of the process: once a write has had to wait for its client, the library's end may wait 10 s for
-    // the thread that helped.
+    // Held until the process ends: gRPC's shutdown joins its backup poller, which may sleep for 10 s. That thread
+    // starts when a client reads more slowly than the daemon writes.
     grpc_init();
   });
 }
@@ -246,7 +246,7 @@ struct Daemon::Impl {
     probe.reset();
     acceptor->stop();
     if (gateway) gateway->stop();
-    // gRPC would wait as long for the connections of clients that are idle, and so do not read that they are to close.
+    // Not left to gRPC: it would wait for idle connections too, whose clients do not read its request to close them.
     open_calls.wait_until_none(kCallsMayLast);
     server->Shutdown(std::chrono::system_clock::now());
     server->Wait();
