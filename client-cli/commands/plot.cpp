@@ -138,9 +138,9 @@ void add_plot_command(CLI::App& app, Session& session) {
              "Draw the frames alone, without title and curve");
   add_option(*command, kFrameOptions, "--wide", options->wide,
              "Draw the frames beside the stress curves, as for a slide");
-  add_examples(*command, {"cellcrush plot jobs/12 -o crush.png", "cellcrush plot jobs/12 jobs/13 -o compared.svg",
-                          "cellcrush plot thin thick/result.h5 -o compared.svg",
-                          "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf"});
+  add_examples(*command,
+               {"cellcrush plot jobs/12 jobs/13 -o compared.svg", "cellcrush plot results/result.h5 -o crush.png",
+                "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf"});
 }
 
 }  // namespace cellcrush::client

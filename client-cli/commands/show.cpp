@@ -141,8 +141,8 @@ void add_show_commands(CLI::App& app, Session& session) {
              "Significant digits of the results; varied values are printed in full (default: 3)")
       ->check(CLI::Range(1, 17));
   add_option(*table, kOutputOptions, "--csv", table_options->csv, "Print CSV with all digits");
-  add_examples(
-      *table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv", "cellcrush table thin thick"});
+  add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv",
+                        "cellcrush table thin/result.h5 thick/result.h5"});
 }
 
 }  // namespace cellcrush::client
