@@ -121,6 +121,9 @@ void prepare_grpc_once() {
   std::call_once(once, [] {
     // The service answers grpc.health.v1 itself.
     grpc::EnableDefaultHealthCheckService(false);
+    // Held until the process ends: gRPC's shutdown joins its backup poller, which may sleep for 10 s. That thread
+    // starts when a client reads more slowly than the daemon writes.
+    grpc_init();
   });
 }
 
@@ -165,7 +168,7 @@ struct Daemon::Impl {
     }
     service.register_with(builder);
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
-    interceptors.push_back(rpc::make_parse_error_interceptors());
+    interceptors.push_back(rpc::make_call_interceptors(open_calls));
     builder.experimental().SetInterceptorCreators(std::move(interceptors));
     server = builder.BuildAndStart();
     if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The gRPC server could not be started.");
@@ -243,7 +246,9 @@ struct Daemon::Impl {
     probe.reset();
     acceptor->stop();
     if (gateway) gateway->stop();
-    server->Shutdown(std::chrono::system_clock::now() + kCallsMayLast);
+    // Not left to gRPC: it would wait for idle connections too, whose clients do not read its request to close them.
+    open_calls.wait_until_none(kCallsMayLast);
+    server->Shutdown(std::chrono::system_clock::now());
     server->Wait();
   }
 
@@ -260,6 +265,7 @@ struct Daemon::Impl {
       handlers;  ///< of the requested addresses
   LimitedLog refusals{"refused connections", 1};
   net::HeapTrim heap;
+  rpc::OpenCalls open_calls;
   std::unique_ptr<grpc::Server> server;
   std::optional<net::RefusingServer> refusing_server;
   std::optional<net::Acceptor> acceptor;

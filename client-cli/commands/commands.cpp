@@ -1,12 +1,18 @@
 #include "commands/commands.h"
 
+#include <fmt/format.h>
+
 #include <CLI/Validators.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "command_error.h"
 #include "connection/credentials.h"
+#include "connection/private_daemon.h"
 
 namespace cellcrush::client {
 
@@ -21,7 +27,34 @@ std::string with_prefix(const std::string& name, const char* prefix) {
   return name.find('/') == std::string::npos ? prefix + name : name;
 }
 
+[[noreturn]] void refuse_beside_file(const std::string& name, const std::string& file) {
+  refuse(
+      fmt::format("{} is of a server and {} a file, which one command cannot read together. Save the job first, "
+                  "`cellcrush fetch {} -o FOLDER`, and name that folder.",
+                  name, file, name));
+}
+
 }  // namespace
+
+Session::Session() = default;
+Session::~Session() = default;
+
+std::vector<std::string> Session::find_jobs(const std::vector<std::string>& names) {
+  std::vector<std::string> jobs;
+  const auto file = std::ranges::find_if(names, names_file);
+  if (file == names.end()) {
+    for (const std::string& name : names) jobs.push_back(job_name(name));
+    return jobs;
+  }
+  for (const std::string& name : names) {
+    if (!names_file(name)) refuse_beside_file(name, *file);
+    jobs.push_back(kJobs + std::to_string(jobs.size() + 1));
+  }
+  if (!server.empty()) refuse(*file + " is read without a server. Leave --server out.");
+  results_ = std::make_unique<PrivateDaemon>(names);
+  server = results_->address();
+  return jobs;
+}
 
 Connection& Session::connection() {
   if (connection_ == nullptr) {
@@ -99,6 +132,17 @@ void add_time_limit_option(CLI::App& command, double& seconds, const std::string
 }
 
 bool names_sweep(const std::string& name) { return name.starts_with(kSweeps); }
+
+bool names_file(const std::string& name) {
+  const auto is_number = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  const bool has_prefix = name.starts_with(kJobs) || names_sweep(name);
+  if (is_number(has_prefix ? name.substr(name.find('/') + 1) : name)) return false;
+  std::error_code error;
+  return std::filesystem::exists(name, error) || name.ends_with(".h5") || name.starts_with('.') ||
+         name.starts_with('/');
+}
 
 std::string job_name(const std::string& name) {
   if (names_sweep(name)) refuse(name + " is a sweep; name one of its jobs, jobs/NAME");

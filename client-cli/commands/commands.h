@@ -15,6 +15,8 @@
 
 namespace cellcrush::client {
 
+class PrivateDaemon;
+
 /// One run of the program: the common options and the chosen command.
 struct Session {
   bool json = false;
@@ -22,10 +24,22 @@ struct Session {
   CredentialFiles credentials;
   std::function<ExitCode()> action;  ///< set by the chosen command; may throw CommandError
 
+  Session();
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
   /// The connection to the server, opened on first use.
   Connection& connection();
 
+  /// The names of these jobs on the server: "jobs/NAME" for a NAME without a slash. If they are result.h5 files, or
+  /// folders of `run` or `fetch`, the server becomes a private one with a job for each. Throws CommandError (refused)
+  /// for a sweep's name, for jobs together with files, and for files that are no results.
+  std::vector<std::string> find_jobs(const std::vector<std::string>& names);
+  std::string find_job(const std::string& name) { return find_jobs({name}).front(); }
+
  private:
+  std::unique_ptr<PrivateDaemon> results_;
   std::unique_ptr<Connection> connection_;
 };
 
@@ -101,6 +115,14 @@ void add_time_limit_option(CLI::App& command, double& seconds, const std::string
 
 /// Whether a name from the command line is a sweep's: "sweeps/NAME".
 bool names_sweep(const std::string& name);
+
+/// Whether a name from the command line is a file or folder rather than a job or sweep: it exists, or looks like a
+/// path. jobs/12 and 12 are a job even so.
+bool names_file(const std::string& name);
+
+/// A table as of a sweep with a row for each result, under the name given, and the numbers in which their cases differ.
+/// Throws the errors of Session::find_jobs.
+v1::SweepTable tabulate_results(Session& session, const std::vector<std::string>& files);
 
 /// A job's full name: "jobs/NAME" for a NAME without a slash. Throws CommandError (refused) for a sweep's name.
 std::string job_name(const std::string& name);

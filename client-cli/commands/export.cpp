@@ -50,7 +50,7 @@ Exported download_page(Connection& connection, const v1::ExportJobRequest& reque
 ExitCode run_export(Session& session, const ExportOptions& options) {
   check_may_overwrite(options.file, {kExportSignature});
   v1::ExportJobRequest request;
-  request.set_name(job_name(options.name));
+  request.set_name(session.find_job(options.name));
   request.set_max_bytes(static_cast<std::int64_t>(kBytesOfMb * options.megabytes));
   OutputFile file(options.file);
   const Exported exported = download_page(session.connection(), request, file);
@@ -74,7 +74,7 @@ void add_export_command(CLI::App& app, Session& session) {
   const auto [command, options] =
       add_command<ExportOptions>(app, session, kResultCommands, "export",
                                  "Save an ended job as one HTML file that opens without a daemon", run_export);
-  command->add_option("NAME", options->name, "Job name")->required();
+  command->add_option("NAME", options->name, "Name of a job, or a result.h5 or its folder")->required();
   add_option(*command, kOutputOptions, "-o,--output", options->file, "HTML file, such as FILE.html")->required();
   add_option(*command, kOutputOptions, "--max-size", options->megabytes,
              "Approximate size of the file, in MB; limits the number of frames (default: 20)")

@@ -128,8 +128,9 @@ fs::path frame_path(const fs::path& folder, const MeshFrame& frame) {
 }
 
 ExitCode run_fetch(Session& session, const FetchOptions& options) {
+  const std::string name = session.find_job(options.name);
   Connection& connection = session.connection();
-  const auto job = fetch_job(connection, job_name(options.name));
+  const auto job = fetch_job(connection, name);
   const auto files = write_results(connection, job, options.folder, options.frame_times);
   if (session.json) {
     print_json(job);
@@ -189,7 +190,7 @@ void add_fetch_command(CLI::App& app, Session& session) {
   const auto [command, options] = add_command<FetchOptions>(
       app, session, kResultCommands, "fetch",
       "Download a job's result.h5, history.csv, nodes.csv, rigid_walls.csv and case.txtpb", run_fetch);
-  command->add_option("NAME", options->name, "Job name")->required();
+  command->add_option("NAME", options->name, "Name of a job, or a result.h5 or its folder")->required();
   add_option(*command, kOutputOptions, "-o,--output", options->folder, "Output folder, created if missing")->required();
   add_option(*command, kOutputOptions, "--frame", options->frame_times,
              "Also write the frame nearest to this time, in s, as CSV (may be repeated; default: none)")

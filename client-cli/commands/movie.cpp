@@ -39,8 +39,14 @@ void check_ffmpeg() {
 void encode_movie(const std::filesystem::path& frames, int frames_per_second, const std::filesystem::path& movie) {
   const std::string rate = std::to_string(frames_per_second);
   const std::string pattern = frames / "frame_%05d.png";
-  std::vector<std::string> words = {"ffmpeg", "-nostdin", "-y",    "-loglevel", "error",   "-framerate",
-                                    rate,     "-i",       pattern, "-pix_fmt",  "yuv420p", movie.string()};
+  std::vector<std::string> words = {"ffmpeg",     "-nostdin", "-y", "-loglevel", "error",
+                                    "-framerate", rate,       "-i", pattern};
+  // A GIF has 256 colours: those that its frames have most of, and half the size.
+  if (movie.extension() == ".gif")
+    words.insert(words.end(), {"-vf", "scale=iw/2:-1:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse"});
+  else
+    words.insert(words.end(), {"-pix_fmt", "yuv420p"});
+  words.push_back(movie.string());
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
@@ -51,7 +57,7 @@ void encode_movie(const std::filesystem::path& frames, int frames_per_second, co
   if (failure == 0) waitpid(process, &status, 0);
   if (failure == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   refuse(
-      "movie: ffmpeg could not write the movie; give -o a name that ends in .mp4, or "
+      "movie: ffmpeg could not write the movie; give -o a name that ends in .mp4, .webm or .gif, or "
       "write the frames with --frames DIR");
 }
 
@@ -85,7 +91,9 @@ class TemporaryFolder {
 
 // Draws all frames of a job as frame_00000.png and so on; returns their number. Fetches them twice, for the common box
 // and for drawing, because the frames of a large lattice do not fit into memory together.
-int draw_frames(Connection& connection, const std::string& name, const fs::path& folder) {
+int draw_frames(Session& session, const std::string& job, const fs::path& folder) {
+  const std::string name = session.find_job(job);
+  Connection& connection = session.connection();
   const MeshFrame last = fetch_frame(connection, name, -1);
   const int count = last.frame.index() + 1;
   Box box = find_box({lattice_stage(last)});
@@ -103,7 +111,7 @@ int draw_frames(Connection& connection, const std::string& name, const fs::path&
 
 void keep_frames(Session& session, const MovieOptions& options) {
   make_folder(options.folder);
-  const int count = draw_frames(session.connection(), job_name(options.name), options.folder);
+  const int count = draw_frames(session, options.name, options.folder);
   session.json ? print_file_json(options.folder, {{"frame_count", count}})
                : fmt::print("{}  {} frames\n", options.folder, count);
 }
@@ -111,7 +119,7 @@ void keep_frames(Session& session, const MovieOptions& options) {
 void make_movie(Session& session, const MovieOptions& options) {
   check_ffmpeg();
   const TemporaryFolder folder;
-  const int count = draw_frames(session.connection(), job_name(options.name), folder.path());
+  const int count = draw_frames(session, options.name, folder.path());
   const fs::path movie = folder.path() / ("movie" + fs::path(options.file).extension().string());
   encode_movie(folder.path(), options.frames_per_second, movie);
   std::ostringstream bytes;
@@ -122,7 +130,7 @@ void make_movie(Session& session, const MovieOptions& options) {
 
 ExitCode run_movie(Session& session, const MovieOptions& options) {
   if (options.file.empty() == options.folder.empty()) {
-    refuse("movie: give either -o FILE.mp4 or --frames DIR");
+    refuse("movie: give either -o FILE.mp4, FILE.webm or FILE.gif, or --frames DIR");
   }
   options.folder.empty() ? make_movie(session, options) : keep_frames(session, options);
   return ExitCode::done;
@@ -133,9 +141,9 @@ ExitCode run_movie(Session& session, const MovieOptions& options) {
 void add_movie_command(CLI::App& app, Session& session) {
   const auto [command, options] = add_command<MovieOptions>(
       app, session, kResultCommands, "movie", "Render the frames of a job as a movie; requires ffmpeg", run_movie);
-  command->add_option("NAME", options->name, "Job name")->required();
+  command->add_option("NAME", options->name, "Name of a job, or a result.h5 or its folder")->required();
   add_option(*command, kOutputOptions, "-o,--output", options->file,
-             "Movie file, such as FILE.mp4 (default: none; required without --frames)");
+             "Movie file: FILE.mp4, FILE.webm or FILE.gif (default: none; required without --frames)");
   add_option(*command, kOutputOptions, "--frames", options->folder,
              "Write the frames to this folder instead, as numbered PNG files of one size; does not require ffmpeg "
              "(default: none)");

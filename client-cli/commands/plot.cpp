@@ -26,12 +26,18 @@ struct PlotOptions {
   std::string logarithmic;  ///< the letters of the axes
 };
 
-JobHistory fetch_drawable_history(Connection& connection, const v1::Job& job) {
-  const auto samples = fetch_history(connection, job.name());
+// A job under the name that the user gave: its own, or the path of its result.
+struct NamedJob {
+  std::string name;
+  v1::Job job;
+};
+
+JobHistory fetch_drawable_history(Connection& connection, const NamedJob& named) {
+  const auto samples = fetch_history(connection, named.name);
   if (samples.samples_size() == 0) {
-    refuse(job.name() + " has no samples to plot yet");
+    refuse(named.job.name() + " has no samples to plot yet");
   }
-  return {job, {samples.samples().begin(), samples.samples().end()}};
+  return {named.job, {samples.samples().begin(), samples.samples().end()}};
 }
 
 std::vector<MeshFrame> fetch_stages(Connection& connection, const std::string& name, const PlotOptions& options) {
@@ -56,15 +62,16 @@ void plot_sweeps(Session& session, const PlotOptions& options) {
   }
 }
 
-std::string render_jobs(Connection& connection, PictureFormat format, const v1::ListJobsResponse& jobs,
+std::string render_jobs(Connection& connection, PictureFormat format, const std::vector<NamedJob>& jobs,
                         const PlotOptions& options) {
-  if (options.frames_only) return render_stages_picture(format, fetch_stages(connection, jobs.jobs(0).name(), options));
+  const NamedJob& first = jobs.front();
+  if (options.frames_only) return render_stages_picture(format, fetch_stages(connection, first.name, options));
   std::vector<JobHistory> histories;
-  for (const v1::Job& job : jobs.jobs()) histories.push_back(fetch_drawable_history(connection, job));
+  for (const NamedJob& job : jobs) histories.push_back(fetch_drawable_history(connection, job));
   if (histories.size() > 1) return render_comparison_picture(format, histories);
-  const std::vector<MeshFrame> stages = fetch_stages(connection, jobs.jobs(0).name(), options);
+  const std::vector<MeshFrame> stages = fetch_stages(connection, first.name, options);
   if (options.wide && stages.empty()) {
-    refuse(jobs.jobs(0).name() + " has no frames; plot it without --wide");
+    refuse(first.job.name() + " has no frames; plot it without --wide");
   }
   return options.wide ? render_wide_picture(format, histories.front(), stages)
                       : render_job_picture(format, histories.front(), stages);
@@ -72,11 +79,17 @@ std::string render_jobs(Connection& connection, PictureFormat format, const v1::
 
 void plot_jobs(Session& session, const PlotOptions& options) {
   const PictureFormat format = picture_format(options.file);
+  const auto names = session.find_jobs(options.names);
   Connection& connection = session.connection();
-  v1::ListJobsResponse jobs;
-  for (const std::string& name : options.names) *jobs.add_jobs() = fetch_job(connection, job_name(name));
+  std::vector<NamedJob> jobs;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    jobs.push_back({names[i], fetch_job(connection, names[i])});
+    if (names_file(options.names[i])) jobs.back().job.set_name(options.names[i]);
+  }
   write_file(options.file, render_jobs(connection, format, jobs, options));
-  session.json ? print_json(jobs) : fmt::print("{}\n", options.file);
+  v1::ListJobsResponse printed;
+  for (const NamedJob& job : jobs) *printed.add_jobs() = job.job;
+  session.json ? print_json(printed) : fmt::print("{}\n", options.file);
 }
 
 void check_options(const PlotOptions& options) {
@@ -105,7 +118,11 @@ void add_plot_command(CLI::App& app, Session& session) {
   const auto [command, options] = add_command<PlotOptions>(
       app, session, kResultCommands, "plot",
       "Plot a job's frames and stress-strain curve, compare several jobs, or plot sweeps", run_plot);
-  command->add_option("NAME", options->names, "Names of jobs, or of sweeps over the same field")->required();
+  command
+      ->add_option(
+          "NAME", options->names,
+          "Names of jobs, results of `run` or `fetch` (result.h5 or its folder), or sweeps over the same field")
+      ->required();
   add_option(*command, kOutputOptions, "-o,--output", options->file, "Picture file: FILE.svg, FILE.pdf or FILE.png")
       ->required();
   add_option(*command, kFrameOptions, "--frame-strain", options->frame_strains,
@@ -121,8 +138,9 @@ void add_plot_command(CLI::App& app, Session& session) {
              "Draw the frames alone, without title and curve");
   add_option(*command, kFrameOptions, "--wide", options->wide,
              "Draw the frames beside the stress curves, as for a slide");
-  add_examples(*command, {"cellcrush plot jobs/12 -o crush.png", "cellcrush plot jobs/12 jobs/13 -o compared.svg",
-                          "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf"});
+  add_examples(*command,
+               {"cellcrush plot jobs/12 jobs/13 -o compared.svg", "cellcrush plot results/result.h5 -o crush.png",
+                "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf"});
 }
 
 }  // namespace cellcrush::client

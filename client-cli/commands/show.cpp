@@ -23,7 +23,9 @@ void show_preset(Session& session, const std::string& name) {
 }
 
 void show_job(Session& session, const std::string& name) {
-  const auto job = fetch_job(session.connection(), job_name(name));
+  const std::string found = session.find_job(name);
+  auto job = fetch_job(session.connection(), found);
+  if (names_file(name)) job.set_name(name);
   session.json ? print_json(job) : fmt::print("{}", description_text(job));
 }
 
@@ -74,23 +76,24 @@ void list_sweeps(Session& session, const ListOptions& options) {
 }
 
 struct TableOptions {
-  std::string name;
+  std::vector<std::string> names;
   bool csv = false;
   int digits = kTableDigits;
 };
 
 ExitCode run_table(Session& session, const TableOptions& options) {
   if (options.csv && session.json) refuse("table: give either --csv or --json");
-  Connection& connection = session.connection();
-  const std::string name = sweep_name(options.name);
-  const auto table = fetch_table(connection, name);
+  const bool of_files = std::ranges::any_of(options.names, names_file);
+  if (!of_files && options.names.size() > 1) refuse("table: name one sweep, or any number of results");
+  const std::string name = of_files ? "" : sweep_name(options.names.front());
+  const auto table = of_files ? tabulate_results(session, options.names) : fetch_table(session.connection(), name);
   if (session.json) {
     print_json(table);
   } else if (options.csv) {
     fmt::print("{}", sweep_table_csv(table));
   } else {
-    const auto sweep = fetch_sweep(connection, name);
-    fmt::print("{}", sweep_table_text(table, sweep.words().theory_note(), options.digits));
+    const std::string note = of_files ? "" : fetch_sweep(session.connection(), name).words().theory_note();
+    fmt::print("{}", sweep_table_text(table, note, options.digits));
   }
   return ExitCode::done;
 }
@@ -109,7 +112,8 @@ void add_show_commands(CLI::App& app, Session& session) {
                     }
                     return ExitCode::done;
                   });
-  command->add_option("NAME", *name, "preset:NAME, or the name of a job or a sweep")->required();
+  command->add_option("NAME", *name, "preset:NAME, the name of a job or a sweep, or a result.h5 or its folder")
+      ->required();
   add_examples(*command, {"cellcrush show preset:type-i > my.txtpb", "cellcrush show jobs/12"});
   const auto list_options = std::make_shared<ListOptions>();
   CLI::App* list =
@@ -128,13 +132,17 @@ void add_show_commands(CLI::App& app, Session& session) {
   add_examples(*list, {"cellcrush list --limit 10", "cellcrush list --filter 'state = RUNNING'",
                        "cellcrush list --sweeps --json"});
   const auto [table, table_options] = add_command<TableOptions>(
-      app, session, kResultCommands, "table", "Print the results of a sweep, one row per job", run_table);
-  table->add_option("SWEEP", table_options->name, "Name of a sweep")->required();
+      app, session, kResultCommands, "table", "Print the results of a sweep, or of files, one row each", run_table);
+  table
+      ->add_option("NAME", table_options->names,
+                   "Name of a sweep, or results of `run` or `fetch` (result.h5 or its folder)")
+      ->required();
   add_option(*table, kOutputOptions, "--digits", table_options->digits,
              "Significant digits of the results; varied values are printed in full (default: 3)")
       ->check(CLI::Range(1, 17));
   add_option(*table, kOutputOptions, "--csv", table_options->csv, "Print CSV with all digits");
-  add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv"});
+  add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv",
+                        "cellcrush table thin/result.h5 thick/result.h5"});
 }
 
 }  // namespace cellcrush::client

@@ -14,11 +14,17 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <thread>
+#include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "command_error.h"
+
+// glibc 2.36 declares these without C linkage.
+extern "C" {
+#include <sys/pidfd.h>
+}
 
 namespace cellcrush::client {
 namespace {
@@ -27,6 +33,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience{60};
+constexpr std::string_view kSaidBy = "cellcrushd: ";
 
 // A plain "cellcrushd" is searched in $PATH.
 std::string daemon_program() {
@@ -45,6 +52,14 @@ fs::path make_socket_folder() {
   name = "/tmp/cellcrush-XXXXXX";
   if (mkdtemp(name.data()) == nullptr) refuse(name + ": cannot be created: " + std::strerror(errno));
   return name;
+}
+
+// Without the last line feed.
+std::string text_of(const fs::path& log) {
+  std::ifstream file(log);
+  std::string out{std::istreambuf_iterator<char>(file), {}};
+  if (out.ends_with('\n')) out.pop_back();
+  return out;
 }
 
 std::string last_line_of(const fs::path& log) {
@@ -69,6 +84,39 @@ std::string last_line_of(const fs::path& log) {
   _exit(127);
 }
 
+// A running program with the reading end of its standard output; -1 for none.
+struct Started {
+  pid_t process = -1;
+  int output = -1;
+  int error = 0;  ///< an errno, if it does not run
+};
+
+Started start(std::vector<std::string>& words, const fs::path& log) {
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (auto& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  std::array<int, 2> output{-1, -1};
+  const int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  const bool is_ready = log_file >= 0 && pipe2(output.data(), O_CLOEXEC) == 0;
+  const pid_t parent = getpid();
+  Started out;
+  if (is_ready) out.process = fork();
+  if (out.process == 0) become(pointers.data(), parent, output[1], log_file);
+  out.error = errno;
+  out.output = output[0];
+  for (const int file : {log_file, output[1]}) {
+    if (file >= 0) close(file);
+  }
+  return out;
+}
+
+std::string why_not_started(const std::string& program, const Started& started, const fs::path& log) {
+  std::string why = started.process > 0 ? last_line_of(log) : std::strerror(started.error);
+  if (why.empty()) why = "it cannot be run. Install it beside cellcrush or in a folder of $PATH.";
+  return program + " does not start: " + why;
+}
+
 // Whether the daemon announces that it listens, in its first line, before it ends or the time is up.
 bool wait_until_it_listens(int output) {
   const auto limit = Clock::now() + kPatience;
@@ -89,35 +137,52 @@ bool wait_until_it_listens(int output) {
 
 PrivateDaemon::PrivateDaemon(const fs::path& data, double time_limit_s)
     : log_(data / "daemon.log"), folder_(make_socket_folder()) {
+  serve(data, time_limit_s);
+}
+
+PrivateDaemon::PrivateDaemon(const std::vector<std::string>& results) : folder_(make_socket_folder()) {
+  log_ = folder_ / "daemon.log";
+  const fs::path data = folder_ / "data";
+  import(data, results);
+  serve(data, 0.0);
+}
+
+void PrivateDaemon::import(const fs::path& data, const std::vector<std::string>& results) {
+  std::vector<std::string> words = {daemon_program(), "import", "--data", data.string(), "--link"};
+  words.insert(words.end(), results.begin(), results.end());
+  const Started started = start(words, log_);
+  int status = -1;
+  while (started.process > 0 && waitpid(started.process, &status, 0) < 0 && errno == EINTR) continue;
+  if (started.output >= 0) close(started.output);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  std::string why = text_of(log_);
+  if (why.starts_with(kSaidBy)) why.erase(0, kSaidBy.size());
+  remove_folder();
+  refuse(why.empty() ? why_not_started(words[0], started, log_) : why);
+}
+
+void PrivateDaemon::serve(const fs::path& data, double time_limit_s) {
   // As many workers as cores, since a job may use the cores that no other job waits for.
   std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address(), "--http", "none"};
   if (time_limit_s > 0.0) words.insert(words.end(), {"--max-job-time", fmt::format("{}", time_limit_s)});
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (auto& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  std::array<int, 2> output{-1, -1};
-  const int log_file = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  const bool is_ready = log_file >= 0 && pipe2(output.data(), O_CLOEXEC) == 0;
-  const pid_t parent = getpid();
-  if (is_ready) pid_ = fork();
-  if (pid_ == 0) become(pointers.data(), parent, output[1], log_file);
-  const int cause = errno;
-  for (const int file : {log_file, output[1]}) {
-    if (file >= 0) close(file);
-  }
-  const bool serves = pid_ > 0 && wait_until_it_listens(output[0]);
-  if (output[0] >= 0) close(output[0]);
+  const Started started = start(words, log_);
+  pid_ = started.process;
+  const bool serves = pid_ > 0 && wait_until_it_listens(started.output);
+  if (started.output >= 0) close(started.output);
   if (serves) return;
-  std::string why = pid_ > 0 ? last_line_of(log_) : std::strerror(cause);
-  if (why.empty()) why = "it cannot be run. Install it beside cellcrush or in a folder of $PATH.";
+  const std::string why = why_not_started(words[0], started, log_);
   if (pid_ > 0) {
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
     pid_ = -1;
   }
-  static_cast<void>(has_ended());  // removes the socket's folder
-  refuse(words[0] + " does not start: " + why);
+  remove_folder();
+  refuse(why);
+}
+
+void PrivateDaemon::remove_folder() {
+  std::error_code none;
+  fs::remove_all(folder_, none);
 }
 
 PrivateDaemon::~PrivateDaemon() {
@@ -131,24 +196,29 @@ PrivateDaemon::~PrivateDaemon() {
 bool PrivateDaemon::has_ended() {
   if (pid_ >= 0 && waitpid(pid_, nullptr, WNOHANG) == 0) return false;
   pid_ = -1;
-  std::error_code none;
-  fs::remove_all(folder_, none);
+  remove_folder();
   return true;
 }
 
 void PrivateDaemon::stop() {
   if (pid_ < 0) return;
+  const int process = pidfd_open(pid_, 0);
   kill(pid_, SIGTERM);
   const auto limit = Clock::now() + kPatience;
   while (!has_ended()) {
-    if (Clock::now() > limit) {
-      refuse(
-          fmt::format("cellcrushd (process {}) did not exit within {} s. End it with "
-                      "`kill {}` before you continue.",
-                      pid_, kPatience.count(), pid_));
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(limit - Clock::now());
+    pollfd end{process, POLLIN, 0};
+    if (left.count() > 0) {
+      poll(&end, 1, static_cast<int>(left.count()));
+      continue;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    close(process);
+    refuse(
+        fmt::format("cellcrushd (process {}) did not exit within {} s. End it with "
+                    "`kill {}` before you continue.",
+                    pid_, kPatience.count(), pid_));
   }
+  close(process);
 }
 
 }  // namespace cellcrush::client

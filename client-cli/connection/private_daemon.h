@@ -4,17 +4,23 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace cellcrush::client {
 
-/// A cellcrushd on a Unix socket of its own that serves only this process. It ends with this process at the latest; a
-/// running job is then left at a checkpoint in the data folder.
+/// A cellcrushd on a Unix socket of its own that serves only this process: the one beside this program, or else the one
+/// in $PATH. It ends with this process at the latest; a running job is then left at a checkpoint in the data folder.
 class PrivateDaemon {
  public:
-  /// Starts the cellcrushd beside this program, or else the one in $PATH, and waits until it serves. `time_limit_s`
-  /// limits its jobs; 0: no limit. Its log is `data`/daemon.log. Throws CommandError (refused) with the last log line
-  /// if it does not start.
+  /// Waits until it serves. `time_limit_s` limits its jobs; 0: no limit. Its log is `data`/daemon.log. Throws
+  /// CommandError (refused) with the last log line if it does not start.
   PrivateDaemon(const std::filesystem::path& data, double time_limit_s);
+
+  /// The same on a temporary data folder, with the ended jobs of these results, which it reads where they are: jobs/1
+  /// and so on, in their order. `results`: files, or folders with a result.h5. Throws CommandError (refused) that says
+  /// which cannot be read, and why.
+  explicit PrivateDaemon(const std::vector<std::string>& results);
+
   ~PrivateDaemon();
   PrivateDaemon(const PrivateDaemon&) = delete;
   PrivateDaemon& operator=(const PrivateDaemon&) = delete;
@@ -31,6 +37,10 @@ class PrivateDaemon {
 
  private:
   [[nodiscard]] std::filesystem::path socket() const { return folder_ / "socket"; }
+  // Both throw CommandError (refused), and then leave no folder.
+  void serve(const std::filesystem::path& data, double time_limit_s);
+  void import(const std::filesystem::path& data, const std::vector<std::string>& results);
+  void remove_folder();
 
   std::filesystem::path log_;
   std::filesystem::path folder_;  ///< of the socket; a socket path has at most 107 bytes

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -42,16 +43,28 @@ constexpr auto kSilence = 60s;
 class CallGuard {
  public:
   CallGuard(grpc::ClientContext& context, const Interruption& interruption)
-      : last_(Clock::now()), thread_([this, &context, &interruption](const std::stop_token& stop) {
+      : last_(Clock::now()),
+        over_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+        thread_([this, &context, &interruption](const std::stop_token& stop) {
           while (!stop.stop_requested()) {
-            if (interruption.wait_for(50ms) || Clock::now() - last_.load() > kSilence) return context.TryCancel();
+            const auto left = std::chrono::ceil<std::chrono::milliseconds>(last_.load() + kSilence - Clock::now());
+            if (left.count() <= 0 || interruption.wait_for(left, over_)) return context.TryCancel();
           }
         }) {}
+  ~CallGuard() {
+    thread_.request_stop();
+    eventfd_write(over_, 1);
+    thread_.join();
+    close(over_);
+  }
+  CallGuard(const CallGuard&) = delete;
+  CallGuard& operator=(const CallGuard&) = delete;
 
   void heard() { last_ = Clock::now(); }
 
  private:
   std::atomic<Clock::time_point> last_;
+  int over_;  ///< eventfd, readable once the call is over
   std::jthread thread_;
 };
 
@@ -146,9 +159,9 @@ Interruption::~Interruption() {
   close(pipe_ends[1]);
 }
 
-bool Interruption::wait_for(std::chrono::milliseconds time) const {
-  pollfd reader{pipe_ends[0], POLLIN, 0};
-  return poll(&reader, 1, static_cast<int>(time.count())) > 0;
+bool Interruption::wait_for(std::chrono::milliseconds time, int over) const {
+  std::array readers = {pollfd{pipe_ends[0], POLLIN, 0}, pollfd{over, POLLIN, 0}};
+  return poll(readers.data(), readers.size(), static_cast<int>(time.count())) > 0 && readers[0].revents != 0;
 }
 
 bool follow_job(Connection& connection, const std::string& name, const Interruption& interruption,

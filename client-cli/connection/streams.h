@@ -18,8 +18,9 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// Waits at most `time` for a signal; returns whether one has arrived, now or before.
-  [[nodiscard]] bool wait_for(std::chrono::milliseconds time) const;
+  /// Waits at most `time` for a signal, or until the descriptor `over` is readable; returns whether a signal has
+  /// arrived, now or before.
+  [[nodiscard]] bool wait_for(std::chrono::milliseconds time, int over = -1) const;
 
   [[nodiscard]] bool requested() const { return wait_for(std::chrono::milliseconds(0)); }
 };

@@ -43,10 +43,12 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   }
   stress_row("support", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
              summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
+  // A file of an earlier version lacks it.
+  const bool of_theory = theory && summary.theory().densification_strain() > 0.0;
   table.add({"densification strain",
              summary.has_densification_strain() ? number_text(summary.densification_strain()) : "not reached",
-             theory ? number_text(summary.theory().densification_strain()) : "",
-             theory ? "1 - 1.4 relative density" : ""});
+             of_theory ? number_text(summary.theory().densification_strain()) : "",
+             of_theory ? "1 - 1.4 relative density" : ""});
   if (summary.has_plateau_stress_to_densification_mpa()) {
     table.add({"plateau stress to densification", stress_text(summary.plateau_stress_to_densification_mpa())});
   }

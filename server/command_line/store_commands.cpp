@@ -4,6 +4,8 @@
 #include <string>
 
 #include "store/backup.h"
+#include "store/resource_name.h"
+#include "store/result_import.h"
 #include "store/verification.h"
 
 namespace cellcrush {
@@ -38,9 +40,18 @@ StoreCommands::StoreCommands(CLI::App& app)
           app, "verify", "Check a backup or data folder and list all problems; exit code 1 if there are any, else 0",
           "Backup or data folder", folder_)),
       restore_(add_store_command(app, "restore", "Verify a backup and restore it to a new data folder (--data)",
-                                 "Backup folder", folder_)) {}
+                                 "Backup folder", folder_)),
+      import_(app.add_subcommand("import",
+                                 "Add an ended job for each result.h5 to the data folder (--data), which no daemon may "
+                                 "be using, and print its name")
+                  ->fallthrough()) {
+  import_->add_option("FILE", files_, "A result.h5, or a folder of `cellcrush run` or `cellcrush fetch`")->required();
+  import_->add_flag("--link", link_, "Refer to the files in place instead of copying them; they must stay there");
+}
 
-bool StoreCommands::given() const { return backup_->parsed() || verify_->parsed() || restore_->parsed(); }
+bool StoreCommands::given() const {
+  return backup_->parsed() || verify_->parsed() || restore_->parsed() || import_->parsed();
+}
 
 int StoreCommands::run(const std::filesystem::path& data_folder) const {
   if (data_folder.empty() && !verify_->parsed()) {
@@ -49,6 +60,7 @@ int StoreCommands::run(const std::filesystem::path& data_folder) const {
   }
   try {
     if (verify_->parsed()) return verify();
+    if (import_->parsed()) return import(data_folder);
     return backup_->parsed() ? backup(data_folder) : restore(data_folder);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cellcrushd: %s\n", error.what());
@@ -85,6 +97,13 @@ int StoreCommands::restore(const std::filesystem::path& data_folder) const {
   store::restore_backup(folder_, data_folder);
   std::printf("%s contains the backup of %s: %s\n", data_folder.c_str(), found.created.c_str(),
               counts_of(found).c_str());
+  return 0;
+}
+
+int StoreCommands::import(const std::filesystem::path& data_folder) const {
+  const auto jobs = store::import_results(data_folder, files_, link_ ? store::Import::link : store::Import::copy);
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    std::printf("%s  %s\n", store::name_of(jobs[i]).c_str(), files_[i].c_str());
   return 0;
 }
 

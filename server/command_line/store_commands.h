@@ -2,11 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <vector>
 
 namespace cellcrush {
 
-/// cellcrushd backup | verify | restore: operations on a data folder that do not start the service. Outlives the
-/// parsing of `app`.
+/// cellcrushd backup | verify | restore | import: operations on a data folder that do not start the service. Outlives
+/// the parsing of `app`.
 class StoreCommands {
  public:
   explicit StoreCommands(CLI::App& app);
@@ -24,11 +25,15 @@ class StoreCommands {
   [[nodiscard]] int backup(const std::filesystem::path& data_folder) const;
   [[nodiscard]] int verify() const;
   [[nodiscard]] int restore(const std::filesystem::path& data_folder) const;
+  [[nodiscard]] int import(const std::filesystem::path& data_folder) const;
 
   CLI::App* backup_;
   CLI::App* verify_;
   CLI::App* restore_;
+  CLI::App* import_;
   std::filesystem::path folder_;
+  std::vector<std::filesystem::path> files_;
+  bool link_ = false;
 };
 
 }  // namespace cellcrush

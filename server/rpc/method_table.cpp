@@ -25,41 +25,73 @@ InvalidField parse_error(std::string_view path) {
 
 namespace grpc_hooks = grpc::experimental;
 
-class ParseErrorInterceptor final : public grpc_hooks::Interceptor {
+// Lives as long as its call over gRPC.
+class CallInterceptor final : public grpc_hooks::Interceptor {
  public:
-  explicit ParseErrorInterceptor(const char* path) : path_(path) {}
+  CallInterceptor(OpenCalls& open, const grpc_hooks::ServerRpcInfo& info) : open_(open), path_(info.method()) {
+    using Type = grpc_hooks::ServerRpcInfo::Type;
+    // A stream of requests has no single message to check.
+    checks_request_ = info.type() == Type::UNARY || info.type() == Type::SERVER_STREAMING;
+    open_.add();
+  }
+  ~CallInterceptor() override { open_.remove(); }
+  CallInterceptor(const CallInterceptor&) = delete;
+  CallInterceptor& operator=(const CallInterceptor&) = delete;
 
   void Intercept(grpc_hooks::InterceptorBatchMethods* methods) override {
-    using Point = grpc_hooks::InterceptionHookPoints;
-    if (methods->QueryInterceptionHookPoint(Point::POST_RECV_MESSAGE))
-      has_message_ = methods->GetRecvMessage() != nullptr;
-    if (!has_message_ && methods->QueryInterceptionHookPoint(Point::PRE_SEND_STATUS)) {
-      const auto code = methods->GetSendStatus().error_code();
-      if (code == grpc::StatusCode::INTERNAL || code == grpc::StatusCode::UNIMPLEMENTED)
-        methods->ModifySendStatus(status_of(parse_error(path_)));
-    }
+    if (checks_request_) check_request(*methods);
     methods->Proceed();
   }
 
  private:
+  void check_request(grpc_hooks::InterceptorBatchMethods& methods) {
+    using Point = grpc_hooks::InterceptionHookPoints;
+    if (methods.QueryInterceptionHookPoint(Point::POST_RECV_MESSAGE))
+      has_message_ = methods.GetRecvMessage() != nullptr;
+    if (has_message_ || !methods.QueryInterceptionHookPoint(Point::PRE_SEND_STATUS)) return;
+    const auto code = methods.GetSendStatus().error_code();
+    if (code == grpc::StatusCode::INTERNAL || code == grpc::StatusCode::UNIMPLEMENTED)
+      methods.ModifySendStatus(status_of(parse_error(path_)));
+  }
+
+  OpenCalls& open_;
   const char* path_;
+  bool checks_request_ = false;
   bool has_message_ = true;
 };
 
-class ParseErrorInterceptors final : public grpc_hooks::ServerInterceptorFactoryInterface {
+class CallInterceptors final : public grpc_hooks::ServerInterceptorFactoryInterface {
  public:
-  // gRPC owns the returned object. A stream of requests has no single message to check.
+  explicit CallInterceptors(OpenCalls& open) : open_(open) {}
+
+  // gRPC owns the returned object.
   grpc_hooks::Interceptor* CreateServerInterceptor(grpc_hooks::ServerRpcInfo* info) override {
-    using Type = grpc_hooks::ServerRpcInfo::Type;
-    const bool has_one_request = info->type() == Type::UNARY || info->type() == Type::SERVER_STREAMING;
-    return has_one_request ? new ParseErrorInterceptor(info->method()) : nullptr;
+    return new CallInterceptor(open_, *info);
   }
+
+ private:
+  OpenCalls& open_;
 };
 
 }  // namespace
 
-std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_parse_error_interceptors() {
-  return std::make_unique<ParseErrorInterceptors>();
+void OpenCalls::add() {
+  const MutexLock lock(mutex_);
+  ++count_;
+}
+
+void OpenCalls::remove() {
+  const MutexLock lock(mutex_);
+  if (--count_ == 0) none_.notify_all();
+}
+
+void OpenCalls::wait_until_none(std::chrono::milliseconds longest) {
+  MutexLock lock(mutex_);
+  none_.wait_for(lock, longest, [this]() CELLCRUSH_REQUIRES(mutex_) { return count_ == 0; });
+}
+
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_interceptors(OpenCalls& open) {
+  return std::make_unique<CallInterceptors>(open);
 }
 
 void MethodTable::UnaryCall::ask(Deliver deliver) {

@@ -6,6 +6,8 @@
 #include <grpcpp/impl/codegen/service_type.h>
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,6 +17,7 @@
 #include <utility>
 
 #include "access/gate.h"
+#include "mutex.h"
 #include "rpc/call_pool.h"
 #include "rpc/source_stream.h"
 #include "rpc/stream_reactor.h"
@@ -174,9 +177,23 @@ class MethodTable {
   std::map<std::string, Method, std::less<>> methods_;
 };
 
-/// Ends a unary or server-streaming call over gRPC whose request cannot be parsed with InvalidField, naming the method
-/// and the message type, as MethodTable does elsewhere. gRPC itself would end it with INTERNAL or UNIMPLEMENTED and no
-/// message.
-std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_parse_error_interceptors();
+/// Counts the calls over gRPC that are not answered yet. Thread-safe.
+class OpenCalls {
+ public:
+  void add();
+  void remove();
+  /// Returns once there is none, or after this time.
+  void wait_until_none(std::chrono::milliseconds longest);
+
+ private:
+  Mutex mutex_;
+  std::condition_variable_any none_;
+  int count_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+};
+
+/// Counts every call over gRPC in `open`, which outlives the server. Ends a unary or server-streaming one whose request
+/// cannot be parsed with InvalidField, naming the method and the message type, as MethodTable does elsewhere. gRPC
+/// itself would end it with INTERNAL or UNIMPLEMENTED and no message.
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_interceptors(OpenCalls& open);
 
 }  // namespace cellcrush::rpc

@@ -65,6 +65,14 @@ std::pair<Hdf5Handle, Hdf5Handle> select_rows(hid_t dataset, hsize_t first, hsiz
   return {std::move(in_file), dataspace(count, count)};
 }
 
+// An attribute with one value.
+Hdf5Handle open_scalar(hid_t object, const char* name, const std::string& what) {
+  Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
+  const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose, what);
+  if (H5Sget_simple_extent_npoints(space.id()) == 1) return attribute;
+  throw ServiceError(ServiceError::Kind::data_loss, what + " failed: it is not a single value.");
+}
+
 }  // namespace
 
 Hdf5Handle::Hdf5Handle(hid_t id, CloseFunction close_function, const std::string& what)
@@ -108,16 +116,21 @@ void write_attribute(hid_t object, const char* name, std::int64_t value) {
 
 std::string read_text_attribute(hid_t object, const char* name) {
   const std::string what = std::string("Reading the attribute ") + name;
-  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
   // HDF5 writes one pointer per text of the attribute.
-  const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose, what);
-  if (H5Sget_simple_extent_npoints(space.id()) != 1)
-    throw ServiceError(ServiceError::Kind::data_loss, what + " failed: it is not a single string.");
+  const Hdf5Handle attribute = open_scalar(object, name, what);
   const Hdf5Handle type = text_type();
   char* text = nullptr;
   check_hdf5(H5Aread(attribute.id(), type.id(), static_cast<void*>(&text)), what);
   std::string out = text == nullptr ? "" : text;
   H5free_memory(text);
+  return out;
+}
+
+double read_number_attribute(hid_t object, const char* name) {
+  const std::string what = std::string("Reading the attribute ") + name;
+  const Hdf5Handle attribute = open_scalar(object, name, what);
+  double out = 0.0;
+  check_hdf5(H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &out), what);
   return out;
 }
 

@@ -41,6 +41,7 @@ void write_attribute(hid_t object, const char* name, double value);
 void write_attribute(hid_t object, const char* name, std::int64_t value);
 
 std::string read_text_attribute(hid_t object, const char* name);
+double read_number_attribute(hid_t object, const char* name);
 
 /// A dataset that grows along its first dimension; chunked, shuffled, deflated. Missing groups of its path are made.
 /// `row_shape`: extents of the other dimensions; `chunk`: extents of a chunk in all dimensions.

@@ -26,6 +26,11 @@ void add_state(Database& database, std::int64_t number, const v1::Job& job, std:
   update.bind(1, number).bind(2, job.state()).bind_blob(3, bytes).bind(4, sequence).run();
 }
 
+void insert_mesh(Database& database, std::int64_t job, const v1::Mesh& mesh) {
+  Statement insert(database, "INSERT OR REPLACE INTO meshes (job, mesh) VALUES (?1, ?2)");
+  insert.bind(1, job).bind_blob(2, mesh.SerializeAsString()).run();
+}
+
 bool has_job(Database& database, std::int64_t job) {
   return Statement(database, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
 }

@@ -16,6 +16,9 @@ std::string job_bytes(v1::Job job);
 /// ServiceError.
 void add_state(Database& database, std::int64_t number, const v1::Job& job, std::int64_t sequence);
 
+/// Stores the mesh of a job, or another one. REQUIRES: a transaction is open. Throws ServiceError.
+void insert_mesh(Database& database, std::int64_t job, const v1::Mesh& mesh);
+
 /// Whether the job exists. Throws ServiceError.
 bool has_job(Database& database, std::int64_t job);
 

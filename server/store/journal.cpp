@@ -138,10 +138,7 @@ void Journal::note_samples(std::int64_t job, std::int64_t count, std::chrono::mi
 }
 
 void Journal::set_mesh(std::int64_t job, const v1::Mesh& mesh) {
-  writes_.run([&] {
-    Statement insert(database_, "INSERT OR REPLACE INTO meshes (job, mesh) VALUES (?1, ?2)");
-    insert.bind(1, job).bind_blob(2, mesh.SerializeAsString()).run();
-  });
+  writes_.run([&] { insert_mesh(database_, job, mesh); });
 }
 
 void Journal::commit_gathered_when_due() {

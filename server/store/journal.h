@@ -60,6 +60,13 @@ struct SweepJob {
   std::int64_t element_steps = 0;  ///< elements times steps of the run
 };
 
+/// What the journal stores of a result that another daemon made.
+struct ImportedResult {
+  v1::Job job;  ///< ended, with its case
+  v1::Mesh mesh;
+  std::int64_t samples = 0;
+};
+
 /// Writes the journal (journal_format.md) of a data folder. Thread-safe. Failures throw ServiceError; a failed write
 /// changes nothing.
 class Journal {
@@ -88,6 +95,11 @@ class Journal {
   /// hash returns the earlier job; with another hash it throws already_exists. An empty request_id means none.
   Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
                      std::int64_t element_steps = 0, const Admit& admit = {});
+
+  /// Creates an ended job of each result, or none, and returns their numbers. Calls `put` for each, with its index,
+  /// before it is durable; an exception propagates, and nothing is created.
+  std::vector<std::int64_t> import_results(const std::vector<ImportedResult>& results,
+                                           const std::function<void(std::size_t result, std::int64_t job)>& put);
 
   struct CreatedSweep {
     std::int64_t sweep = 0;

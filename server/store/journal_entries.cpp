@@ -53,6 +53,40 @@ Journal::Created Journal::create_job(v1::Job job, const std::string& request_id,
   return created;
 }
 
+// The events are those of a job that ran: its samples follow the state RUNNING.
+std::vector<std::int64_t> Journal::import_results(
+    const std::vector<ImportedResult>& results, const std::function<void(std::size_t result, std::int64_t job)>& put) {
+  std::vector<std::int64_t> created;
+  writes_.run([&] {
+    created.clear();
+    for (const auto& result : results) {
+      const std::int64_t job = JobInserter(database_).insert(result.job, {});
+      put(created.size(), job);
+      created.push_back(job);
+      Statement update(database_, "UPDATE jobs SET samples = ?2, ended_at = ?3 WHERE number = ?1");
+      update.bind(1, job).bind(2, result.samples).bind(3, clock_.seconds()).run();
+      v1::Job state = result.job;
+      state.clear_summary();
+      state.clear_end_time();
+      state.clear_cause();
+      state.clear_cause_message();
+      state.clear_remedy();
+      std::int64_t sequence = 2;
+      state.set_state(v1::Job::RUNNING);
+      add_state(database_, job, state, sequence);
+      sequence += result.samples;
+      if (result.job.state() == v1::Job::CANCELLED) {
+        state.set_state(v1::Job::CANCELLING);
+        add_state(database_, job, state, ++sequence);
+      }
+      add_state(database_, job, result.job, ++sequence);
+      insert_mesh(database_, job, result.mesh);
+    }
+  });
+  for (const std::int64_t job : created) on_durable_(job);
+  return created;
+}
+
 void Journal::delete_job(std::int64_t job) {
   writes_.run([&] {
     const auto state = find_state(database_, job);

@@ -42,8 +42,9 @@ bool has_known_filters(hid_t properties) {
   return count >= 0 && count <= 2;
 }
 
-// Chunks lie in this file; virtual datasets and external storage lie in others.
+// Chunks and the contiguous data of a mesh lie in this file; virtual datasets and external storage lie in others.
 bool has_known_storage(hid_t properties, int rank, double item_bytes) {
+  if (H5Pget_layout(properties) == H5D_CONTIGUOUS) return H5Pget_external_count(properties) == 0;
   std::vector<hsize_t> chunk(static_cast<std::size_t>(rank));
   return H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_external_count(properties) == 0 &&
          has_known_filters(properties) && H5Pget_chunk(properties, rank, chunk.data()) == rank &&

@@ -17,7 +17,8 @@ ServiceError damaged_result(const std::string& what);
 /// read:
 ///   - it lies in this file: neither a link on its path nor its storage leads to another one;
 ///   - its numbers are of `type`, which is one of HDF5's own, in `rank` dimensions, at least 1;
-///   - its chunks are small, and there are no more numbers than what is stored can have been deflated from.
+///   - it is contiguous, or its chunks are small, and there are no more numbers than what is stored can have been
+///     deflated from.
 /// So a damaged file costs no more than its size, and a hostile one opens no other. Throws ServiceError: data_loss for
 /// what is otherwise, internal when HDF5 fails.
 Hdf5Handle open_result_dataset(hid_t file, const std::string& path, hid_t type, int rank);

@@ -3,9 +3,12 @@
 #include <google/protobuf/util/json_util.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "cellcrush/v1/case.pb.h"
+#include "store/result_job.h"
 #include "store/result_layout.h"
 
 namespace cellcrush::store {
@@ -19,6 +22,15 @@ void read_row(const Hdf5Handle& dataset, hsize_t row, google::protobuf::Repeated
   if (row >= shape[0] || count > std::numeric_limits<int>::max()) throw damaged_result("the frame is missing");
   out.Resize(static_cast<int>(count), 0.0F);
   if (count > 0) read_rows(dataset.id(), H5T_NATIVE_FLOAT, row, 1, out.mutable_data());
+}
+
+template <typename Number>
+void read_all(const Hdf5Handle& dataset, hid_t type, google::protobuf::RepeatedField<Number>& out) {
+  const auto shape = shape_of(dataset.id());
+  const hsize_t count = std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+  if (count > std::numeric_limits<int>::max()) throw damaged_result("its mesh is too large");
+  out.Resize(static_cast<int>(count), Number{});
+  if (count > 0) read_rows(dataset.id(), type, 0, shape[0], out.mutable_data());
 }
 
 }  // namespace
@@ -37,6 +49,30 @@ std::vector<double> ResultReader::column(const std::string& path, hid_t type, hs
 }
 
 bool ResultReader::has(const std::string& path) const { return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0; }
+
+v1::Job ResultReader::job() const { return read_job_of_result(file_.id()); }
+
+v1::Mesh ResultReader::mesh() const {
+  v1::Mesh out;
+  read_all(open_result_dataset(file_.id(), "mesh/beam_nodes", H5T_STD_I32LE, 2), H5T_NATIVE_INT32,
+           *out.mutable_element_nodes());
+  read_all(open_result_dataset(file_.id(), "mesh/thickness_mm", H5T_IEEE_F32LE, 1), H5T_NATIVE_FLOAT,
+           *out.mutable_thickness_mm());
+  read_all(open_result_dataset(file_.id(), "mesh/position_mm", H5T_IEEE_F32LE, 2), H5T_NATIVE_FLOAT,
+           *out.mutable_position_mm());
+  out.set_particle_count(out.position_mm_size() / 2);
+  const auto is_particle = [&out](int node) { return node >= 0 && node < out.particle_count(); };
+  if (out.element_nodes_size() != 2 * out.thickness_mm_size() || !std::ranges::all_of(out.element_nodes(), is_particle))
+    throw damaged_result("its mesh contradicts itself");
+  const Hdf5Handle group(H5Gopen2(file_.id(), "mesh", H5P_DEFAULT), H5Gclose, "Opening the group mesh");
+  const auto number = [&group](const char* name) { return read_number_attribute(group.id(), name); };
+  out.set_length_mm(number("length_mm"));
+  out.set_width_mm(number("width_mm"));
+  out.set_impact_plate_mm(number("impact_plate_mm"));
+  out.set_support_plate_mm(number("support_plate_mm"));
+  out.set_along_y(number("along_y") != 0.0);
+  return out;
+}
 
 std::string ResultReader::text_attribute(const char* name) const { return read_text_attribute(file_.id(), name); }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "store/hdf5.h"
 #include "store/result_seal.h"
@@ -23,6 +24,9 @@ class ResultReader {
   /// The file as check_seal found it.
   [[nodiscard]] const std::optional<FileIdentity>& file() const { return identity_; }
 
+  /// The ended job (result_job.h).
+  [[nodiscard]] v1::Job job() const;
+  [[nodiscard]] v1::Mesh mesh() const;
   /// An attribute of the file.
   [[nodiscard]] std::string text_attribute(const char* name) const;
   /// Samples from number `first` on, counted from 0, `count` of them if there are so many; without their warnings.

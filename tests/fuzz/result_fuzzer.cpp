@@ -263,6 +263,10 @@ void read_all(const std::filesystem::path& path, std::uint8_t choice) {
   const store::ResultReader result(path);
   read_frame(result, choice);
   try_to([&] { static_cast<void>(result.text_attribute("case")); });
+  try_to([&] { static_cast<void>(result.job()); });
+  try_to([&] {
+    for (const float value : result.mesh().position_mm()) expect_own(static_cast<double>(value));
+  });
   try_to([&] {
     for (const auto& sample : result.history()) {
       for (const auto& column : store::history_columns()) expect_own(column.get(sample));

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <csignal>
 #include <sstream>
 #include <string>
@@ -27,6 +28,17 @@ class DaemonTest : public ::testing::Test {
 
   TemporaryFolder folder_;
 };
+
+// gRPC itself would wait for two seconds: a client without a call does not read that its connection is to close.
+TEST_F(DaemonTest, EndsAtOnceWithAnIdleClient) {
+  DaemonProcess daemon({"--data", data(), "--listen", socket()});
+  Client client(daemon.wait_for_addresses(1).at(0));
+  EXPECT_TRUE(client.watch(client.create(small_case())).status.ok());
+  daemon.send_signal(SIGTERM);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(daemon.wait(), 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(1500));
+}
 
 TEST_F(DaemonTest, ServesASocketAndAPortAtOnceAndEndsInOrder) {
   DaemonProcess daemon({"--data", data(), "--listen", socket(), "--listen", "127.0.0.1:0"});
