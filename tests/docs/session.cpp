@@ -208,17 +208,22 @@ std::string missing_line(const std::vector<std::string>& shown, const std::strin
   for (const std::string& line : lines_of(output)) {
     if (const std::string text = masked(line); !text.empty()) lines.push_back(text);
   }
-  auto next = lines.begin();
-  bool gap = false;
-  for (const std::string& line : shown) {
-    if (line == "...") {
-      gap = true;
-      continue;
-    }
-    const auto found = gap ? std::find(next, lines.end(), masked(line)) : next;
-    if (found == lines.end() || *found != masked(line)) return line;
-    next = found + 1;
-    gap = false;
+  auto from = lines.begin();
+  for (auto line = shown.begin(); line != shown.end();) {
+    const bool gap = *line == "...";
+    if (gap) ++line;
+    // The lines up to the next gap stand together.
+    const auto end = std::find(line, shown.end(), "...");
+    auto farthest = line;
+    do {
+      const auto [stop, after] = std::mismatch(line, end, from, lines.end(), [](const auto& page_line, const auto& text) {
+        return masked(page_line) == text;
+      });
+      farthest = std::max(farthest, stop);
+      from = stop == end ? after : from + (from != lines.end() ? 1 : 0);
+    } while (gap && farthest != end && from != lines.end());
+    if (farthest != end) return *farthest;
+    line = end;
   }
   return "";
 }
@@ -282,9 +287,12 @@ void expect_shown(const std::string& path, Reader reader, const std::map<std::st
   const std::vector<StepOutcome> outcomes = run_session(steps, home, home / ".local/bin", kSessionLimit, reader);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (outcomes[i].exit_code == StepOutcome::kPackagesAreMissing) GTEST_SKIP() << "Not here: " << steps[i].command;
-    const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command;
-    EXPECT_EQ(outcomes[i].exit_code, 0) << place << "\n" << outcomes[i].output;
-    EXPECT_EQ(missing_line(steps[i].shown, outcomes[i].output), "") << place << "\n" << outcomes[i].output;
+    constexpr std::size_t kMostOutput = 4000;
+    const std::string& output = outcomes[i].output;
+    const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command + "\n" +
+                              output.substr(output.size() - std::min(output.size(), kMostOutput));
+    EXPECT_EQ(outcomes[i].exit_code, 0) << place;
+    EXPECT_EQ(missing_line(steps[i].shown, output), "") << place;
   }
   ASSERT_EQ(outcomes.size(), steps.size())
       << path << ":" << steps[std::min(outcomes.size(), steps.size() - 1)].line << ": the session ended here";
