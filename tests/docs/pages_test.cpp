@@ -74,7 +74,7 @@ bool is_used(const Page& page, const Code& saved) {
 // Blocks of code that nobody runs.
 Findings idle_blocks(const Page& page) {
   static const std::set<std::string> kNoCode = {"", "text"};
-  static const std::set<std::string> kTyped = {"console", "sh", "run"};
+  static const std::set<std::string> kTyped = {"console", "sh", "run", "python"};
   Findings findings;
   for (const Code& block : page.blocks) {
     if (!block.excuse.empty() || kNoCode.contains(block.language)) continue;
@@ -101,7 +101,8 @@ TEST(Pages, WithABlockThatDoesNotRunAreFound) {
   const Page page = parse_page("page.md",
                                "Save this as `a.py`:\n\n```python\n```\n\n```cpp\n```\n<!-- not run: reason -->\n"
                                "```go\n```\n\n```text\n```\nSave it\nas `b.py`:\n```python\n```\n```sh\npython3 b.py\n"
-                               "# remark\necho 1 \\\n  2\n```\n<!-- run: a -->\n```console\n$ b\nB\n```\n");
+                               "# remark\necho 1 \\\n  2\n```\n<!-- run: a -->\n```console\n$ b\nB\n```\n"
+                               "```python\nf()\n```\n");
   EXPECT_THAT(idle_blocks(page),
               ElementsAre("page.md:4: no command uses a.py",
                           "page.md:7: cpp that does not run: \"save this as `FILE`\" and use it, or <!-- not run: "
@@ -110,7 +111,10 @@ TEST(Pages, WithABlockThatDoesNotRunAreFound) {
   for (const Step& step : steps_of(page)) commands.push_back(step.command);
   EXPECT_THAT(commands, ElementsAre("mkdir -p $(dirname a.py) && cat > a.py <<'@@ file'\n@@ file",
                                     "mkdir -p $(dirname b.py) && cat > b.py <<'@@ file'\n@@ file", "python3 b.py",
-                                    "echo 1 \\\n  2", "a", "b"));
+                                    "echo 1 \\\n  2", "a", "b",
+                                    "mkdir -p $(dirname ~/.session/page.py) && cat >> ~/.session/page.py <<'@@ file'\n"
+                                    "f()\n@@ file",
+                                    "python3 ~/.session/page.py"));
 }
 
 class PageTest : public ::testing::TestWithParam<std::string> {};

@@ -94,8 +94,9 @@ std::string typed(const std::string& command) {
   static const std::regex kDaemon(R"(cellcrushd( +-[^|;&]*)?( [12]?> ?[^ ]+)*)");
   static const std::regex kInstall(R"(apt-get install ((.|\n)*))");
   constexpr const char* kAnswers =
-      "answers=1; for i in {1..60}; do sleep 0.1; kill -0 $daemon || break; { cellcrush presets --server "
-      "unix:$HOME/.session/daemon.sock || cellcrush presets; } >$HOME/.session/answer 2>&1 && answers=0 && break; done\n";
+      "answers=1; own=unix:$HOME/.session/daemon.sock; for i in {1..60}; do sleep 0.1; kill -0 $daemon || break\n"
+      "{ cellcrush presets --server $own || cellcrush presets; } >$HOME/.session/answer 2>&1 && answers=0 && break\n"
+      "done\n";
   if (std::smatch match; std::regex_match(command, match, kInstall)) {
     return "dpkg-query --show " + match[1].str() + " >/dev/null || (exit " +
            std::to_string(StepOutcome::kPackagesAreMissing) + ")\n";
@@ -112,7 +113,8 @@ std::string script_of(const std::vector<Step>& steps, const fs::path& folder, co
   std::ostringstream script;
   script << "trap 'kill $(jobs -p) 2>/dev/null; wait' EXIT\nunset ${!CELLCRUSH_@} XDG_DATA_HOME\nexport HOME='"
          << folder.string() << "' COLUMNS=100\n"
-         << "PATH='" << (folder / ".session").string() << "':'" << programs.string() << "':$PATH\ncd \"$HOME\"\n";
+         << "PATH='" << (folder / ".session").string() << "':'" << programs.string() << "':$PATH\n"
+         << "export PYTHONPATH=$(echo ~/.local/lib/python3*/dist-packages)\ncd \"$HOME\"\n";
   for (const Step& step : steps) {
     script << "echo '" << kBegin << step.line << "'\n" << typed(ports.moved(step.command));
     // A file's last line may lack its line feed.
@@ -173,18 +175,27 @@ void add_lines(const Code& block, std::vector<Step>& steps) {
 }  // namespace
 
 std::vector<Step> steps_of(const Page& page) {
+  const std::string python = "~/.session/page.py";
   std::vector<Step> steps;
+  const auto save = [&](const Code& block, const std::string& how, const std::string& file) {
+    steps.push_back({block.line,
+                     "mkdir -p $(dirname " + file + ") && cat " + how + " " + file + " <<'@@ file'\n" + block.text +
+                         "@@ file",
+                     {}});
+  };
+  int python_line = 0;
   for (const Code& block : page.blocks) {
     if (!block.excuse.empty()) continue;
     if (!block.file.empty()) {
-      steps.push_back({block.line,
-                       "mkdir -p $(dirname " + block.file + ") && cat > " + block.file + " <<'@@ file'\n" +
-                           block.text + "@@ file",
-                       {}});
+      save(block, ">", block.file);
+    } else if (block.language == "python") {
+      save(block, ">>", python);
+      python_line = block.line;
     } else if (block.language == "console" || block.language == "sh" || block.language == "run") {
       add_lines(block, steps);
     }
   }
+  if (python_line > 0) steps.push_back({python_line, "python3 " + python, {}});
   return steps;
 }
 
@@ -216,9 +227,8 @@ std::string missing_line(const std::vector<std::string>& shown, const std::strin
     const auto end = std::find(line, shown.end(), "...");
     auto farthest = line;
     do {
-      const auto [stop, after] = std::mismatch(line, end, from, lines.end(), [](const auto& page_line, const auto& text) {
-        return masked(page_line) == text;
-      });
+      const auto same = [](const auto& on_page, const auto& text) { return masked(on_page) == text; };
+      const auto [stop, after] = std::mismatch(line, end, from, lines.end(), same);
       farthest = std::max(farthest, stop);
       from = stop == end ? after : from + (from != lines.end() ? 1 : 0);
     } while (gap && farthest != end && from != lines.end());

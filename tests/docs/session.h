@@ -18,8 +18,8 @@ struct Step {
 };
 
 /// What the blocks of a page ask its reader to do, in their order: the commands behind the dollars of `console`, the
-/// lines of `sh`, both continued with a backslash, the commands of "run", and the files that the page has saved.
-/// Blocks with an excuse ask nothing.
+/// lines of `sh`, both continued with a backslash, the commands of "run", and the files that the page has saved. The
+/// other blocks of Python are one program, which runs at the end. Blocks with an excuse ask nothing.
 std::vector<Step> steps_of(const Page& page);
 
 /// A line with every number as `#`, every bar of a progress as `=`, and blanks as one: what stays the same between two
