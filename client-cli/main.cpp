@@ -13,7 +13,11 @@
 #include "usage/help_formatter.h"
 #include "usage/suggestion.h"
 
-namespace cellcrush::client {
+namespace cellcrush {
+
+extern const char* const kSolverRevision;  // written at every build, by server/stamp_revision.cmake
+
+namespace client {
 
 namespace {
 
@@ -46,7 +50,7 @@ ExitCode run_command_line(int argc, char** argv) {
       "Simulates the in-plane crushing of honeycombs: submits cases to cellcrushd, follows the jobs and plots the "
       "results.",
       "cellcrush");
-  app.set_version_flag("--version", std::string("cellcrush " CELLCRUSH_VERSION));
+  app.set_version_flag("--version", std::string("cellcrush ") + kSolverRevision);
   app.require_subcommand(1);
   app.footer(kFooter);
   app.formatter(std::make_shared<HelpFormatter>(std::min(terminal_width(), kMostHelpColumns)));
@@ -84,6 +88,8 @@ ExitCode run_command_line(int argc, char** argv) {
 
 }  // namespace
 
-}  // namespace cellcrush::client
+}  // namespace client
+
+}  // namespace cellcrush
 
 int main(int argc, char** argv) { return static_cast<int>(cellcrush::client::run_command_line(argc, argv)); }

@@ -110,7 +110,7 @@ void add_converge_command(CLI::App& app, Session& session) {
   add_executor_option(*converge, options->executor);
   add_option(*converge, kOutputOptions, "--cost", options->only_cost, "Print the predicted cost and queue nothing");
   add_examples(*converge, {"cellcrush converge preset:hexagon-small --set lattice.imperfection.amplitude_mm=0.01",
-                           "cellcrush converge my.txtpb --meshes 4,8,16 --seeds 8 --cost",
+                           "cellcrush converge my.txtpb --meshes 4,8,16 --seeds 1 --cost",
                            "cellcrush converge sweeps/3 --error 0.02"});
 }
 

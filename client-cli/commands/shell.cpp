@@ -4,6 +4,7 @@
 
 #include "commands/commands.h"
 #include "help/shell_files.h"
+#include "terminal/terminal.h"
 #include "usage/man_page.h"
 
 namespace cellcrush::client {
@@ -22,18 +23,30 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
   return shell == "zsh" ? zsh_completion(app) : fish_completion(app);
 }
 
+// What the scripts offer of a server: its newest jobs and sweeps, a line each, what describes one behind a tab.
+void print_names(Connection& connection) {
+  constexpr std::chrono::seconds kTyping{2};
+  const auto jobs = connection.call(connection.jobs(), &v1::Jobs::Stub::ListJobs, v1::ListJobsRequest(), kTyping);
+  for (const v1::Job& job : jobs.jobs())
+    fmt::print("{}\t{} {}\n", job.name(), v1::Job::State_Name(job.state()), printable(job.case_().title()));
+  const auto sweeps =
+      connection.call(connection.sweeps(), &v1::Sweeps::Stub::ListSweeps, v1::ListSweepsRequest(), kTyping);
+  for (const v1::Sweep& sweep : sweeps.sweeps())
+    fmt::print("{}\t{} jobs {}\n", sweep.name(), sweep.jobs_size(), printable(sweep.case_().title()));
+}
+
 }  // namespace
 
 void add_shell_commands(CLI::App& app, Session& session) {
   const auto shell = std::make_shared<std::string>();
   CLI::App* completion =
-      add_command(app, session, "", "completion", "Print the completion script of a shell", [&app, shell] {
-        fmt::print("{}", completion_script(app, *shell));
+      add_command(app, session, "", "completion", "Print the completion script of a shell", [&app, &session, shell] {
+        *shell == "names" ? print_names(session.connection()) : fmt::print("{}", completion_script(app, *shell));
         return ExitCode::done;
       });
-  completion->add_option("SHELL", *shell, "bash, zsh or fish")
+  completion->add_option("SHELL", *shell, "bash, zsh or fish; names: the jobs and sweeps that those scripts offer")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+      ->check(CLI::IsMember({"bash", "zsh", "fish", "names"}));
   const auto markdown = std::make_shared<bool>(false);
   CLI::App* man = add_command(app, session, "", "man", "Print the man page", [&app, markdown] {
     fmt::print("{}", *markdown ? command_page(app) : man_page(app, kManPage));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command_error.h"
+#include "help/case_manual.h"
 
 namespace cellcrush::client {
 namespace {
@@ -32,10 +33,19 @@ class AxisText {
     } else {
       for (const auto value : split(values, ',')) axis.mutable_list()->add_values(number<double>(value));
     }
+    check_field(axis.field());
     return axis;
   }
 
  private:
+  static void check_field(const std::string& path) {
+    try {
+      (void)find_field_manual(path);
+    } catch (const CommandError& error) {
+      client::refuse(fmt::format("--over {}", error.what()));
+    }
+  }
+
   [[noreturn]] void refuse(std::string_view message) const {
     client::refuse(fmt::format("--over {}: {}", text_, message));
   }

@@ -154,7 +154,7 @@ std::string bash_completion(const CLI::App& app) {
   return fmt::format(R"(# bash completion for cellcrush
 _cellcrush() {{
   COMPREPLY=()
-  local words= files= command= i word=${{COMP_WORDS[COMP_CWORD]}}
+  local words= files= names= command= i word=${{COMP_WORDS[COMP_CWORD]}}
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case ${{COMP_WORDS[i]}} in
       {0}) command=${{COMP_WORDS[i]}}; break ;;
@@ -181,6 +181,13 @@ _cellcrush() {{
       fi
       ;;
   esac
+  # The names of jobs and sweeps are the server's, if it answers.
+  if [[ $words == *s/ ]]; then
+    while IFS=$'\t' read -r i _; do
+      [[ " $words" != *" ${{i%/*}}/"* ]] || names+=" $i"
+    done < <("${{COMP_WORDS[0]}}" completion names 2> /dev/null)
+    if [[ -n $names ]]; then words=${{words/jobs\//}} words=${{words/sweeps\//}}$names; fi
+  fi
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
   [[ ${{#COMPREPLY[@]}} -gt 0 ]] || return
   [[ -z $files ]] || mapfile -t -O ${{#COMPREPLY[@]}} COMPREPLY < <(compgen -f -- "$word")
@@ -206,14 +213,18 @@ std::string zsh_completion(const CLI::App& app) {
         zsh_options(*command, "            "));
   }
   const std::vector<std::string> fields = case_paths();
-  return fmt::format(R"(#compdef cellcrush
+  return fmt::format(R"zsh(#compdef cellcrush
 _cellcrush_fields() {{
   compadd -S '=' -- {0}
 }}
 _cellcrush_argument() {{
   local word
+  local -a names=(${{(f)"$(cellcrush completion names 2> /dev/null)"}}) found
   for word in $words_of_argument; do
-    if [[ $word == */ ]]; then compadd -S '' -- $word; else compadd -- $word; fi
+    found=(${{(M)names:#$word*}})
+    if [[ $word != */ ]]; then compadd -- $word
+    elif (( $#found )); then compadd -l -V $word -d found -- ${{found%%$'\t'*}}
+    else compadd -S '' -- $word; fi
   done
   (( files )) && _files
 }}
@@ -235,17 +246,27 @@ _cellcrush() {{
   esac
 }}
 _cellcrush "$@"
-)",
+)zsh",
                      fmt::join(fields, " "), commands, zsh_options(app, "    "), cases);
 }
 
 std::string fish_completion(const CLI::App& app) {
-  std::string text = "# fish completion for cellcrush\n" + fish_options(app, "");
+  std::string text = R"(# fish completion for cellcrush
+function __cellcrush_names
+  set -l names (cellcrush completion names 2> /dev/null)
+  for kind in $argv
+    printf '%s\n' $names | string match "$kind*"; or echo $kind
+  end
+end
+)" + fish_options(app, "");
   for (const CLI::App* command : visible_commands(app)) {
     const std::string condition = fmt::format(" -n '__fish_seen_subcommand_from {}'", command->get_name());
     text += fmt::format("complete -c cellcrush -n __fish_use_subcommand -f -a {} -d '{}'\n", command->get_name(),
                         with_backslashes(command->get_description(), "\\'"));
-    const ArgumentWords known = argument_words(*command);
+    ArgumentWords known = argument_words(*command);
+    for (std::string& word : known.words) {
+      if (word.ends_with('/')) word = "(__cellcrush_names " + word + ")";
+    }
     if (!known.words.empty())
       text +=
           fmt::format("complete -c cellcrush{}{} -a '{}'\n", condition, known.files ? "" : " -f", joined(known.words));

@@ -1,6 +1,7 @@
 // Completion scripts, which are made from the definition that the program parses with.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -8,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "fake_server.h"
 #include "program.h"
 #include "programs/program_help.h"
 
@@ -23,8 +25,8 @@ std::string output_of(const std::vector<std::string>& words) {
   return result.output;
 }
 
-std::string complete_with_bash(const std::string& words) {
-  const std::string script = output_of({"completion", "bash"}) + "COMP_WORDS=(" +
+std::string complete_with_bash(const std::string& words, const std::string& before = "") {
+  const std::string script = output_of({"completion", "bash"}) + before + "COMP_WORDS=(" +
                              (words.ends_with(' ') ? words + "''" : words) +
                              ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_cellcrush\necho \"${COMPREPLY[@]}\"\n";
   return e2e::run({"/bin/bash", "-c", script}, std::chrono::seconds(30)).all();
@@ -70,6 +72,24 @@ TEST(Completion, BashCompletesPresetsChoicesFieldsAndNames) {
   EXPECT_EQ(complete_with_bash("cellcrush watch "), "jobs/ sweeps/\n");
   EXPECT_EQ(complete_with_bash("cellcrush table s"), "sweeps/\n");
   EXPECT_EQ(complete_with_bash("cellcrush fetch jobs/1 -o pre"), "\n") << "files are bash's own";
+}
+
+TEST(Completion, OffersTheNamesOfTheServer) {
+  Script script;
+  script.job = make_job(v1::Job::SUCCEEDED);
+  script.job.set_name("jobs/3");
+  script.sweeps.sweep.set_name("sweeps/5");
+  const FakeServer server(script);
+  const std::string before = "cellcrush() { '" CELLCRUSH_PROGRAM "' --server " + server.address() + " \"$@\"; }\n";
+  EXPECT_EQ(complete_with_bash("cellcrush watch ", before), "jobs/3 sweeps/5\n");
+  EXPECT_EQ(complete_with_bash("cellcrush table ", before), "sweeps/5\n");
+  EXPECT_EQ(complete_with_bash("cellcrush fetch jobs/", before), "jobs/3\n");
+  // The others take the same lines; what they make of them shows where they are installed.
+  EXPECT_THAT(server.run({"completion", "names"}).output, HasSubstr("jobs/3\tSUCCEEDED "));
+  if (access("/usr/bin/fish", X_OK) != 0) return;
+  const std::string fish = "function cellcrush; '" CELLCRUSH_PROGRAM "' --server " + server.address() +
+                           " $argv; end\n" + output_of({"completion", "fish"}) + "complete -C 'cellcrush watch '\n";
+  EXPECT_THAT(e2e::run({"/usr/bin/fish", "-c", fish}, std::chrono::seconds(30)).all(), HasSubstr("jobs/3\tSUCCEEDED"));
 }
 
 TEST(Completion, OtherShellsAreRefused) { EXPECT_EQ(run_program({"completion", "tcsh"}).exit_code, 2); }

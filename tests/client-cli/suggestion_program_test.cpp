@@ -79,6 +79,17 @@ TEST(Suggestion, OfASweep) {
       {"--server", server.address()});
 }
 
+TEST(Suggestion, OfAFieldToSetOrToVary) {
+  const FakeServer server(script_of_one_job());
+  for (const char* option : {"--set", "--over"}) {
+    const std::string place = std::string(option) + " loading.sped_m_per_s: Loading has no field \"sped_m_per_s\"";
+    expect_answers({{{"sweep", "preset:type-i", "--over", "depth_mm=4,5", option, "loading.sped_m_per_s=50"},
+                     2,
+                     place + "; did you mean \"speed_m_per_s\"?"}},
+                   {"--server", server.address()});
+  }
+}
+
 TEST(Suggestion, OfAFileInTheSameFolder) {
   const FakeServer server(script_of_one_job());
   const std::string file = server.folder() / "my-case.txtpb";

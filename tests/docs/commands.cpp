@@ -22,7 +22,7 @@ std::vector<Code> command_lines(const Code& block) {
     if (continued) {
       out.back().text += line;
     } else if (starts) {
-      out.push_back({number, "", line.starts_with("$ ") ? line.substr(2) : line});
+      out.push_back({number, "", line.starts_with("$ ") ? line.substr(2) : line, "", ""});
     } else {
       continue;
     }

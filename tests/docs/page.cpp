@@ -28,7 +28,7 @@ std::string without_code(const std::string& line, int number, std::vector<Code>&
   std::string rest;
   auto begin = line.cbegin();
   for (std::smatch match; std::regex_search(begin, line.cend(), match, kCode); begin = match.suffix().first) {
-    codes.push_back({number, "", match[2].str()});
+    codes.push_back({number, "", match[2].str(), "", ""});
     rest += match.prefix().str() + "`";
   }
   return rest.append(begin, line.cend());
@@ -70,6 +70,41 @@ std::string without_comments(std::string line, bool& in_comment) {
   return rest;
 }
 
+// What stands before a block: the last paragraph, and the comments for the tests.
+class LeadIn {
+ public:
+  // Commands for the tests become blocks.
+  void read(const std::string& line, int number, std::vector<Code>& blocks) {
+    static const std::regex kComment(" *<!-- (not run|run): (.*) -->");
+    std::smatch match;
+    if (std::regex_match(line, match, kComment)) {
+      if (match[1] == "run") {
+        blocks.push_back({number, "run", match[2].str() + "\n", "", ""});
+      } else {
+        excuse_ = match[2];
+      }
+    } else if (line.empty()) {
+      ended_ = true;
+    } else {
+      if (ended_) *this = {};
+      text_ += line + " ";
+    }
+  }
+
+  Code open_block(int number, const std::string& language) {
+    static const std::regex kFile("[Ss]ave [^.`]*as `([^`]+)`");
+    Code block{number, language, "", "", excuse_};
+    if (std::smatch match; std::regex_search(text_, match, kFile)) block.file = match[1];
+    *this = {};
+    return block;
+  }
+
+ private:
+  std::string text_;
+  std::string excuse_;
+  bool ended_ = false;
+};
+
 }  // namespace
 
 std::string anchor_of(const std::string& heading) {
@@ -91,7 +126,7 @@ std::string read_text(const fs::path& file) {
 }
 
 Page parse_page(std::string path, const std::string& text) {
-  static const std::regex kFence(R"(^\s*(```+|~~~+)\s*([A-Za-z0-9_+-]*).*$)");
+  static const std::regex kFence(R"(^(\s*)(```+|~~~+)\s*([A-Za-z0-9_+-]*).*$)");
   static const std::regex kHeading(R"(^#{1,6}\s+(.*?)\s*#*$)");
   Page page;
   page.path = std::move(path);
@@ -99,23 +134,27 @@ Page parse_page(std::string path, const std::string& text) {
   std::istringstream lines(text);
   std::string line;
   std::string fence;
+  std::size_t indent = 0;  // of the fence
   bool in_comment = false;
+  LeadIn lead_in;
   for (int number = 1; std::getline(lines, line); ++number) {
     std::smatch match;
     if (!fence.empty()) {
-      if (std::regex_match(line, match, kFence) && match[1].str().starts_with(fence) && match[2].length() == 0) {
+      if (std::regex_match(line, match, kFence) && match[2].str().starts_with(fence) && match[3].length() == 0) {
         fence.clear();
       } else {
-        page.blocks.back().text += line + "\n";
+        page.blocks.back().text += line.substr(std::min({indent, line.size(), line.find_first_not_of(' ')})) + "\n";
       }
       continue;
     }
-    line = without_comments(line, in_comment);
     if (std::regex_match(line, match, kFence)) {
-      fence = match[1].str();
-      page.blocks.push_back({number + 1, match[2].str(), ""});
+      indent = match[1].length();
+      fence = match[2].str();
+      page.blocks.push_back(lead_in.open_block(number + 1, match[3].str()));
       continue;
     }
+    lead_in.read(line, number, page.blocks);
+    line = without_comments(line, in_comment);
     if (columns_of(line) > kColumns && !may_be_wide(line)) page.wide_lines.push_back(number);
     if (is_torn(line)) page.torn_lines.push_back(number);
     read_links(without_code(line, number, page.inline_codes), number, page.links);

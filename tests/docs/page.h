@@ -17,6 +17,8 @@ struct Code {
   int line = 0;          ///< of its first line, from 1
   std::string language;  ///< the word behind the fence; empty without one, and for code between backticks
   std::string text;      ///< a block's lines, each with its line feed
+  std::string file;      ///< of a block: FILE of "save this as `FILE`" in the paragraph before it
+  std::string excuse;    ///< of a block: REASON of `<!-- not run: REASON -->` before it
 };
 
 /// What the tests read of a Markdown page.
@@ -24,7 +26,7 @@ struct Page {
   std::string path;                  ///< from the root of the tree, with forward slashes
   std::vector<std::string> anchors;  ///< of its headings, as GitHub names them
   std::vector<Link> links;
-  std::vector<Code> blocks;
+  std::vector<Code> blocks;  ///< also COMMAND of `<!-- run: COMMAND -->`, in the language "run"
   std::vector<Code> inline_codes;
   std::vector<int> wide_lines;  ///< prose of more than 120 columns: neither code, table, link nor comment
   std::vector<int> torn_lines;  ///< headings without a space, rows of a table without their end: a formatter's work

@@ -1,4 +1,4 @@
-// A reader who types what the README shows, after an installation, sees what it shows.
+// What an installation has, how long the README is, and how the commands of a page are typed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,8 +29,6 @@ TEST(Install, PutsProgramsManualsAndCompletionsInTheirPlaces) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
 }
 
-TEST(Readme, EveryCommandDoesWhatThePageShows) { expect_shown("README.md"); }
-
 TEST(Readme, IsAPage) {
   const fs::path file = fs::path(CELLCRUSH_SOURCE_ROOT) / "README.md";
   const e2e::Outcome words = e2e::run({"/usr/bin/wc", "-w", file.string()}, std::chrono::seconds(30));
@@ -50,6 +48,8 @@ TEST(Session, ComparesLinesButForTheirNumbers) {
   EXPECT_EQ(missing_line({"plateau  3.31 MPa", "...", "took 7 s"}, "plateau 3.29 MPa\nmore\n\ntook 12.5 s\n"), "");
   EXPECT_EQ(missing_line({"plateau 3.31 MPa", "took 7 s"}, "plateau 3.29 MPa\nmore\ntook 12.5 s\n"), "took 7 s");
   EXPECT_EQ(missing_line({"plateau 3.31 mm"}, "plateau 3.31 MPa\n"), "plateau 3.31 mm");
+  EXPECT_EQ(missing_line({"1 MPa", "...", "2 MPa", "end"}, "1 MPa\n2 MPa\n3 MPa\nend\n"), "");
+  EXPECT_EQ(missing_line({"...", "2 MPa", "end"}, "1 MPa\n2 MPa\n"), "end");
   EXPECT_EQ(masked("jobs/ab-12   -1.5e-7 ----"), masked("jobs/c 3 --"));
 }
 

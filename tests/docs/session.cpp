@@ -1,7 +1,9 @@
 #include "docs/session.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <pwd.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,27 +31,92 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// The daemon's ports stay closed, since another one may listen on them: only the Unix socket of this session is open.
-void write_daemon_wrapper(const fs::path& folder, const fs::path& programs) {
+// A port that is free now.
+std::string free_port() {
+  const int handle = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  auto* const general = reinterpret_cast<sockaddr*>(&address);
+  const bool bound = bind(handle, general, size) == 0 && getsockname(handle, general, &size) == 0;
+  close(handle);
+  if (!bound) throw std::system_error(errno, std::generic_category(), "no free port");
+  return std::to_string(ntohs(address.sin_port));
+}
+
+// Addresses of this machine with ports of the session's own, since other daemons may listen on those of the pages.
+class Ports {
+ public:
+  std::string moved(const std::string& text) {
+    static const std::regex kAddress(R"((127\.0\.0\.1|localhost|0\.0\.0\.0):([0-9]{4,5}))");
+    std::string out;
+    auto begin = text.cbegin();
+    for (std::smatch match; std::regex_search(begin, text.cend(), match, kAddress); begin = match.suffix().first) {
+      std::string& port = ports_[match[2]];
+      if (port.empty()) port = free_port();
+      out += match.prefix().str() + (match[1] == "0.0.0.0" ? "127.0.0.1" : match[1].str()) + ":" + port;
+    }
+    return out.append(begin, text.cend());
+  }
+
+ private:
+  std::map<std::string, std::string> ports_;
+};
+
+// Stands before the daemon on the PATH: gives it the default addresses, with the ports of the session, and one more,
+// on which the session asks whether it answers.
+constexpr const char* kWrapper = R"(#!/bin/bash
+case "$1" in [a-z]*|--version) exec DAEMON "$@" ;; esac
+more=()
+case " $* " in *" --config "*) exec DAEMON "$@" --http 127.0.0.1:8080 ;; esac
+case " $* " in
+  *" --listen "*) ;;
+  *) more+=(--listen "unix:$HOME/.local/share/cellcrush/cellcrushd.sock" --listen 127.0.0.1:50551) ;;
+esac
+case " $* " in *" --http "*|*" --tls-client-ca "*) ;; *) more+=(--http 127.0.0.1:8080) ;; esac
+exec DAEMON "$@" "${more[@]}" --listen "unix:$HOME/.session/daemon.sock"
+)";
+
+void write_wrappers(const fs::path& folder, const fs::path& programs, Ports& ports) {
   fs::create_directories(folder / ".local/share/cellcrush");
   fs::create_directories(folder / ".session");
   const fs::path wrapper = folder / ".session/cellcrushd";
-  std::ofstream(wrapper) << "#!/bin/bash\ncase \"$1\" in [a-z]*) exec '" << (programs / "cellcrushd").string()
-                         << "' \"$@\" ;; esac\nexec '" << (programs / "cellcrushd").string()
-                         << "' --listen \"unix:$HOME/.local/share/cellcrush/cellcrushd.sock\" --http none \"$@\"\n";
+  const std::string daemon = "'" + (programs / "cellcrushd").string() + "'";
+  std::ofstream(wrapper) << std::regex_replace(ports.moved(kWrapper), std::regex("DAEMON"), daemon);
   fs::permissions(wrapper, fs::perms::owner_all);
+  // Debian's, whose modules the pages install.
+  fs::create_symlink("/usr/bin/python3", folder / ".session/python3");
 }
 
-std::string script_of(const std::vector<Step>& steps, const fs::path& folder, const fs::path& programs) {
+// What is typed of a command.
+std::string typed(const std::string& command) {
+  static const std::regex kDaemon(R"(cellcrushd( +-[^|;&]*)?( [12]?> ?[^ ]+)*)");
+  static const std::regex kInstall(R"(apt-get install ((.|\n)*))");
+  constexpr const char* kAnswers =
+      "answers=1; own=unix:$HOME/.session/daemon.sock; for i in {1..60}; do sleep 0.1; kill -0 $daemon || break\n"
+      "{ cellcrush presets --server $own || cellcrush presets; } >$HOME/.session/answer 2>&1 && answers=0 && break\n"
+      "done\n";
+  if (std::smatch match; std::regex_match(command, match, kInstall)) {
+    return "dpkg-query --show " + match[1].str() + " >/dev/null || (exit " +
+           std::to_string(StepOutcome::kPackagesAreMissing) + ")\n";
+  }
+  const bool in_front = std::regex_match(std::regex_replace(command, std::regex(R"(\\\n)"), " "), kDaemon) &&
+                        command.find("--version") == std::string::npos;
+  if (!in_front && !command.ends_with('&')) return command + "\n";
+  return "[[ -z $daemon ]] || { kill $daemon; wait $daemon; } 2>/dev/null\n" + command +
+         (in_front ? " >$HOME/.session/output 2>$HOME/.session/log &" : "") + "\ndaemon=$!\n" + kAnswers +
+         (in_front ? "cat $HOME/.session/output $HOME/.session/log\n" : "") + "(exit $answers)\n";
+}
+
+std::string script_of(const std::vector<Step>& steps, const fs::path& folder, const fs::path& programs, Ports& ports) {
   std::ostringstream script;
   script << "trap 'kill $(jobs -p) 2>/dev/null; wait' EXIT\nunset ${!CELLCRUSH_@} XDG_DATA_HOME\nexport HOME='"
          << folder.string() << "' COLUMNS=100\n"
-         << "PATH='" << (folder / ".session").string() << "':'" << programs.string() << "':$PATH\ncd \"$HOME\"\n";
+         << "PATH='" << (folder / ".session").string() << "':'" << programs.string() << "':$PATH\n"
+         << "export PYTHONPATH=$(echo ~/.local/lib/python3*/dist-packages)\ncd \"$HOME\"\n";
   for (const Step& step : steps) {
-    script << "echo '" << kBegin << step.line << "'\n" << step.command << "\n";
-    if (step.command.ends_with('&')) {
-      script << "for i in {1..300}; do cellcrush presets >.session/answer 2>&1 && break; sleep 0.1; done\n";
-    }
+    script << "echo '" << kBegin << step.line << "'\n" << typed(ports.moved(step.command));
     // A file's last line may lack its line feed.
     script << "code=$?; echo; echo '" << kEnd << step.line << "' $code\n[[ $code == 0 ]] || exit 0\n";
   }
@@ -85,24 +152,50 @@ Page find_page(const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+void add_lines(const Code& block, std::vector<Step>& steps) {
+  const bool console = block.language == "console";
+  int number = block.line;
+  bool continued = false;
+  for (const std::string& line : lines_of(block.text)) {
+    const bool starts = console ? line.starts_with("$ ") : !line.empty() && !line.starts_with("#");
+    if (continued) {
+      steps.back().command += "\n" + line;
+    } else if (starts) {
+      steps.push_back({number, line.substr(console ? 2 : 0), {}});
+    } else if (!line.empty() && console && !steps.empty()) {
+      steps.back().shown.push_back(line);
+    }
+    continued = (continued || starts) && line.ends_with('\\');
+    ++number;
+  }
+}
+
+}  // namespace
+
 std::vector<Step> steps_of(const Page& page) {
+  const std::string python = "~/.session/page.py";
   std::vector<Step> steps;
+  const auto save = [&](const Code& block, const std::string& how, const std::string& file) {
+    steps.push_back({block.line,
+                     "mkdir -p $(dirname " + file + ") && cat " + how + " " + file + " <<'@@ file'\n" + block.text +
+                         "@@ file",
+                     {}});
+  };
+  int python_line = 0;
   for (const Code& block : page.blocks) {
-    if (block.language != "console") continue;
-    int number = block.line;
-    bool continued = false;
-    for (const std::string& line : lines_of(block.text)) {
-      if (continued) {
-        steps.back().command += "\n" + line;
-      } else if (line.starts_with("$ ")) {
-        steps.push_back({number, line.substr(2), {}});
-      } else if (!line.empty() && !steps.empty()) {
-        steps.back().shown.push_back(line);
-      }
-      continued = (continued || line.starts_with("$ ")) && line.ends_with('\\');
-      ++number;
+    if (!block.excuse.empty()) continue;
+    if (!block.file.empty()) {
+      save(block, ">", block.file);
+    } else if (block.language == "python") {
+      save(block, ">>", python);
+      python_line = block.line;
+    } else if (block.language == "console" || block.language == "sh" || block.language == "run") {
+      add_lines(block, steps);
     }
   }
+  if (python_line > 0) steps.push_back({python_line, "python3 " + python, {}});
   return steps;
 }
 
@@ -111,7 +204,8 @@ std::string masked(const std::string& line) {
   static const std::regex kName(R"((jobs|sweeps)/[A-Za-z0-9_-]+)");
   static const std::regex kBlank(R"([ \t]+)");
   static const std::regex kRule(R"(([-=#])\1+)");
-  std::string text = std::regex_replace(line, kName, "$1/NAME");
+  static const std::regex kRevision(R"(\+([0-9a-f]{12}|unknown)(-dirty)?)");
+  std::string text = std::regex_replace(std::regex_replace(line, kName, "$1/NAME"), kRevision, "+REVISION");
   text = std::regex_replace(text, kNumber, "#");
   text = std::regex_replace(text, kRule, "=");
   text = std::regex_replace(text, kBlank, " ");
@@ -125,27 +219,32 @@ std::string missing_line(const std::vector<std::string>& shown, const std::strin
   for (const std::string& line : lines_of(output)) {
     if (const std::string text = masked(line); !text.empty()) lines.push_back(text);
   }
-  auto next = lines.begin();
-  bool gap = false;
-  for (const std::string& line : shown) {
-    if (line == "...") {
-      gap = true;
-      continue;
-    }
-    const auto found = gap ? std::find(next, lines.end(), masked(line)) : next;
-    if (found == lines.end() || *found != masked(line)) return line;
-    next = found + 1;
-    gap = false;
+  auto from = lines.begin();
+  for (auto line = shown.begin(); line != shown.end();) {
+    const bool gap = *line == "...";
+    if (gap) ++line;
+    // The lines up to the next gap stand together.
+    const auto end = std::find(line, shown.end(), "...");
+    auto farthest = line;
+    do {
+      const auto same = [](const auto& on_page, const auto& text) { return masked(on_page) == text; };
+      const auto [stop, after] = std::mismatch(line, end, from, lines.end(), same);
+      farthest = std::max(farthest, stop);
+      from = stop == end ? after : from + (from != lines.end() ? 1 : 0);
+    } while (gap && farthest != end && from != lines.end());
+    if (farthest != end) return *farthest;
+    line = end;
   }
   return "";
 }
 
 std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::path& folder, const fs::path& programs,
                                      std::chrono::seconds limit, Reader reader) {
-  write_daemon_wrapper(folder, programs);
+  Ports ports;
+  write_wrappers(folder, programs, ports);
   const fs::path script = folder / ".session/script.sh";
   const fs::path transcript = folder / ".session/transcript";
-  std::ofstream(script) << script_of(steps, folder, programs);
+  std::ofstream(script) << script_of(steps, folder, programs, ports);
   // Into a file and not a pipe, which a daemon in the background would keep open.
   std::vector<std::string> words;
   if (reader == Reader::ordinary_user) words = become_ordinary(folder);
@@ -154,6 +253,7 @@ std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::p
   e2e::Process bash(words);
   (void)bash.wait(limit);
   std::vector<StepOutcome> outcomes;
+  const std::regex home(folder.string());
   std::string output;
   for (const std::string& line : lines_of(read_text(transcript))) {
     if (line.starts_with(kBegin)) {
@@ -161,7 +261,8 @@ std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::p
     } else if (line.starts_with(kEnd)) {
       outcomes.push_back({std::stoi(line.substr(line.rfind(' '))), output});
     } else {
-      output += line + "\n";
+      // Pages show the home of a user of that name.
+      output += std::regex_replace(line, home, "/home/anna") + "\n";
     }
   }
   return outcomes;
@@ -174,18 +275,13 @@ void install(const fs::path& prefix) {
 }
 
 void expect_shown(const std::string& path, Reader reader, const std::map<std::string, std::string>& instead,
-                  const std::map<std::string, std::string>& saved) {
+                  const std::vector<std::string>& before) {
   const TemporaryFolder folder;
   // An ordinary user passes through it.
   fs::permissions(folder.path(), fs::perms::others_exec, fs::perm_options::add);
   const fs::path home = folder.path() / "home";
   install(home / ".local");
   const Page page = find_page(path);
-  for (const auto& [file, language] : saved) {
-    const auto block = std::ranges::find(page.blocks, language, &Code::language);
-    ASSERT_NE(block, page.blocks.end()) << path << " has no block of " << language;
-    std::ofstream(home / file) << block->text;
-  }
   std::vector<Step> steps = steps_of(page);
   ASSERT_FALSE(steps.empty());
   for (const auto& [words, typed] : instead) {
@@ -195,12 +291,18 @@ void expect_shown(const std::string& path, Reader reader, const std::map<std::st
     ASSERT_NE(step, steps.end()) << path << " has no command with " << words;
     step->command.replace(step->command.find(words), words.size(), typed);
   }
+  for (auto command = before.rbegin(); command != before.rend(); ++command)
+    steps.insert(steps.begin(), Step{0, *command, {}});
   fs::create_directory_symlink(CELLCRUSH_SOURCE_ROOT, home / "cellcrush");
   const std::vector<StepOutcome> outcomes = run_session(steps, home, home / ".local/bin", kSessionLimit, reader);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command;
-    EXPECT_EQ(outcomes[i].exit_code, 0) << place << "\n" << outcomes[i].output;
-    EXPECT_EQ(missing_line(steps[i].shown, outcomes[i].output), "") << place << "\n" << outcomes[i].output;
+    if (outcomes[i].exit_code == StepOutcome::kPackagesAreMissing) GTEST_SKIP() << "Not here: " << steps[i].command;
+    constexpr std::size_t kMostOutput = 4000;
+    const std::string& output = outcomes[i].output;
+    const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command + "\n" +
+                              output.substr(output.size() - std::min(output.size(), kMostOutput));
+    EXPECT_EQ(outcomes[i].exit_code, 0) << place;
+    EXPECT_EQ(missing_line(steps[i].shown, output), "") << place;
   }
   ASSERT_EQ(outcomes.size(), steps.size())
       << path << ":" << steps[std::min(outcomes.size(), steps.size() - 1)].line << ": the session ended here";

@@ -10,14 +10,16 @@
 
 namespace cellcrush::docs {
 
-/// A command of a console block, and the output that the page shows of it.
+/// Something a reader types, and the output that the page shows of it.
 struct Step {
   int line = 0;  ///< of the command in the page
   std::string command;
   std::vector<std::string> shown;  ///< without empty lines; "..." for what the page leaves out
 };
 
-/// The commands of a page's console blocks, in their order; a command may be continued with a backslash.
+/// What the blocks of a page ask its reader to do, in their order: the commands behind the dollars of `console`, the
+/// lines of `sh`, both continued with a backslash, the commands of "run", and the files that the page has saved. The
+/// other blocks of Python are one program, which runs at the end. Blocks with an excuse ask nothing.
 std::vector<Step> steps_of(const Page& page);
 
 /// A line with every number as `#`, every bar of a progress as `=`, and blanks as one: what stays the same between two
@@ -30,6 +32,7 @@ std::string missing_line(const std::vector<std::string>& shown, const std::strin
 
 /// How one command of a session ended.
 struct StepOutcome {
+  static constexpr int kPackagesAreMissing = 77;
   int exit_code = -1;
   std::string output;  ///< both standard output and standard error
 };
@@ -41,8 +44,10 @@ enum class Reader {
 };
 
 /// Types the commands into one bash, as a reader would, with `folder` as home and working directory and the programs
-/// first on its PATH. A daemon that is started in the background listens on its default Unix socket only; the session
-/// waits until it answers, and kills it at the end. Returns an outcome for each command that was reached.
+/// first on its PATH. Ports of loopback are others, which are free. A daemon, in the background or not, takes the place
+/// of the one before; the session waits until it answers, and kills it at the end. `apt-get install` only asks whether
+/// the packages are there; if not, its outcome is kPackagesAreMissing, the last. Returns an outcome for each command
+/// that was reached.
 std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const std::filesystem::path& folder,
                                      const std::filesystem::path& programs, std::chrono::seconds limit,
                                      Reader reader = Reader::caller);
@@ -50,12 +55,10 @@ std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const std::
 /// `cmake --install` of the build that the test belongs to.
 void install(const std::filesystem::path& prefix);
 
-/// Types the console blocks of a page of the tree, after an installation in ~/.local, in a home of their own, which has
-/// the tree as ~/cellcrush, and expects of each command what the page shows. `instead` has words of the page, and what
-/// is typed instead of each; `saved` has files that the reader saves first, each with the language of the page's block
-/// that stands in it.
+/// Takes the steps of a page of the tree, after an installation in ~/.local, in a home of their own, which has the tree
+/// as ~/cellcrush, and expects of each command what the page shows. `instead` has words of the page, and what is typed
+/// instead of each; `before` is typed first.
 void expect_shown(const std::string& path, Reader reader = Reader::caller,
-                  const std::map<std::string, std::string>& instead = {},
-                  const std::map<std::string, std::string>& saved = {});
+                  const std::map<std::string, std::string>& instead = {}, const std::vector<std::string>& before = {});
 
 }  // namespace cellcrush::docs
