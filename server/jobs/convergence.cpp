@@ -48,7 +48,8 @@ std::vector<MeshEstimate> estimates_of(const Measure& measure, const std::vector
     if (row.result().state() != v1::Job::SUCCEEDED) continue;
     const int elements = static_cast<int>(row.values(static_cast<int>(mesh_index)));
     results[elements].elements_per_wall = elements;
-    if (const auto value = find_result(row.result().summary(), measure.field)) results[elements].values.push_back(*value);
+    if (const auto value = find_result(row.result().summary(), measure.field))
+      results[elements].values.push_back(*value);
   }
   std::vector<MeshResult> list;
   for (auto& [elements, result] : results) list.push_back(std::move(result));

@@ -48,7 +48,8 @@ std::string title_text_of(double value) {
 // "loading.speed_m_per_s = 50, lattice.hexagon.rows = 6".
 std::string text_of_point(const std::vector<std::string>& fields, const std::vector<double>& values) {
   std::string out;
-  for (std::size_t i = 0; i < fields.size(); ++i) out += (i == 0 ? "" : ", ") + fields[i] + " = " + title_text_of(values[i]);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    out += (i == 0 ? "" : ", ") + fields[i] + " = " + title_text_of(values[i]);
   return out;
 }
 
