@@ -169,9 +169,9 @@ void draw_mark(cairo_t* context, const Axes& axes, const Mark& mark) {
   apply(context, {mark.colour, 1.2, {1.5, 3.0}});
   stroke(context, x, axes.area().y, x, axes.area().y + axes.area().height);
   cairo_set_dash(context, nullptr, 0, 0.0);
-  const TextStyle style{.size = 10.5, .colour = mark.colour, .anchor = Anchor::right, .upwards = true};
+  const TextStyle style{.size = 10.5, .colour = mark.colour, .upwards = true};
   const bool has_room = x - axes.area().x > 16.0;
-  draw_text(context, has_room ? x - 4.0 : x + 11.0, axes.area().y + 8.0, mark.text, style);
+  draw_text(context, has_room ? x - 4.0 : x + 11.0, axes.area().y + 0.88 * axes.area().height, mark.text, style);
 }
 
 }  // namespace

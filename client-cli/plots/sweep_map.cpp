@@ -91,17 +91,18 @@ void label_cell(cairo_t* context, const Rectangle& cell, const std::optional<dou
   const auto fits = [&](const std::string& text) { return text_width(context, text, style) + 4.0 <= cell.width; };
   const std::string value = stress ? number_text(*stress) : "–";
   if (!fits(value) || cell.height < 16.0) return;
-  const bool has_mode = !mode.empty() && fits(mode) && cell.height >= 30.0;
+  const std::string letter = fits(mode) ? mode : mode.substr(mode.rfind(' ') + 1);
+  const bool has_mode = !letter.empty() && cell.height >= 30.0;
   const double middle = cell.y + 0.5 * cell.height + 4.0;
   const auto write = [&](double baseline, const std::string& text) {
     const double width = text_width(context, text, style) + 4.0;
     set_colour(context, colour_of(stress, range));  // over the contours
-    cairo_rectangle(context, cell.x + 0.5 * (cell.width - width), baseline - 10.0, width, 13.0);
+    cairo_rectangle(context, cell.x + 0.5 * (cell.width - width), baseline - 10.5, width, 14.5);
     cairo_fill(context);
     draw_text(context, cell.x + 0.5 * cell.width, baseline, text, style);
   };
   write(has_mode ? middle - 7.0 : middle, value);
-  if (has_mode) write(middle + 7.0, mode);
+  if (has_mode) write(middle + 7.0, letter);
 }
 
 // The lines of one level in the rectangle between four neighbouring points, by linear interpolation along its sides.
