@@ -156,8 +156,7 @@ void add_plot_command(CLI::App& app, Session& session) {
   add_option(*command, kFrameOptions, "--wide", options->wide,
              "Draw the frames beside the stress curves, as for a slide");
   add_examples(*command, {"cellcrush plot jobs/12 -o crush.png", "cellcrush plot jobs/12 jobs/13 -o compared.svg",
-                          "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf",
-                          "cellcrush plot sweeps/3 --width 85mm --font 8pt -o figure.pdf"});
+                          "cellcrush plot sweeps/3 sweeps/4 --width 85mm --font 8pt -o sweeps.pdf"});
 }
 
 }  // namespace cellcrush::client
