@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -53,10 +54,13 @@ class SvgTexts {
   void add(cairo_t* context, double x, double y, const std::string& text, const TextStyle& style) {
     if (text.empty()) return;
     cairo_user_to_device(context, &x, &y);
+    double size = style.size;
+    double none = 0.0;
+    cairo_user_to_device_distance(context, &none, &size);  // a length downwards, also of a text upwards
     elements_ += fmt::format(
         "<text x=\"{:.2f}\" y=\"{:.2f}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"{}\" "
         "text-anchor=\"{}\" fill=\"#{:02x}{:02x}{:02x}\"",
-        x, y, style.size, anchor_text(style.anchor), byte_of(style.colour.red), byte_of(style.colour.green),
+        x, y, size, anchor_text(style.anchor), byte_of(style.colour.red), byte_of(style.colour.green),
         byte_of(style.colour.blue));
     if (style.bold) elements_ += " font-weight=\"bold\"";
     if (style.upwards) elements_ += fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", x, y);
@@ -85,20 +89,24 @@ void check(cairo_status_t status) {
   throw std::runtime_error(std::string("the picture cannot be drawn: ") + cairo_status_to_string(status));
 }
 
-// Units of the surface per picture unit: pixels of a PNG, points (1/72 inch) of a PDF.
-double device_units(PictureFormat format) {
+// Units of the surface per picture unit: pixels of a PNG, points (1/72 inch) of a PDF, millimetres of a printed SVG.
+double device_units(PictureFormat format, const PrintSize& print) {
   switch (format) {
-    case PictureFormat::png: return kPixelsPerUnit;
-    case PictureFormat::pdf: return 0.75;
-    default: return 1.0;
+    case PictureFormat::png: return kPixelsPerUnit * print.scale();
+    case PictureFormat::pdf: return 0.75 * print.scale();
+    default: return print.is_default() ? 1.0 : 25.4 / 96.0 * print.scale();
   }
 }
 
-Surface make_surface(PictureFormat format, double width, double height, std::string& bytes) {
-  const double scale = device_units(format);
+Surface make_surface(PictureFormat format, double width, double height, const PrintSize& print, std::string& bytes) {
+  const double scale = device_units(format, print);
   const auto make = [&] {
     switch (format) {
-      case PictureFormat::svg: return cairo_svg_surface_create_for_stream(append_bytes, &bytes, width, height);
+      case PictureFormat::svg: {
+        auto* surface = cairo_svg_surface_create_for_stream(append_bytes, &bytes, scale * width, scale * height);
+        if (!print.is_default()) cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_MM);
+        return surface;
+      }
       case PictureFormat::pdf:
         return cairo_pdf_surface_create_for_stream(append_bytes, &bytes, scale * width, scale * height);
       default:
@@ -127,16 +135,16 @@ PictureFormat picture_format(const std::filesystem::path& file) {
   throw std::invalid_argument(file.string() + ": a picture's name ends in .png, .svg or .pdf");
 }
 
-std::string render_picture(PictureFormat format, double width, double height,
-                           const std::function<void(cairo_t*)>& draw) {
+std::string render_picture(PictureFormat format, double width, double height, const std::function<void(cairo_t*)>& draw,
+                           const PrintSize& print) {
   std::string bytes;
   SvgTexts texts;
   {
-    const Surface surface = make_surface(format, width, height, bytes);
+    const Surface surface = make_surface(format, width, height, print, bytes);
     check(cairo_surface_status(surface.get()));
     if (format == PictureFormat::svg) texts.attach(surface.get());
     const Context context(cairo_create(surface.get()), cairo_destroy);
-    const double scale = device_units(format);
+    const double scale = device_units(format, print);
     cairo_scale(context.get(), scale, scale);
     cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
     cairo_paint(context.get());
@@ -172,6 +180,21 @@ double text_width(cairo_t* context, const std::string& text, const TextStyle& st
   cairo_text_extents_t extents;
   cairo_text_extents(context, printable(text).c_str(), &extents);
   return extents.x_advance;
+}
+
+std::vector<std::string> wrap_to_width(cairo_t* context, const std::string& text, double width,
+                                       const TextStyle& style) {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.back() + (lines.back().empty() ? "" : " ") + word;
+    if (lines.back().empty() || text_width(context, longer, style) <= width) {
+      lines.back() = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
 }
 
 std::string fit_text(cairo_t* context, const std::string& text, double width, const TextStyle& style) {

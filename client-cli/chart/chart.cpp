@@ -94,10 +94,13 @@ void draw_marks(cairo_t* context, const Axes& axes, const Curve& curve) {
 
 constexpr Colour kBandColour{0.945, 0.935, 0.90};
 constexpr double kLegendRow = 20.0;
+constexpr double kNarrow = 500.0;
+constexpr double kLegendLine = 15.0;
 constexpr double kSwatch = 26.0;
 constexpr double kLegendGap = 18.0;
-constexpr double kNoteHeight = 16.0;
+constexpr double kNoteLine = 14.0;
 const TextStyle kLegendStyle{.size = 12.0};
+const TextStyle kNoteStyle{.size = 10.5, .colour = kMutedInk, .anchor = Anchor::right};
 
 void apply(cairo_t* context, const LineStyle& style) {
   set_colour(context, style.colour);
@@ -136,25 +139,39 @@ void draw_swatch(cairo_t* context, double x, double y, const Curve& curve) {
   draw_marker(context, x + 0.5 * kSwatch, y, curve.marker, curve.style.colour);
 }
 
-// Visits the legend's entries row by row and returns its height; draws them if `draw` is set.
+// Visits the legend's entries row by row and returns its height; draws them if `draw` is set. A long name has several
+// rows.
 double lay_legend(cairo_t* context, const Rectangle& place, const Chart& chart, bool draw) {
   double x = place.x;
   double y = place.y;
   for (const Curve& curve : chart.curves) {
     if (curve.name.empty()) continue;
-    const std::string name = fit_text(context, curve.name, place.width - kSwatch - 8.0, kLegendStyle);
-    const double width = kSwatch + 8.0 + text_width(context, name, kLegendStyle) + kLegendGap;
-    if (x > place.x && x + width - kLegendGap > place.x + place.width) {
+    const auto lines = wrap_to_width(context, curve.name, place.width - kSwatch - 8.0, kLegendStyle);
+    double width = 0.0;
+    for (const std::string& line : lines) width = std::max(width, text_width(context, line, kLegendStyle));
+    width += kSwatch + 8.0 + kLegendGap;
+    if (x > place.x && (lines.size() > 1 || x + width - kLegendGap > place.x + place.width)) {
       x = place.x;
       y += kLegendRow;
     }
-    if (draw) {
-      draw_swatch(context, x, y + 10.0, curve);
-      draw_text(context, x + kSwatch + 8.0, y + 14.3, name, kLegendStyle);
+    if (draw) draw_swatch(context, x, y + 10.0, curve);
+    for (std::size_t i = 0; draw && i < lines.size(); ++i) {
+      draw_text(context, x + kSwatch + 8.0, y + 14.3 + kLegendLine * static_cast<double>(i), lines[i], kLegendStyle);
     }
+    y += kLegendLine * static_cast<double>(lines.size() - 1);
     x += width;
   }
   return x > place.x || y > place.y ? y + kLegendRow - place.y : 0.0;
+}
+
+void draw_mark(cairo_t* context, const Axes& axes, const Mark& mark) {
+  const double x = axes.x(mark.x);
+  apply(context, {mark.colour, 1.2, {1.5, 3.0}});
+  stroke(context, x, axes.area().y, x, axes.area().y + axes.area().height);
+  cairo_set_dash(context, nullptr, 0, 0.0);
+  const TextStyle style{.size = 10.5, .colour = mark.colour, .upwards = true};
+  const bool has_room = x - axes.area().x > 16.0;
+  draw_text(context, has_room ? x - 4.0 : x + 11.0, axes.area().y + 0.88 * axes.area().height, mark.text, style);
 }
 
 }  // namespace
@@ -168,12 +185,36 @@ Curve level_curve(double value, double from, double to, LineStyle style, std::st
   return curve;
 }
 
+void scale_y(Chart& chart, double factor) {
+  chart.y.low *= factor;
+  chart.y.high *= factor;
+  for (Curve& curve : chart.curves) {
+    for (auto* values : {&curve.y, &curve.low, &curve.high}) {
+      for (double& value : *values) value *= factor;
+    }
+  }
+}
+
+double note_height(cairo_t* context, double width, const std::string& note) {
+  return 2.0 + kNoteLine * static_cast<double>(wrap_to_width(context, note, width, kNoteStyle).size());
+}
+
+void draw_note(cairo_t* context, double right, double y, double width, const std::string& note) {
+  for (const std::string& line : wrap_to_width(context, note, width, kNoteStyle)) {
+    draw_text(context, right, y, line, kNoteStyle);
+    y += kNoteLine;
+  }
+}
+
 void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
-  const Rectangle legend{place.x + Axes::kLeft, place.y, place.width - Axes::kLeft, 0.0};
+  const Rectangle inner{place.x + Axes::kLeft, place.y, place.width - Axes::kLeft, 0.0};
+  // A narrow chart has its legend above the labels of the axis, too.
+  const Rectangle legend = place.width < kNarrow ? place : inner;
   const double legend_height = lay_legend(context, legend, chart, true);
   const double top = place.y + legend_height + 8.0;
-  const Axes axes({legend.x, top, legend.width - 8.0, place.y + place.height - top - Axes::kBelow - kNoteHeight},
-                  chart.x, chart.y);
+  const double note_width = place.width - 8.0;
+  const double bottom = place.y + place.height - Axes::kBelow - note_height(context, note_width, chart.note);
+  const Axes axes({inner.x, top, inner.width - 8.0, bottom - top}, chart.x, chart.y);
   const Rectangle& area = axes.area();
   cairo_save(context);
   cairo_rectangle(context, area.x, area.y, area.width, area.height);
@@ -183,6 +224,7 @@ void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
     cairo_rectangle(context, axes.x(band.from), area.y, axes.x(band.to) - axes.x(band.from), area.height);
     cairo_fill(context);
   }
+  for (const Mark& mark : chart.marks) draw_mark(context, axes, mark);
   for (const Curve& curve : chart.curves) draw_curve(context, axes, curve);
   for (const Curve& curve : chart.curves) draw_marks(context, axes, curve);
   for (const Band& band : chart.bands) {
@@ -203,8 +245,7 @@ void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
   }
   cairo_restore(context);
   axes.draw_frame(context);
-  draw_text(context, area.x + area.width, area.y + area.height + Axes::kBelow + 10.0, chart.note,
-            {.size = 10.5, .colour = kMutedInk, .anchor = Anchor::right});
+  draw_note(context, area.x + area.width, area.y + area.height + Axes::kBelow + 10.0, note_width, chart.note);
 }
 
 }  // namespace cellcrush::client

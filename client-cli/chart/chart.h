@@ -40,6 +40,13 @@ struct Band {
   std::string text;
 };
 
+/// A vertical dotted line at an x, with a small text along it.
+struct Mark {
+  double x = 0.0;
+  std::string text;
+  Colour colour = kMutedInk;
+};
+
 /// A small arrow at the upper edge where a curve leaves the chart, with a text giving its maximum.
 struct Overshoot {
   double x = 0.0;
@@ -52,10 +59,20 @@ struct Chart {
   Axis x;
   Axis y;
   std::vector<Band> bands;
+  std::vector<Mark> marks;
   std::vector<Curve> curves;
   std::vector<Overshoot> overshoots;
   std::string note;  ///< small, below the axis on the right; may be empty
 };
+
+/// Multiplies y and its axis, in other words shows it in another unit.
+void scale_y(Chart& chart, double factor);
+
+/// Height of a note within `width`.
+double note_height(cairo_t* context, double width, const std::string& note);
+
+/// Draws a small muted text whose lines end at `right`, the first at `y`.
+void draw_note(cairo_t* context, double right, double y, double width, const std::string& note);
 
 /// Draws a chart into `place`, legend, labels and note included.
 void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart);

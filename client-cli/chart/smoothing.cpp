@@ -42,6 +42,11 @@ double quantile(std::vector<double> values, double share) {
   return *nth;
 }
 
+QuadraticFit scaled(const QuadraticFit& fit, double factor) {
+  return {factor * fit.constant, factor * fit.linear, factor * fit.quadratic, std::abs(factor) * fit.largest_residual,
+          fit.point_count};
+}
+
 std::optional<QuadraticFit> find_quadratic_fit(const std::vector<double>& x, const std::vector<double>& y) {
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(x.begin(), x.end(), finite) || !std::all_of(y.begin(), y.end(), finite)) return std::nullopt;

@@ -26,6 +26,9 @@ struct QuadraticFit {
   [[nodiscard]] double at(double x) const { return constant + x * (linear + x * quadratic); }
 };
 
+/// The fit of factor times y.
+QuadraticFit scaled(const QuadraticFit& fit, double factor);
+
 /// The least-squares fit through points; x and y have equal length. Nothing with fewer than three distinct finite x,
 /// where the fit is not unique.
 std::optional<QuadraticFit> find_quadratic_fit(const std::vector<double>& x, const std::vector<double>& y);

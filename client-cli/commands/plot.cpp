@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <utility>
 
 #include "commands/commands.h"
 #include "connection/connection.h"
 #include "connection/frames.h"
 #include "plots/job_picture.h"
+#include "results/sweep_results.h"
 #include "terminal/output_file.h"
 #include "terminal/terminal.h"
 
@@ -24,6 +27,9 @@ struct PlotOptions {
   bool frames_only = false;
   bool wide = false;
   std::string logarithmic;  ///< the letters of the axes
+  bool each = false;
+  bool series = false;
+  PrintSize print;
 };
 
 // A job under the name that the user gave: its own, or the path of its result.
@@ -52,29 +58,29 @@ void plot_sweeps(Session& session, const PlotOptions& options) {
   std::vector<SweepResults> sweeps;
   for (const std::string& name : options.names) {
     sweeps.push_back({fetch_sweep(connection, name), fetch_table(connection, name)});
+    if (session.json) print_json(sweeps.back().table);
+    sweeps.back().table = charted_table(sweeps.back().table, options.each);
   }
   const auto has = [&](char axis) { return options.logarithmic.find(axis) != std::string::npos; };
-  write_file(options.file, render_sweep_picture(format, sweeps, {has('x'), has('y')}));
-  if (session.json) {
-    for (const SweepResults& results : sweeps) print_json(results.table);
-  } else {
-    fmt::print("{}\n", options.file);
-  }
+  write_file(options.file, render_sweep_picture(format, sweeps, {has('x'), has('y')}, options.series, options.print));
+  if (!session.json) fmt::print("{}\n", options.file);
 }
 
 std::string render_jobs(Connection& connection, PictureFormat format, const std::vector<NamedJob>& jobs,
                         const PlotOptions& options) {
   const NamedJob& first = jobs.front();
-  if (options.frames_only) return render_stages_picture(format, fetch_stages(connection, first.name, options));
+  if (options.frames_only) {
+    return render_stages_picture(format, fetch_stages(connection, first.name, options), options.print);
+  }
   std::vector<JobHistory> histories;
   for (const NamedJob& job : jobs) histories.push_back(fetch_drawable_history(connection, job));
-  if (histories.size() > 1) return render_comparison_picture(format, histories);
+  if (histories.size() > 1) return render_comparison_picture(format, histories, options.print);
   const std::vector<MeshFrame> stages = fetch_stages(connection, first.name, options);
   if (options.wide && stages.empty()) {
     refuse(first.job.name() + " has no frames; plot it without --wide");
   }
-  return options.wide ? render_wide_picture(format, histories.front(), stages)
-                      : render_job_picture(format, histories.front(), stages);
+  return options.wide ? render_wide_picture(format, histories.front(), stages, options.print)
+                      : render_job_picture(format, histories.front(), stages, options.print);
 }
 
 void plot_jobs(Session& session, const PlotOptions& options) {
@@ -99,6 +105,16 @@ void check_options(const PlotOptions& options) {
     refuse("plot: jobs and sweeps cannot share a chart; name only jobs or only sweeps");
   }
   if (!options.logarithmic.empty() && !sweep) refuse("plot: --log applies to sweeps only; leave it out");
+  if ((options.each || options.series) && !sweep) refuse("plot: --each and --series apply to sweeps only");
+  if (!options.print.is_default() && picture_format(options.file) == PictureFormat::png) {
+    refuse("plot: --width and --font size a print; name the file .svg or .pdf");
+  }
+  constexpr double kNarrowest = 240.0;
+  if (options.print.width(kNarrowest) < kNarrowest) {
+    refuse(fmt::format("plot: --width {:.0f}mm leaves no room for a chart with a font of {} pt; use at least {:.0f}mm",
+                       options.print.width_mm, options.print.font_pt,
+                       std::ceil(kNarrowest * options.print.scale() / 96.0 * 25.4)));
+  }
   if (frames && (sweep || options.names.size() > 1)) {
     refuse("plot: --strip, --frame-strain, --frames-only and --wide apply to a single job; name one");
   }
@@ -134,13 +150,31 @@ void add_plot_command(CLI::App& app, Session& session) {
   add_option(*command, kOutputOptions, "--log", options->logarithmic,
              "Logarithmic axes of a sweep plot: x, y or xy (default: none)")
       ->check(CLI::IsMember({"x", "y", "xy"}));
+  add_option(*command, kOutputOptions, "--each", options->each,
+             "Draw each job of a sweep instead of means over the seeds");
+  add_option(*command, kOutputOptions, "--series", options->series,
+             "Draw a sweep over two fields as curves instead of a map");
+  const std::map<std::string, double> lengths = {{"mm", 1.0}, {"cm", 10.0}, {"in", 25.4}};
+  add_option(*command, kOutputOptions, "--width", options->print.width_mm,
+             "Width in print, such as 85mm, 8.5cm or 3.3in, for .svg and .pdf; such a figure has no title (default: a "
+             "picture for the screen)")
+      ->type_name("LENGTH")
+      ->transform(CLI::AsNumberWithUnit(lengths, CLI::AsNumberWithUnit::UNIT_REQUIRED).description(""))
+      ->check(CLI::Range(20.0, 2000.0).description("20 to 2000 mm"));
+  add_option(*command, kOutputOptions, "--font", options->print.font_pt,
+             "Size of the text at the axes in print, such as 8pt; lines and marks follow it (default: 9pt)")
+      ->type_name("SIZE")
+      ->transform(
+          CLI::AsNumberWithUnit(std::map<std::string, double>{{"pt", 1.0}}, CLI::AsNumberWithUnit::UNIT_REQUIRED)
+              .description(""))
+      ->check(CLI::Range(4.0, 36.0).description("4 to 36 pt"));
   add_option(*command, kFrameOptions, "--frames-only", options->frames_only,
              "Draw the frames alone, without title and curve");
   add_option(*command, kFrameOptions, "--wide", options->wide,
              "Draw the frames beside the stress curves, as for a slide");
   add_examples(*command,
                {"cellcrush plot jobs/12 jobs/13 -o compared.svg", "cellcrush plot results/result.h5 -o crush.png",
-                "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf"});
+                "cellcrush plot sweeps/3 sweeps/4 --width 85mm --font 8pt -o sweeps.pdf"});
 }
 
 }  // namespace cellcrush::client

@@ -5,6 +5,7 @@
 #include "case_file/case_source.h"
 #include "commands/commands.h"
 #include "connection/connection.h"
+#include "results/sweep_results.h"
 #include "terminal/case_text.h"
 #include "terminal/job_list_text.h"
 #include "terminal/job_text.h"
@@ -78,6 +79,7 @@ void list_sweeps(Session& session, const ListOptions& options) {
 struct TableOptions {
   std::vector<std::string> names;
   bool csv = false;
+  bool each = false;
   int digits = kTableDigits;
 };
 
@@ -90,10 +92,10 @@ ExitCode run_table(Session& session, const TableOptions& options) {
   if (session.json) {
     print_json(table);
   } else if (options.csv) {
-    fmt::print("{}", sweep_table_csv(table));
+    fmt::print("{}", sweep_table_csv(shown_table(table, options.each)));
   } else {
     const std::string note = of_files ? "" : fetch_sweep(session.connection(), name).words().theory_note();
-    fmt::print("{}", sweep_table_text(table, note, options.digits));
+    fmt::print("{}", sweep_table_text(shown_table(table, options.each), note, options.digits));
   }
   return ExitCode::done;
 }
@@ -131,17 +133,21 @@ void add_show_commands(CLI::App& app, Session& session) {
   add_option(*list, kSelectionOptions, "--sweeps", list_options->sweeps, "List sweeps instead of jobs");
   add_examples(*list, {"cellcrush list --limit 10", "cellcrush list --filter 'state = RUNNING'",
                        "cellcrush list --sweeps --json"});
-  const auto [table, table_options] = add_command<TableOptions>(
-      app, session, kResultCommands, "table", "Print the results of a sweep, or of files, one row each", run_table);
+  const auto [table, table_options] =
+      add_command<TableOptions>(app, session, kResultCommands, "table",
+                                "Print the results of a sweep, averaged over the seeds if it varies them, or of files",
+                                run_table);
   table
       ->add_option("NAME", table_options->names,
                    "Name of a sweep, or results of `run` or `fetch` (result.h5 or its folder)")
       ->required();
   add_option(*table, kOutputOptions, "--digits", table_options->digits,
-             "Significant digits of the results; varied values are printed in full (default: 3)")
+             "Significant digits of the results; varied values have up to 6, whole ones all (default: 3)")
       ->check(CLI::Range(1, 17));
-  add_option(*table, kOutputOptions, "--csv", table_options->csv, "Print CSV with all digits");
-  add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv",
+  add_option(*table, kOutputOptions, "--each", table_options->each, "One row per job instead of means over the seeds");
+  add_option(*table, kOutputOptions, "--csv", table_options->csv,
+             "Print CSV with all digits; means with columns of their 95 % intervals and numbers of jobs");
+  add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --each --csv > table.csv",
                         "cellcrush table thin/result.h5 thick/result.h5"});
 }
 

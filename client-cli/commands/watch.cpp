@@ -7,6 +7,7 @@
 
 #include "commands/commands.h"
 #include "connection/connection.h"
+#include "results/sweep_results.h"
 #include "terminal/job_text.h"
 #include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_table.h"
@@ -61,8 +62,8 @@ ExitCode watch_sweep(Session& session, const std::string& name, const Interrupti
   if (!watched.complete) return ExitCode::interrupted;
   const auto table = fetch_table(session.connection(), name);
   session.json ? print_json(table)
-               : fmt::print("\n{}{}", sweep_table_text(table, watched.sweep.words().theory_note()),
-                            sweep_chart_text(table, find_terminal().unicode, terminal_width()));
+               : fmt::print("\n{}{}", sweep_table_text(shown_table(table, false), watched.sweep.words().theory_note()),
+                            sweep_chart_text(charted_table(table, false), find_terminal().unicode, terminal_width()));
   return watched.all_succeeded ? ExitCode::done : ExitCode::job_failed;
 }
 

@@ -199,7 +199,12 @@ v1::Sweep fetch_sweep(Connection& connection, const std::string& name) {
 v1::SweepTable fetch_table(Connection& connection, const std::string& sweep) {
   v1::GetSweepTableRequest request;
   request.set_name(sweep);
-  return call_for_pages(connection, connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
+  auto table = call_for_pages(connection, connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
+  if (std::ranges::find(table.fields(), "lattice.imperfection.seed") == table.fields().end()) return table;
+  request.set_mean_over_seeds(true);
+  auto means = call_for_pages(connection, connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
+  table.mutable_means()->Swap(means.mutable_means());
+  return table;
 }
 
 }  // namespace cellcrush::client

@@ -143,7 +143,7 @@ v1::GetHistoryResponse fetch_history(Connection& connection, const std::string& 
 v1::Job fetch_job(Connection& connection, const std::string& name);
 v1::Sweep fetch_sweep(Connection& connection, const std::string& name);
 
-/// The whole table of a sweep.
+/// The whole table of a sweep, with the means over the seeds if it varies them.
 v1::SweepTable fetch_table(Connection& connection, const std::string& sweep);
 
 }  // namespace cellcrush::client

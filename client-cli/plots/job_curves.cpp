@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <string>
@@ -13,12 +14,11 @@
 #include "chart/colour_map.h"
 #include "chart/smoothing.h"
 #include "results/energy_terms.h"
+#include "results/sweep_results.h"
 #include "terminal/number_text.h"
 
 namespace cellcrush::client {
 namespace {
-
-constexpr double kJoulePerMillijoule = 1e-3;
 
 // Of the terms in turn; once all are used they come again, dashed. Plastic work, the first, is red.
 LineStyle style_of(std::size_t term) {
@@ -70,12 +70,41 @@ double find_top(const JobHistory& history, const PlateCurves& smooth) {
   return top > 0.0 ? top : 1.0;
 }
 
+// A stress in the unit of the axis, whose upper end is in MPa.
+std::string stress_text(const Chart& chart, double stress, int digits = 3) {
+  const ShownUnit unit = unit_by_size("MPa", chart.y.high);
+  return number_text(unit.factor * stress, digits) + ' ' + unit.name;
+}
+
+// Shows a finished chart of stresses in the unit of its size.
+void show_stress(Chart& chart) {
+  const ShownUnit unit = unit_by_size("MPa", chart.y.high);
+  chart.y.label = fmt::format("nominal stress ({})", unit.name);
+  scale_y(chart, unit.factor);
+}
+
+// Densification, and the first of each kind of warning that puts the result in doubt.
+void add_marks(Chart& chart, const v1::Summary& summary, const Colour& colour) {
+  if (summary.has_densification_strain()) {
+    const double strain = summary.densification_strain();
+    chart.marks.push_back({strain, "densification " + number_text(strain, 2), colour});
+  }
+  for (const v1::Warning& warning : summary.warnings()) {
+    if (warning.kind() == v1::Warning::BORDERS_NEAR || warning.strain() <= 0.0) continue;  // costs time only
+    std::string kind = v1::Warning::Kind_Name(warning.kind());
+    std::ranges::transform(kind, kind.begin(), [](unsigned char letter) {
+      return letter == '_' ? ' ' : static_cast<char>(std::tolower(letter));
+    });
+    chart.marks.push_back({warning.strain(), "in doubt: " + kind, colour});
+  }
+}
+
 // An arrow where the smoothed stress of a plate most exceeds the chart.
 void add_overshoot(Chart& chart, const std::vector<double>& strain, const std::vector<double>& stress, Colour colour) {
   const auto peak = std::max_element(stress.begin(), stress.end());
   if (peak == stress.end() || *peak <= 1.001 * chart.y.high) return;
   chart.overshoots.push_back(
-      {strain[static_cast<std::size_t>(peak - stress.begin())], number_text(*peak, 2) + " MPa", colour});
+      {strain[static_cast<std::size_t>(peak - stress.begin())], stress_text(chart, *peak, 2), colour});
 }
 
 double highest(const PlateCurves& curves) {
@@ -88,19 +117,19 @@ double highest(const PlateCurves& curves) {
 Chart empty_chart(double strain, double top, double peak) {
   Chart chart;
   chart.x = {0.0, std::max(strain, 0.01), "nominal strain"};
-  chart.y = {0.0, top, "nominal stress (MPa)"};
+  chart.y = {0.0, top, {}};
   chart.note = fmt::format("moving mean over {:.0f} % strain", 100 * kSmoothingWindow);
   if (peak > 1.001 * top)
-    chart.note += fmt::format("; single samples reach {} MPa, off the chart", number_text(peak, 2));
+    chart.note += fmt::format("; single samples reach {}, off the chart", stress_text(chart, peak, 2));
   return chart;
 }
 
-std::string with_plateau(const char* plate, bool known, double stress) {
-  return known ? fmt::format("{}: plateau {} MPa", plate, number_text(stress)) : plate;
+std::string with_plateau(const Chart& chart, const char* plate, bool known, double stress) {
+  return known ? fmt::format("{}: plateau {}", plate, stress_text(chart, stress)) : plate;
 }
 
 std::string theory_name(const char* theory, double stress, const Chart& chart) {
-  return fmt::format("{}: {} MPa{}", theory, number_text(stress), stress > chart.y.high ? ", beyond the chart" : "");
+  return fmt::format("{}: {}{}", theory, stress_text(chart, stress), stress > chart.y.high ? ", beyond the chart" : "");
 }
 
 // A curve in its own colour, dashed once all colours are used.
@@ -173,7 +202,7 @@ Chart build_energy_chart(const JobHistory& history) {
     Curve curve{{}, {}, style, name};
     bool any = even_if_zero;
     for (const v1::Sample& sample : history.samples) {
-      const double value = kJoulePerMillijoule * energy(sample);
+      const double value = energy(sample);
       if (!std::isfinite(sample.strain() + value)) continue;
       curve.x.push_back(sample.strain());
       curve.y.push_back(value);
@@ -192,7 +221,9 @@ Chart build_energy_chart(const JobHistory& history) {
       [](const v1::Sample& sample) { return sample.energy_residual_mj(); });
   chart.x = {0.0, std::max(strain, 0.01), "nominal strain"};
   const double room = high > low ? 0.06 * (high - low) : 1.0;
-  chart.y = {low < 0.0 ? low - room : 0.0, high + room, "energy (J)"};
+  const ShownUnit unit = unit_by_size("mJ", high);
+  chart.y = {low < 0.0 ? low - room : 0.0, high + room, fmt::format("energy ({})", unit.name)};
+  scale_y(chart, unit.factor);
   chart.note = "totals since the start; the work equals the sum of the other curves";
   return chart;
 }
@@ -201,7 +232,7 @@ std::string picture_name(const v1::Job& job) {
   const std::string& title = job.case_().title();
   std::string name = title.empty() ? job.name() : title;
   if (!job.case_().loading().has_speed_m_per_s()) return name;
-  const std::string speed = fmt::format("{} m/s", job.case_().loading().speed_m_per_s());
+  const std::string speed = short_text(job.case_().loading().speed_m_per_s()) + " m/s";
   return name.find(speed) == std::string::npos ? name + ", " + speed : name;
 }
 
@@ -232,7 +263,7 @@ Chart build_job_chart(const JobHistory& history) {
     chart.curves.push_back({smooth.strain,
                             plate.smooth,
                             {plate.colour, 2.0, {}},
-                            with_plateau(plate.name, plate.has_plateau, plate.plateau)});
+                            with_plateau(chart, plate.name, plate.has_plateau, plate.plateau)});
     add_overshoot(chart, smooth.strain, plate.smooth, plate.colour);
   }
   const double low = summary.plateau_window_low();
@@ -253,6 +284,9 @@ Chart build_job_chart(const JobHistory& history) {
       add_theory("shock theory, measured jumps (Eq. 52)", summary.front().shock_mpa(), {10.0, 3.0, 2.0, 3.0});
     add_theory("quasi-static theory (Gibson-Ashby)", summary.theory().gibson_ashby_mpa(), {2.0, 3.0});
   }
+  if (const std::string absent = absent_theory_text(summary); !absent.empty()) chart.note += "; " + absent;
+  add_marks(chart, summary, kMutedInk);
+  show_stress(chart);
   return chart;
 }
 
@@ -269,9 +303,6 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
     const Colour colour = kSeriesColours[i % kSeriesColours.size()];
     std::string name = picture_name(job);
     if (uses[name] > 1) name += " (" + job.name() + ")";
-    if (job.summary().has_plateau_stress_impact_mpa()) {
-      name += fmt::format(": plateau {} MPa", number_text(job.summary().plateau_stress_impact_mpa()));
-    }
     curves.push_back({smooth.strain, smooth.impact, {colour, 2.0, {}}, name});
     LineStyle dashed{colour, 1.4, {}};
     dashed.dashes = {5.0, 3.0};
@@ -284,6 +315,14 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
   for (const Curve& curve : curves) add_overshoot(chart, curve.x, curve.y, curve.style.colour);
   chart.note += "; solid: impact plate, dashed: support plate";
   chart.curves = std::move(curves);
+  for (std::size_t i = 0; i < histories.size(); ++i) {
+    const v1::Summary& summary = histories[i].job.summary();
+    if (summary.has_plateau_stress_impact_mpa()) {
+      chart.curves[2 * i].name += ": plateau " + stress_text(chart, summary.plateau_stress_impact_mpa());
+    }
+    add_marks(chart, summary, kSeriesColours[i % kSeriesColours.size()]);
+  }
+  show_stress(chart);
   return chart;
 }
 
@@ -301,7 +340,11 @@ Chart build_node_chart(const JobHistory& history) {
     add_energy(chart, history, &v1::Sample::energy_elastic_mj, "elastic");
     add_energy(chart, history, &v1::Sample::energy_plastic_mj, "plastic");
     add_energy(chart, history, &v1::Sample::work_external_mj, "work done on the frame");
-    chart.y.label = "energy (mJ)";
+    fit_axes(chart);
+    const ShownUnit unit = unit_by_size("mJ", chart.y.high);
+    chart.y.label = fmt::format("energy ({})", unit.name);
+    scale_y(chart, unit.factor);
+    return chart;
   }
   fit_axes(chart);
   return chart;

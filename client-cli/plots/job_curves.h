@@ -15,7 +15,7 @@ struct JobHistory {
 };
 
 /// Stress at both plates against strain, smoothed over 2 % strain, with the samples as thin lines behind, the plateau
-/// stresses over their window, and theory.
+/// stresses over their window, theory, and marks at densification and at warnings that put the result in doubt.
 Chart build_job_chart(const JobHistory& history);
 
 /// The smoothed curves of several jobs, one colour per job: impact plate solid, support plate dashed.
@@ -24,7 +24,7 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories);
 /// A job's label in a picture: its title, or else its name, and its speed.
 std::string picture_name(const v1::Job& job);
 
-/// The energy ledger of a crush against strain, in J: the work of the plates, and one line for each way it was used.
+/// The energy ledger of a crush against strain: the work of the plates, and one line for each way it was used.
 /// Terms that stay 0 are omitted, except the residual.
 Chart build_energy_chart(const JobHistory& history);
 

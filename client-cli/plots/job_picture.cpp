@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "chart/colour_map.h"
 #include "plots/job_curves.h"
 #include "plots/stage_panels.h"
+#include "plots/sweep_map.h"
 #include "terminal/case_text.h"
 #include "terminal/summary_text.h"
 
@@ -18,7 +20,6 @@ namespace {
 constexpr double kWidth = 1000.0;
 constexpr double kSweepWidth = 720.0;
 constexpr double kMargin = 26.0;
-constexpr double kInner = kWidth - 2.0 * kMargin;
 constexpr double kTitleHeight = 50.0;
 constexpr double kColourBarRoom = 350.0;  // of the subtitle's line
 constexpr double kChartHeight = 400.0;
@@ -27,16 +28,36 @@ constexpr double kChartGap = 14.0;
 const TextStyle kTitleStyle{.size = 18.0, .bold = true};
 const TextStyle kSubtitleStyle{.size = 12.5, .colour = kMutedInk};
 
-void draw_title(cairo_t* context, const std::string& title, const std::string& subtitle, double width,
-                double subtitle_width) {
+// Where the parts of a picture are: one of a given width in print has no title and hardly a margin.
+struct Page {
+  double width;
+  double margin;
+  double top;  ///< below the title
+
+  Page(const PrintSize& print, double default_width)
+      : width(print.width(default_width)),
+        margin(print.width_mm > 0.0 ? 4.0 : kMargin),
+        top(margin + (print.width_mm > 0.0 ? 0.0 : kTitleHeight)) {}
+
+  [[nodiscard]] double inner() const { return width - 2.0 * margin; }
+  [[nodiscard]] bool has_title() const { return top > margin; }
+  // The height of a chart: never more than its width.
+  [[nodiscard]] double chart_height(double highest) const { return std::min(highest, std::max(inner(), 240.0)); }
+};
+
+void draw_title(cairo_t* context, const Page& page, const std::string& title, const std::string& subtitle,
+                double subtitle_room = 0.0) {
+  if (!page.has_title()) return;
+  const double width = page.inner();
+  const double subtitle_width = width - subtitle_room;
   draw_text(context, kMargin, kMargin + 14.0, fit_text(context, title, width, kTitleStyle), kTitleStyle);
   draw_text(context, kMargin, kMargin + 36.0, fit_text(context, subtitle, subtitle_width, kSubtitleStyle),
             kSubtitleStyle);
 }
 
-// (right, top) is the corner of the bar.
-void draw_plastic_bar(cairo_t* context, double top) {
-  draw_colour_bar(context, kWidth - kMargin - 6.0, top, 150.0, "plastic fraction of the wall");
+void draw_plastic_bar(cairo_t* context, const Page& page, double top) {
+  const double width = std::min(150.0, 0.4 * page.inner());
+  draw_colour_bar(context, page.width - page.margin - 6.0, top, width, "plastic fraction of the wall");
 }
 
 std::string subtitle_of(const v1::Job& job) {
@@ -59,7 +80,7 @@ std::string sweep_subtitle(const SweepResults& results) {
   const v1::SweepTable& table = results.table;
   std::string fields;
   for (const std::string& field : table.fields()) fields += (fields.empty() ? "" : ", ") + axis_label(field);
-  return fmt::format("{} jobs over {}   ({})", table.rows_size(), fields, results.sweep.name());
+  return fmt::format("{} jobs over {}   ({})", results.sweep.jobs_size(), fields, results.sweep.name());
 }
 
 }  // namespace
@@ -77,83 +98,112 @@ LatticeStage lattice_stage(const MeshFrame& frame) {
           .time_s = field.time_s()};
 }
 
-std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& frames) {
+std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& frames,
+                               const PrintSize& print) {
   const std::vector<LatticeStage> stages = lattice_stages(frames);
-  constexpr double kTop = kMargin + kTitleHeight;
-  const StagePanels panels = stages.empty() ? StagePanels{.bottom = kTop} : lay_stages(stages, kMargin, kTop, kInner);
+  const Page page(print, kWidth);
+  const double bar_room = stages.empty() || page.has_title() ? 0.0 : kColourBarHeight + kChartGap;
+  const StagePanels panels =
+      stages.empty() ? StagePanels{.bottom = page.top} : lay_stages(stages, page.margin, page.top, page.inner());
   const bool plates = history.job.words().plates();
-  const double curves_bottom = panels.bottom + kChartHeight + kChartGap;
-  const double height = curves_bottom + (plates ? kEnergyHeight : 0.0) + kMargin;
-  return render_picture(format, kWidth, height, [&](cairo_t* context) {
-    draw_title(context, fmt::format("{} ({})", picture_name(history.job), history.job.name()), subtitle_of(history.job),
-               kInner, kInner - kColourBarRoom);
-    if (!stages.empty()) {
-      draw_plastic_bar(context, kMargin + 26.0);
-      draw_stages(context, panels, stages);
-    }
-    draw_chart(context, {kMargin, panels.bottom, kInner, kChartHeight},
-               plates ? build_job_chart(history) : build_node_chart(history));
-    if (plates) draw_chart(context, {kMargin, curves_bottom, kInner, kEnergyHeight}, build_energy_chart(history));
-  });
+  const double chart_top = panels.bottom + bar_room;
+  const double chart_height = page.chart_height(kChartHeight);
+  const double energy_top = chart_top + chart_height + kChartGap;
+  const double energy_height = plates ? page.chart_height(kEnergyHeight) : 0.0;
+  return render_picture(
+      format, page.width, energy_top + energy_height + page.margin,
+      [&](cairo_t* context) {
+        draw_title(context, page, fmt::format("{} ({})", picture_name(history.job), history.job.name()),
+                   subtitle_of(history.job), kColourBarRoom);
+        if (!stages.empty()) {
+          draw_plastic_bar(context, page, page.has_title() ? page.margin + 26.0 : panels.bottom);
+          draw_stages(context, panels, stages);
+        }
+        draw_chart(context, {page.margin, chart_top, page.inner(), chart_height},
+                   plates ? build_job_chart(history) : build_node_chart(history));
+        if (plates) {
+          draw_chart(context, {page.margin, energy_top, page.inner(), energy_height}, build_energy_chart(history));
+        }
+      },
+      print);
 }
 
-std::string render_wide_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& frames) {
+std::string render_wide_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& frames,
+                                const PrintSize& print) {
   const std::vector<LatticeStage> stages = lattice_stages(frames);
-  constexpr double kTop = kMargin + kTitleHeight;
-  constexpr double kLeft = 0.42 * kInner;
-  constexpr double kChartLeft = kMargin + kLeft + kChartGap;
-  const StagePanels panels = lay_stages(stages, kMargin, kTop, kLeft);
-  const double height = std::max(panels.bottom - kTop, kChartHeight);
-  return render_picture(format, kWidth, kTop + height + kMargin, [&](cairo_t* context) {
-    draw_title(context, fmt::format("{} ({})", picture_name(history.job), history.job.name()), subtitle_of(history.job),
-               kInner, kInner - kColourBarRoom);
-    draw_plastic_bar(context, kMargin + 26.0);
-    draw_stages(context, panels, stages);
-    draw_chart(context, {kChartLeft, kTop, kWidth - kMargin - kChartLeft, height},
-               history.job.words().plates() ? build_job_chart(history) : build_node_chart(history));
-  });
+  const Page page(print, kWidth);
+  const double left = 0.42 * page.inner();
+  const double chart_left = page.margin + left + kChartGap;
+  const StagePanels panels = lay_stages(stages, page.margin, page.top, left);
+  const double bar_room = page.has_title() ? 0.0 : kColourBarHeight;
+  const double height = std::max(panels.bottom - page.top + bar_room, page.chart_height(kChartHeight));
+  return render_picture(
+      format, page.width, page.top + height + page.margin,
+      [&](cairo_t* context) {
+        draw_title(context, page, fmt::format("{} ({})", picture_name(history.job), history.job.name()),
+                   subtitle_of(history.job), kColourBarRoom);
+        if (page.has_title()) {
+          draw_plastic_bar(context, page, page.margin + 26.0);
+        } else {
+          draw_colour_bar(context, page.margin + left, panels.bottom, 0.3 * left, "plastic fraction");
+        }
+        draw_stages(context, panels, stages);
+        draw_chart(context, {chart_left, page.top, page.width - page.margin - chart_left, height},
+                   history.job.words().plates() ? build_job_chart(history) : build_node_chart(history));
+      },
+      print);
 }
 
-std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& frames) {
+std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& frames, const PrintSize& print) {
   const std::vector<LatticeStage> stages = lattice_stages(frames);
   constexpr double kNarrowMargin = 12.0;
-  const StagePanels panels = lay_stages(stages, kMargin, kNarrowMargin, kInner);
-  const double height = panels.bottom + kColourBarHeight + kNarrowMargin;
-  return render_picture(format, kWidth, height, [&](cairo_t* context) {
-    draw_stages(context, panels, stages);
-    draw_plastic_bar(context, panels.bottom);
-  });
+  const Page page(print, kWidth);
+  const double top = std::min(page.margin, kNarrowMargin);
+  const StagePanels panels = lay_stages(stages, page.margin, top, page.inner());
+  return render_picture(
+      format, page.width, panels.bottom + kColourBarHeight + top,
+      [&](cairo_t* context) {
+        draw_stages(context, panels, stages);
+        draw_plastic_bar(context, page, panels.bottom);
+      },
+      print);
 }
 
-std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories) {
-  const double height =
-      kMargin + kTitleHeight + 1.2 * kChartHeight + 20.0 * static_cast<double>(histories.size()) + kMargin;
-  return render_picture(format, kWidth, height, [&](cairo_t* context) {
-    draw_title(context, fmt::format("{} jobs compared", histories.size()), "plate stress against nominal strain",
-               kInner, kInner);
-    const double top = kMargin + kTitleHeight;
-    draw_chart(context, {kMargin, top, kInner, height - top - kMargin}, build_comparison_chart(histories));
-  });
+std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories,
+                                      const PrintSize& print) {
+  const Page page(print, kWidth);
+  const double chart_height = page.chart_height(1.2 * kChartHeight) + 20.0 * static_cast<double>(histories.size());
+  return render_picture(
+      format, page.width, page.top + chart_height + page.margin,
+      [&](cairo_t* context) {
+        draw_title(context, page, fmt::format("{} jobs compared", histories.size()),
+                   "plate stress against nominal strain");
+        draw_chart(context, {page.margin, page.top, page.inner(), chart_height}, build_comparison_chart(histories));
+      },
+      print);
 }
 
 std::string render_sweep_picture(PictureFormat format, const std::vector<SweepResults>& sweeps,
-                                 const LogarithmicAxes& logarithmic) {
-  constexpr double kTop = kMargin + kTitleHeight;
-  constexpr double kInnerWidth = kSweepWidth - 2.0 * kMargin;
-  const Chart chart = build_sweep_chart(sweeps, logarithmic);
+                                 const LogarithmicAxes& logarithmic, bool series, const PrintSize& print) {
+  const Page page(print, kSweepWidth);
+  const auto map = series || sweeps.size() > 1 ? std::nullopt : build_sweep_map(sweeps.front().table, logarithmic);
+  const Chart chart = map ? Chart() : build_sweep_chart(sweeps, logarithmic);
   // A legend of many series takes more lines.
-  const double chart_height = kChartHeight + 60.0 + 8.0 * static_cast<double>(chart.curves.size());
+  const double legend = map ? 0.0 : 8.0 * static_cast<double>(chart.curves.size());
+  const double chart_height = page.chart_height(kChartHeight + 60.0) + legend;
   const std::string& title = sweeps.front().sweep.case_().title();
-  return render_picture(format, kSweepWidth, kTop + chart_height + kMargin, [&](cairo_t* context) {
-    if (sweeps.size() > 1) {
-      draw_title(context, "Plateau stress", fmt::format("{} sweeps over {}", sweeps.size(), chart.x.label), kInnerWidth,
-                 kInnerWidth);
-    } else {
-      draw_title(context, title.empty() ? "Plateau stress" : title, sweep_subtitle(sweeps.front()), kInnerWidth,
-                 kInnerWidth);
-    }
-    draw_chart(context, {kMargin, kTop, kInnerWidth, chart_height}, chart);
-  });
+  return render_picture(
+      format, page.width, page.top + chart_height + page.margin,
+      [&](cairo_t* context) {
+        if (sweeps.size() > 1) {
+          draw_title(context, page, "Plateau stress", fmt::format("{} sweeps over {}", sweeps.size(), chart.x.label));
+        } else {
+          draw_title(context, page, title.empty() ? "Plateau stress" : title, sweep_subtitle(sweeps.front()));
+        }
+        const Rectangle place{page.margin, page.top, page.inner(), chart_height};
+        map ? draw_sweep_map(context, place, *map) : draw_chart(context, place, chart);
+      },
+      print);
 }
 
 std::string render_movie_frame(const LatticeStage& stage, const Box& box) {

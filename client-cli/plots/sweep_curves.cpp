@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -14,12 +15,18 @@
 #include "command_error.h"
 #include "results/field_value.h"
 #include "results/sweep_results.h"
+#include "terminal/number_text.h"
 
 namespace cellcrush::client {
 
 namespace {
 
 constexpr int kCurvePoints = 200;
+
+constexpr const char* kImpactPath = "plateau_stress_impact_mpa";
+constexpr const char* kSupportPath = "plateau_stress_support_mpa";
+constexpr const char* kDensified = "d";
+constexpr const char* kWarned = "!";
 
 double impact(const v1::Summary& summary) { return summary.plateau_stress_impact_mpa(); }
 double support(const v1::Summary& summary) { return summary.plateau_stress_support_mpa(); }
@@ -111,23 +118,50 @@ void add_measured_shock(Chart& chart, const ResultSeries& series, const Colour& 
   if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
 }
 
+// A curve of means with error bars of their 95 % intervals; without bars where the rows are single jobs.
+void add_intervals(Curve& curve, const ResultSeries& series, const char* path) {
+  for (std::size_t i = 0; i < series.means.size(); ++i) {
+    const double interval = find_interval(*series.means[i], path).value_or(0.0);
+    curve.low.push_back(curve.y[i] - interval);
+    curve.high.push_back(curve.y[i] + interval);
+  }
+}
+
+// Marks points whose plateau window reaches into densification, and those with warnings.
+void add_doubts(Curve& curve, const ResultSeries& series) {
+  bool any = false;
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    const v1::Summary& summary = *series.summaries[i];
+    const bool densified =
+        summary.has_densification_strain() && summary.densification_strain() < summary.plateau_window_high();
+    const bool warned = series.means.empty() ? summary.warnings_size() > 0 : series.means[i]->warned_count() > 0;
+    curve.labels.push_back(std::string(densified ? kDensified : "") + (warned ? kWarned : ""));
+    any = any || densified || warned;
+  }
+  if (!any) curve.labels.clear();
+}
+
 // The plateaus of one series of a sweep with theory: named and in the colours of the plates if it is the only one.
-void add_series(Chart& chart, const ResultSeries& series, bool speed, bool is_only, const Colour& colour) {
+void add_series(Chart& chart, const ResultSeries& series, bool speed, bool is_only, const Colour& colour,
+                const ShownUnit& unit) {
   const auto fit = speed ? find_plateau_fit(series) : std::nullopt;
   const Colour impact_colour = is_only ? kImpactColour : colour;
-  chart.curves.push_back({series.x,
-                          values_of(series, impact),
-                          {impact_colour, fit ? 0.0 : 1.6, {}},
-                          is_only ? "impact plate" : series.name,
-                          Marker::disc});
-  chart.curves.push_back({series.x,
-                          values_of(series, support),
-                          {is_only ? kSupportColour : colour, is_only ? 1.2 : 0.9, {}},
-                          is_only ? "support plate" : "",
-                          Marker::square});
+  Curve& at_impact = chart.curves.emplace_back(Curve{series.x,
+                                                     values_of(series, impact),
+                                                     {impact_colour, fit ? 0.0 : 1.6, {}},
+                                                     is_only ? "impact plate" : series.name,
+                                                     Marker::disc});
+  add_intervals(at_impact, series, kImpactPath);
+  add_doubts(at_impact, series);
+  Curve& at_support = chart.curves.emplace_back(Curve{series.x,
+                                                      values_of(series, support),
+                                                      {is_only ? kSupportColour : colour, is_only ? 1.2 : 0.9, {}},
+                                                      is_only ? "support plate" : "",
+                                                      Marker::square});
+  add_intervals(at_support, series, kSupportPath);
   if (fit) {
     chart.curves.push_back(sampled(*fit, series.x.front(), series.x.back(), chart.x.logarithmic,
-                                   {impact_colour, 1.6, {}}, is_only ? fit_name(*fit) : ""));
+                                   {impact_colour, 1.6, {}}, is_only ? fit_name(scaled(*fit, unit.factor)) : ""));
   }
   Colour faint = colour;
   faint.opacity = 0.55;
@@ -139,7 +173,10 @@ void add_series(Chart& chart, const ResultSeries& series, bool speed, bool is_on
 void add_sweep(Chart& chart, const ResultSeries& series, bool speed, std::size_t index) {
   const Colour colour = kSeriesColours[index % kSeriesColours.size()];
   const Marker marker = kSeriesMarkers[index % kSeriesMarkers.size()];
-  chart.curves.push_back({series.x, values_of(series, impact), {colour, 1.6, {}}, series.name, marker});
+  Curve& plateau =
+      chart.curves.emplace_back(Curve{series.x, values_of(series, impact), {colour, 1.6, {}}, series.name, marker});
+  add_intervals(plateau, series, kImpactPath);
+  add_doubts(plateau, series);
   if (!has_theory(series)) return;
   Colour faint = colour;
   faint.opacity = 0.55;
@@ -198,6 +235,30 @@ void fit_stress_axis(Chart& chart, bool logarithmic) {
 
 void add_note(Chart& chart, const std::string& sentence) { chart.note += (chart.note.empty() ? "" : "; ") + sentence; }
 
+// What bars, letters and absent theories mean, where there are any.
+void add_notes(Chart& chart, const std::vector<ResultSeries>& all) {
+  std::string labels;
+  for (const Curve& curve : chart.curves) {
+    for (const std::string& label : curve.labels) labels += label;
+  }
+  std::size_t points = 0;
+  std::map<std::string, std::size_t> absent;
+  bool has_means = false;
+  for (const ResultSeries& series : all) {
+    has_means = has_means || !series.means.empty();
+    for (const v1::Summary* summary : series.summaries) {
+      ++points;
+      if (const std::string text = absent_theory_text(*summary); !text.empty()) ++absent[text];
+    }
+  }
+  if (has_means) add_note(chart, "points: means over the seeds, bars: 95 % confidence interval");
+  if (labels.find(kDensified) != std::string::npos) add_note(chart, "d: densified within the plateau window");
+  if (labels.find(kWarned) != std::string::npos) add_note(chart, "!:\u00A0with\u00A0warnings");
+  for (const auto& [text, count] : absent) {
+    add_note(chart, count < points ? fmt::format("{} at {} of {} points", text, count, points) : text);
+  }
+}
+
 // A common first field; REQUIRES: there is a sweep.
 const std::string& find_field(const std::vector<SweepResults>& sweeps) {
   for (const SweepResults& results : sweeps) {
@@ -218,33 +279,39 @@ std::string axis_label(const std::string& field) {
 Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const LogarithmicAxes& logarithmic) {
   const auto all = collect_series(sweeps);
   if (all.empty()) {
-    refuse(
-        "no job of the sweep has succeeded with a plateau yet; `cellcrush table` shows the state of "
-        "its jobs");
+    refuse(kNoPlateauYet);
   }
   const std::string& field = find_field(sweeps);
   const bool speed = varies_speed_first(sweeps.front().table);
   Chart chart;
   chart.x = build_axis(field, all, logarithmic.x);
-  chart.y.label = "plateau stress (MPa)";
+  double largest = 0.0;
+  for (const ResultSeries& series : all) {
+    for (const double stress : values_of(series, impact)) largest = std::max(largest, stress);
+  }
+  const ShownUnit unit = unit_by_size("MPa", largest);
+  chart.y.label = fmt::format("plateau stress ({})", unit.name);
   if (sweeps.size() > 1) {
     for (std::size_t i = 0; i < all.size(); ++i) add_sweep(chart, all[i], speed, i);
     add_note(chart, "impact plate; dashed: shock theory (Eq. 51)");
   } else if (all.size() == 1) {
-    add_series(chart, all.front(), speed, true, kImpactColour);
+    add_series(chart, all.front(), speed, true, kImpactColour, unit);
   } else {
     for (std::size_t i = 0; i < all.size(); ++i)
-      add_series(chart, all[i], speed, false, kSeriesColours[i % kSeriesColours.size()]);
+      add_series(chart, all[i], speed, false, kSeriesColours[i % kSeriesColours.size()], unit);
     chart.note = "discs: impact plate; squares: support plate; ";
     if (speed) chart.note += "solid: quadratic fit; ";
     chart.note += "dashed: Eq. 51; crosses: Eq. 52; dotted: Gibson-Ashby";
   }
+  scale_y(chart, unit.factor);
   fit_stress_axis(chart, logarithmic.y);
+  add_notes(chart, all);
   std::size_t drawn = 0;
   for (const ResultSeries& series : all) drawn += series.x.size();
   std::size_t rows = 0;
   for (const SweepResults& results : sweeps) rows += static_cast<std::size_t>(results.table.rows_size());
-  if (drawn < rows) add_note(chart, fmt::format("{} of {} jobs have no plateau", rows - drawn, rows));
+  const char* what = sweeps.front().table.means().empty() ? "jobs" : "points";
+  if (drawn < rows) add_note(chart, fmt::format("{} of {} {} have no plateau", rows - drawn, rows, what));
   return chart;
 }
 

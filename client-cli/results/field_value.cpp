@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <string>
 
 #include "case_file/field_names.h"
 #include "help/field_rules.h"
+#include "terminal/number_text.h"
 
 namespace cellcrush::client {
 
@@ -77,6 +79,13 @@ std::string field_value_text(const v1::Case& scene, std::string_view path) {
     return is_there ? scalar_text(*message, *field) : std::string();
   }
   return {};
+}
+
+std::string short_value_text(const v1::Case& scene, std::string_view path) {
+  const std::string text = field_value_text(scene, path);
+  double value = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  return read.ec == std::errc() && read.ptr == text.data() + text.size() && !text.empty() ? short_text(value) : text;
 }
 
 FieldWords words_of(std::string_view path) {
@@ -159,7 +168,7 @@ std::vector<std::string> find_varied_fields(const std::vector<const v1::Case*>& 
 std::string field_values_text(const v1::Case& scene, const std::vector<std::string>& fields) {
   std::string text;
   for (const std::string& field : fields) {
-    const std::string value = field_value_text(scene, field);
+    const std::string value = short_value_text(scene, field);
     if (value.empty()) continue;
     text += (text.empty() ? "" : ", ") + equation_text(field, value, fields);
   }

@@ -12,6 +12,9 @@ namespace cellcrush::client {
 /// text; empty if it is absent.
 std::string field_value_text(const v1::Case& scene, std::string_view path);
 
+/// The same to read, in six digits; not exact.
+std::string short_value_text(const v1::Case& scene, std::string_view path);
+
 /// A field's label: "lattice.hexagon.wall_thickness_mm" is "wall thickness" in "mm". The unit may be empty.
 struct FieldWords {
   std::string name;

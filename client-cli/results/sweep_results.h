@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cellcrush/v1/sweep.pb.h"
@@ -13,23 +14,39 @@ namespace cellcrush::client {
 /// A result of a job, as a column of a sweep's table.
 struct ResultColumn {
   std::array<const char*, 3> heading;                          ///< its lines, such as "plateau", "impact", "plate"
-  const char* unit;                                            ///< the line below them
+  const char* unit;                                            ///< of the summary, as in unit_by_size()
   const char* field;                                           ///< name with its unit, for CSV
-  double scale;                                                ///< from the summary's unit to the heading's
+  const char* path;                                            ///< in Summary
+  const char* absent;                                          ///< instead of a value, beside a plateau
   std::optional<double> (*value)(const v1::Summary& summary);  ///< in the summary's unit
 };
 
 /// The columns of a sweep's table, in their order.
 const std::vector<ResultColumn>& result_columns();
 
-/// A value of a varied field in the shortest form that reads back exactly: "50", "0.35".
-std::string value_text(double value);
+/// The table with one row per job; or, unless `each`, with one row for each of its means, if it has any: without the
+/// seed among its fields, and with a job that has succeeded if any has, whose summary holds the means. Row and mean
+/// have the same index; a table with rows per job has no means.
+v1::SweepTable shown_table(const v1::SweepTable& table, bool each);
+
+/// The same for a chart: with one row per job also if it would else vary no field.
+v1::SweepTable charted_table(const v1::SweepTable& table, bool each);
+
+/// A mean by the path of its result; null if there is none.
+const v1::SweepTable::Mean* find_mean(const v1::SweepTable::SeedMeans& means, std::string_view path);
+
+/// Half of the 95 % confidence interval of a mean; nothing if it is unknown or within round-off.
+std::optional<double> find_interval(const v1::SweepTable::SeedMeans& means, std::string_view path);
+
+/// Why a theory is missing beside a plateau stress, such as "Eq. 52: no front"; empty if none is.
+std::string absent_theory_text(const v1::Summary& summary);
 
 /// Rows of a sweep that differ only in the first varied field, limited to those with a plateau at both plates.
 struct ResultSeries {
   std::string name;                           ///< the other fields' values, "wall thickness = 0.3 mm"; may be empty
   std::vector<double> x;                      ///< the first field's values, ascending
-  std::vector<const v1::Summary*> summaries;  ///< of the jobs in the table, which outlives them
+  std::vector<const v1::Summary*> summaries;  ///< of the rows in the table, which outlives them
+  std::vector<const v1::SweepTable::SeedMeans*> means;  ///< of the rows; empty in a table with one row per job
 };
 
 /// A sweep's succeeded jobs as series, in the order of first appearance in the table.

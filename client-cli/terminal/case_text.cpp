@@ -137,8 +137,10 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   table.add({"predicted result file", size_text(check.predicted_bytes())});
   if (check.predicted_memory_bytes() > 0) table.add({"predicted memory", size_text(check.predicted_memory_bytes())});
   if (check.theory().gibson_ashby_mpa() > 0) {
-    table.add({"theory: quasi-static (Gibson-Ashby)", number_text(check.theory().gibson_ashby_mpa()), "MPa"});
-    table.add({"theory: shock (Eq. 51)", number_text(check.theory().shock_mpa()), "MPa"});
+    const ShownUnit stress = unit_by_size("MPa", check.theory().shock_mpa());
+    table.add({"theory: quasi-static (Gibson-Ashby)", number_text(stress.factor * check.theory().gibson_ashby_mpa()),
+               stress.name});
+    table.add({"theory: shock (Eq. 51)", number_text(stress.factor * check.theory().shock_mpa()), stress.name});
     table.add({"theory: densification strain", number_text(check.theory().densification_strain())});
   }
   const v1::Case& completed = check.completed_case();

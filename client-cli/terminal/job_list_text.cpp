@@ -79,7 +79,10 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   columns.insert(columns.end(), {Align::right, Align::left, Align::left, Align::left, Align::left});
   Table table(columns);
   std::vector<std::string> headings = {"NAME", "STATE", "DONE", "PLATEAU"};
-  std::vector<std::string> units = {"", "", "", "MPa"};
+  double largest = 0.0;
+  for (const v1::Job& job : jobs) largest = std::max(largest, job.summary().plateau_stress_impact_mpa());
+  const ShownUnit stress = unit_by_size("MPa", largest);
+  std::vector<std::string> units = {"", "", "", stress.name};
   append_words(fields, headings, units);
   headings.insert(headings.end(), {"PRIORITY", "EXECUTOR", "PLACE", "LABELS", "CREATED"});
   table.add(std::move(headings));
@@ -89,10 +92,10 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
     const bool plateau = job.summary().has_plateau_stress_impact_mpa();
     const bool started = job.state() != v1::Job::PENDING && job.has_progress();
     const double done = job.state() == v1::Job::SUCCEEDED ? 1.0 : job.progress().fraction();
-    std::vector<std::string> cells = {job.name(), v1::Job::State_Name(job.state()),
-                                      started || done > 0.0 ? percent_text(done, 0) : "",
-                                      plateau ? number_text(job.summary().plateau_stress_impact_mpa()) : ""};
-    for (const std::string& field : fields) cells.push_back(field_value_text(job.case_(), field));
+    std::vector<std::string> cells = {
+        job.name(), v1::Job::State_Name(job.state()), started || done > 0.0 ? percent_text(done, 0) : "",
+        plateau ? number_text(stress.factor * job.summary().plateau_stress_impact_mpa()) : ""};
+    for (const std::string& field : fields) cells.push_back(short_value_text(job.case_(), field));
     cells.insert(cells.end(),
                  {job.priority() != 0 ? std::to_string(job.priority()) : "", executor_text(job.executor()), job.place(),
                   labels_text(job.labels()), job.has_create_time() ? time_text(job.create_time()) : ""});
@@ -133,7 +136,7 @@ std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs,
     const auto known = cases.find(entry.job());
     std::vector<std::string> cells = {entry.job()};
     for (const std::string& field : fields)
-      cells.push_back(known == cases.end() ? std::string() : field_value_text(*known->second, field));
+      cells.push_back(known == cases.end() ? std::string() : short_value_text(*known->second, field));
     cells.push_back(entry.seconds_until_start() > 0 ? duration_text(entry.seconds_until_start()) : "");
     if (priorities) cells.push_back(entry.priority() != 0 ? std::to_string(entry.priority()) : "");
     if (executors) cells.push_back(entry.executor());

@@ -38,7 +38,8 @@ void add_progress_rows(Table& table, const v1::Job& job) {
     table.add({"time left", duration_text(progress.seconds_left()) + " at " + number_text(progress.steps_per_second()) +
                                 " steps/s"});
   }
-  if (progress.has_plateau_so_far_mpa()) table.add({"plateau so far", stress_text(progress.plateau_so_far_mpa())});
+  if (progress.has_plateau_so_far_mpa())
+    table.add({"plateau so far", quantity_text(progress.plateau_so_far_mpa(), "MPa")});
 }
 
 std::string stage_times_text(const v1::StageTimes& times, int width) {

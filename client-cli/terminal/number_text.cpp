@@ -19,6 +19,24 @@ std::string number_text(double value, int digits) {
   return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
 }
 
+std::string short_text(double value) {
+  constexpr double kMostWhole = 1e15;
+  if (value == std::floor(value) && std::abs(value) < kMostWhole) return fmt::format("{:.0f}", value);
+  return fmt::format("{:.6g}", value);
+}
+
+ShownUnit unit_by_size(std::string_view unit, double largest) {
+  const double size = std::abs(largest);
+  if (unit == "MPa") return size > 0.0 && size < 0.1 ? ShownUnit{"kPa", 1e3} : ShownUnit{"MPa", 1.0};
+  if (unit == "mJ") return size >= 1e6 ? ShownUnit{"kJ", 1e-6} : size >= 1e3 ? ShownUnit{"J", 1e-3} : ShownUnit{"mJ"};
+  return unit == "%" ? ShownUnit{"%", 100.0} : ShownUnit{};
+}
+
+std::string quantity_text(double value, std::string_view unit, int digits) {
+  const ShownUnit shown = unit_by_size(unit, value);
+  return number_text(shown.factor * value, digits) + " " + shown.name;
+}
+
 std::string count_text(std::int64_t value) {
   std::string digits = std::to_string(value);
   const std::size_t sign = value < 0 ? 1 : 0;

@@ -17,7 +17,10 @@ namespace {
 constexpr std::string_view kColourOn = "\x1b[36m";
 constexpr std::string_view kColourOff = "\x1b[0m";
 
-std::string stress_at(const char* where, double stress) { return fmt::format("{} {:6.3f} MPa", where, stress); }
+std::string stress_at(const char* where, double stress) {
+  const ShownUnit unit = unit_by_size("MPa", stress);
+  return fmt::format("{} {:6.{}f} {}", where, unit.factor * stress, unit.factor > 1.0 ? 2 : 3, unit.name);
+}
 
 std::string repeat(std::string_view piece, int times) {
   std::string text;

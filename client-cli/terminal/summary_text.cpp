@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "results/energy_terms.h"
+#include "results/sweep_results.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -24,6 +25,10 @@ std::string theory_text(const char* theory, bool known, double error) {
 
 void add_plateau_rows(Table& table, const v1::Summary& summary) {
   const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
+  const ShownUnit unit =
+      unit_by_size("MPa", std::max({summary.plateau_stress_impact_mpa(), summary.plateau_stress_support_mpa(),
+                                    summary.plateau_stress_to_densification_mpa(), summary.theory().shock_mpa()}));
+  const auto stress_text = [&](double stress) { return number_text(unit.factor * stress) + " " + unit.name; };
   const auto stress_row = [&](const char* plate, bool known, double stress, double expected,
                               const std::string& source) {
     table.add({fmt::format("  at the {} plate", plate), known ? stress_text(stress) : "not reached",
@@ -40,6 +45,8 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
     table.add({"", "", stress_text(front.shock_mpa()),
                theory_text("shock theory with measured jumps (Eq. 52)", front.has_shock_error_relative(),
                            front.shock_error_relative())});
+  } else if (const std::string absent = absent_theory_text(summary); !absent.empty()) {
+    table.add({"", "", "none", absent});
   }
   stress_row("support", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
              summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
@@ -58,7 +65,7 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   // For a run that ended earlier, this is the total work of its plate.
   const bool whole = summary.absorbed_energy_mj() > (1.0 - 1e-9) * summary.ledger().work_external_mj();
   table.add({whole && summary.has_ledger() ? "energy absorbed to the end" : "energy absorbed to 50 % strain",
-             number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
+             quantity_text(summary.absorbed_energy_mj(), "mJ")});
 }
 
 // On a line of its own: words in a column of numbers would widen it.
@@ -80,7 +87,9 @@ std::string front_text(const v1::FrontSummary& front, int width) {
   table.add({"front over the plateau window", "behind", "ahead"});
   row("strain", front.strain_behind(), front.strain_ahead(), "");
   row("velocity", front.velocity_behind_m_per_s(), front.velocity_ahead_m_per_s(), "m/s");
-  table.add({"stress", "", number_text(front.stress_ahead_mpa()), "MPa, ahead of the front (sigma_A of Eq. 52)"});
+  const ShownUnit unit = unit_by_size("MPa", front.stress_ahead_mpa());
+  table.add({"stress", "", number_text(unit.factor * front.stress_ahead_mpa()),
+             fmt::format("{}, ahead of the front (sigma_A of Eq. 52)", unit.name)});
   table.add({"solid fraction", number_text(front.solid_fraction_behind()), "", "from the undeformed wall volume"});
   table.add({"", number_text(front.wall_fraction_behind()), "", "from the current walls"});
   return table.text(2, width);
@@ -109,8 +118,10 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
   double spent = 0.0;
   for (const EnergyTerm& term : terms) spent += term.value(ledger);
   const double whole = std::max(std::abs(spent), std::abs(ledger.work_external_mj()));
+  const ShownUnit unit = unit_by_size("mJ", whole);
   const auto row = [&](const std::string& what, double energy) {
-    table.add({what, number_text(1e-3 * energy) + " J", whole > 0.0 ? percent_text(energy / whole, 2) : ""});
+    table.add({what, number_text(unit.factor * energy) + " " + unit.name,
+               whole > 0.0 ? percent_text(energy / whole, 2) : ""});
   };
   row("energy ledger: work of plates and loads", ledger.work_external_mj());
   // Round-off of the sum is not shown as energy.
@@ -123,8 +134,6 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
 }
 
 }  // namespace
-
-std::string stress_text(double stress) { return number_text(stress) + " MPa"; }
 
 std::string crush_mode_code(v1::Summary::CrushMode mode) {
   constexpr std::string_view kPrefix = "CRUSH_MODE_";

@@ -9,9 +9,6 @@
 
 namespace cellcrush::client {
 
-/// "3.41 MPa".
-std::string stress_text(double stress);
-
 /// "V" of CRUSH_MODE_V; empty if unknown.
 std::string crush_mode_code(v1::Summary::CrushMode mode);
 

@@ -11,6 +11,7 @@
 #include "chart/axes.h"
 #include "plots/sweep_curves.h"
 #include "results/sweep_results.h"
+#include "terminal/number_text.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
@@ -146,22 +147,26 @@ std::string sweep_chart_text(const v1::SweepTable& table, bool unicode, int widt
   if (varies_speed_first(table)) shock = find_shock_curve(all.front());
   double top = greatest_plateau(all);
   if (shock.has_value()) top = std::max(top, shock->at(x.high));
-  const Range y = {0.0, 1.05 * top};
+  const ShownUnit unit = unit_by_size("MPa", top);
+  const Range y = {0.0, 1.05 * unit.factor * top};
   if (!(x.high > x.low && y.high > y.low)) return {};
   const Glyphs& glyphs = unicode ? kUnicode : kPlain;
   const int columns = std::clamp(width - kLabels, 10, kMostChartColumns);
   Canvas canvas(x, y, columns);
   for (int column = 0; shock && column < columns; ++column) {
     const double place = x.low + (x.high - x.low) * column / (columns - 1);
-    canvas.put(place, shock->at(place), glyphs.theory);
+    canvas.put(place, unit.factor * shock->at(place), glyphs.theory);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto stresses = values_of(all[i], plateau);
     for (std::size_t k = 0; k < stresses.size(); ++k) {
-      canvas.put(all[i].x[k], stresses[k], glyphs.marks[i % glyphs.marks.size()]);
+      canvas.put(all[i].x[k], unit.factor * stresses[k], glyphs.marks[i % glyphs.marks.size()]);
     }
   }
-  return "\n" + wrapped("plateau stress at the impact plate (MPa) against " + axis_label(table.fields(0)), width) +
+  return "\n" +
+         wrapped(
+             fmt::format("plateau stress at the impact plate ({}) against {}", unit.name, axis_label(table.fields(0))),
+             width) +
          framed(canvas, x, y, glyphs) + legend(all, shock.has_value(), glyphs);
 }
 

@@ -4,6 +4,7 @@
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -21,10 +22,11 @@ using Entry = SweepView::Entry;
 
 constexpr int kProgressHeadings = 2;
 
-std::string plateau_text(const v1::Job& job) {
-  const bool ended = job.summary().has_plateau_stress_impact_mpa();
-  if (!ended && !job.progress().has_plateau_so_far_mpa()) return {};
-  return number_text(ended ? job.summary().plateau_stress_impact_mpa() : job.progress().plateau_so_far_mpa());
+// MPa.
+std::optional<double> plateau_of(const v1::Job& job) {
+  if (job.summary().has_plateau_stress_impact_mpa()) return job.summary().plateau_stress_impact_mpa();
+  if (job.progress().has_plateau_so_far_mpa()) return job.progress().plateau_so_far_mpa();
+  return std::nullopt;
 }
 
 std::vector<std::string> varied_fields(const v1::Sweep& sweep) {
@@ -84,18 +86,23 @@ std::vector<std::string> job_rows(const SweepView& view, const std::vector<const
   std::vector<std::string> units;
   append_words(fields, names, units);
   names.insert(names.end(), {"state", "done", "plateau", "strain", "job"});
-  units.insert(units.end(), {"", "", "MPa", "", ""});
+  double largest = 0.0;
+  for (const Entry* entry : shown) largest = std::max(largest, plateau_of(entry->view.job()).value_or(0.0));
+  const ShownUnit stress = unit_by_size("MPa", largest);
+  units.insert(units.end(), {"", "", stress.name, "", ""});
   table.add(std::move(names));
   table.add(std::move(units));
   for (const Entry* entry : shown) {
     const v1::Job& job = entry->view.job();
     std::vector<std::string> cells;
-    for (const std::string& field : fields) cells.push_back(field_value_text(job.case_(), field));
+    for (const std::string& field : fields) cells.push_back(short_value_text(job.case_(), field));
     const bool waits = entry->state() == v1::Job::PENDING;
+    const auto plateau = plateau_of(job);
     const bool strained = !waits && job.words().plates();
     cells.insert(cells.end(),
                  {v1::Job::State_Name(entry->state()), waits ? "" : percent_text(job.progress().fraction()),
-                  plateau_text(job), strained ? fmt::format("{:.2f}", job.progress().strain()) : "", entry->name});
+                  plateau ? number_text(stress.factor * *plateau) : "",
+                  strained ? fmt::format("{:.2f}", job.progress().strain()) : "", entry->name});
     table.add(std::move(cells));
   }
   constexpr int kWhole = 10000;  // one row per job; rows without room are cut off
@@ -147,9 +154,7 @@ std::string sweep_progress_line(const SweepView& view) {
     const std::string values = field_values_text(entry.view.job().case_(), fields);
     line += fmt::format("; {}: {}", printable(values.empty() ? entry.name : values),
                         percent_text(entry.view.progress().fraction()));
-    if (const std::string plateau = plateau_text(entry.view.job()); !plateau.empty()) {
-      line += ", plateau " + plateau + " MPa";
-    }
+    if (const auto plateau = plateau_of(entry.view.job())) line += ", plateau " + quantity_text(*plateau, "MPa");
   }
   return line;
 }

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "results/field_value.h"
 #include "results/sweep_results.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
+#include "terminal/sweep_text.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
@@ -33,7 +37,8 @@ std::string legend_text(const v1::SweepTable& table, int width) {
                width, "", "  ") +
            wrapped(
                "Theory: quasi-static (Gibson-Ashby), shock theory (Eq. 51), shock theory with the jumps measured at "
-               "the front (Eq. 52). Crush mode: pattern of the collapsed cells.",
+               "the front (Eq. 52). No front: fewer than half of the samples of the plateau have one. Crush mode: "
+               "pattern of the collapsed cells.",
                width, "", "  ");
   }
   return {};
@@ -44,22 +49,48 @@ std::string signed_term(double value, const char* factor) {
   return fmt::format(" {} {:.4g} {}", std::signbit(value) ? '-' : '+', std::abs(value), factor);
 }
 
+// The result of a row, or its mean.
+std::optional<double> result_of(const v1::SweepTable& results, int row, const ResultColumn& column) {
+  if (results.means().empty()) return column.value(results.rows(row).result().summary());
+  const auto* mean = find_mean(results.means(row), column.path);
+  return mean == nullptr ? std::nullopt : std::optional(mean->mean());
+}
+
+// The units of the results, by those of their fields: results in the same unit share one.
+std::map<std::string_view, ShownUnit> units_of(const v1::SweepTable& results) {
+  std::map<std::string_view, double> largest;
+  for (int row = 0; row < results.rows_size(); ++row) {
+    for (const ResultColumn& column : result_columns()) {
+      double& most = largest[column.unit];
+      most = std::max(most, std::abs(result_of(results, row, column).value_or(0.0)));
+    }
+  }
+  std::map<std::string_view, ShownUnit> units;
+  for (const ResultColumn& column : result_columns()) {
+    units[column.unit] = unit_by_size(column.unit, largest[column.unit]);
+  }
+  return units;
+}
+
 std::string fit_text(const v1::SweepTable& table, int width) {
   const auto all = split_series(table);
   if (!varies_speed_first(table) || table.fields_size() != 1 || all.empty()) return {};
-  const auto fit = find_plateau_fit(all.front());
+  auto fit = find_plateau_fit(all.front());
   if (!fit) return {};
+  const ShownUnit unit = units_of(table).at("MPa");
+  *fit = scaled(*fit, unit.factor);
   const std::string formula =
       fmt::format("{:.4g}{}{}", fit->constant, signed_term(fit->linear, "V"), signed_term(fit->quadratic, "V^2"));
-  std::string text = "\n" + wrapped("plateau stress at the impact plate in MPa, V in m/s", width) +
-                     wrapped(fit->passes_through() ? "quadratic through the three points: " + formula
-                                                   : "least-squares fit: " + formula + ", largest residual " +
-                                                         number_text(fit->largest_residual, 2),
-                             width, "  ", "    ");
+  std::string text =
+      "\n" + wrapped(fmt::format("plateau stress at the impact plate in {}, V in m/s", unit.name), width) +
+      wrapped(fit->passes_through()
+                  ? "quadratic through the three points: " + formula
+                  : "least-squares fit: " + formula + ", largest residual " + number_text(fit->largest_residual, 2),
+              width, "  ", "    ");
   if (const auto shock = find_shock_curve(all.front())) {
-    text +=
-        wrapped(fmt::format("shock theory (Eq. 51): {:.4g}{}", shock->constant, signed_term(shock->quadratic, "V^2")),
-                width, "  ", "    ");
+    text += wrapped(fmt::format("shock theory (Eq. 51): {:.4g}{}", unit.factor * shock->constant,
+                                signed_term(unit.factor * shock->quadratic, "V^2")),
+                    width, "  ", "    ");
   }
   return text;
 }
@@ -80,7 +111,7 @@ std::string failures_text(const v1::SweepTable& table, int width) {
 constexpr std::size_t kTableHeadings = 4;
 
 // The heading's lines: name and unit of varied fields, words and unit of results.
-void add_headings(Table& table, const v1::SweepTable& results) {
+void add_headings(Table& table, const v1::SweepTable& results, std::map<std::string_view, ShownUnit>& units) {
   const std::vector<std::string> fields(results.fields().begin(), results.fields().end());
   std::array<std::vector<std::string>, kTableHeadings> lines;
   const auto add = [&](const std::array<std::string, kTableHeadings>& column) {
@@ -98,62 +129,141 @@ void add_headings(Table& table, const v1::SweepTable& results) {
     column[kTableHeadings - 1] = words.unit;
     add(column);
   }
-  add({"job", "", "", ""});
-  add({"state", "", "", ""});
+  if (results.means().empty()) {
+    add({"job", "", "", ""});
+    add({"state", "", "", ""});
+  } else {
+    add({"jobs", "", "", ""});
+  }
   for (const ResultColumn& column : result_columns()) {
-    add({column.heading[0], column.heading[1], column.heading[2], column.unit});
+    add({column.heading[0], column.heading[1], column.heading[2], units[column.unit].name});
   }
   add({"crush", "mode", "", ""});
   for (auto& line : lines) table.add(std::move(line));
+}
+
+// "3.41 ± 0.05", "3.41": the interval with the decimals of the mean, left out if it is below half of the last one.
+std::string result_text(double value, std::optional<double> interval, int digits) {
+  std::string text = number_text(value, digits);
+  if (!interval) return text;
+  const std::size_t point = text.find('.');
+  if (text.find('e') != std::string::npos) return text + " ± " + number_text(*interval, 1);
+  const auto decimals = point == std::string::npos ? 0 : text.size() - point - 1;
+  const bool shows = *interval >= 0.5 * std::pow(10.0, -static_cast<double>(decimals));
+  return shows ? fmt::format("{} ± {:.{}f}", text, *interval, decimals) : text;
+}
+
+// "5", "4 of 5": how many jobs a mean has.
+std::string job_count_text(const v1::SweepTable::SeedMeans& means) {
+  return means.succeeded_count() == means.job_count()
+             ? count_text(means.job_count())
+             : fmt::format("{} of {}", means.succeeded_count(), means.job_count());
+}
+
+std::string means_text(const v1::SweepTable& results, int width) {
+  if (results.means().empty()) return {};
+  int failed = 0;
+  int warned = 0;
+  for (const auto& means : results.means()) {
+    failed += means.failed_count();
+    warned += means.warned_count();
+  }
+  std::string text =
+      '\n' + wrapped(
+                 "Means over the seeds ± half of the 95 % confidence interval (Student's t), of the jobs "
+                 "that have succeeded. --each prints one row per job.",
+                 width, "", "  ");
+  if (failed > 0) text += wrapped(fmt::format("{} FAILED; --each says why.", run_count_text(failed)), width);
+  if (warned > 0) {
+    text += wrapped(fmt::format("{} with warnings; `cellcrush show JOB` prints them.", run_count_text(warned)), width);
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string sweep_table_text(const v1::SweepTable& results, const std::string& theory_note, int digits, int width) {
   const auto fields = static_cast<std::size_t>(results.fields_size());
+  const bool has_means = !results.means().empty();
   std::vector<Align> alignment(fields, Align::right);
-  alignment.insert(alignment.end(), {Align::left, Align::left});
+  alignment.insert(alignment.end(), has_means ? 1 : 2, has_means ? Align::right : Align::left);
   alignment.insert(alignment.end(), result_columns().size(), Align::right);
   alignment.push_back(Align::left);
   Table table(alignment, fields + 1);
-  add_headings(table, results);
-  for (const Row& row : results.rows()) {
+  auto units = units_of(results);
+  add_headings(table, results, units);
+  for (int i = 0; i < results.rows_size(); ++i) {
+    const Row& row = results.rows(i);
+    const v1::Summary& summary = row.result().summary();
     std::vector<std::string> cells;
-    for (const double value : row.values()) cells.push_back(value_text(value));
+    for (const double value : row.values()) cells.push_back(short_text(value));
     cells.resize(fields);
-    cells.insert(cells.end(), {row.job(), v1::Job::State_Name(row.result().state())});
-    for (const ResultColumn& column : result_columns()) {
-      const auto value = column.value(row.result().summary());
-      cells.push_back(value ? number_text(column.scale * *value, digits) : "-");
+    if (has_means) {
+      cells.push_back(job_count_text(results.means(i)));
+    } else {
+      cells.insert(cells.end(), {row.job(), v1::Job::State_Name(row.result().state())});
     }
-    const std::string& mode = row.result().summary().crush_mode_words();
+    for (const ResultColumn& column : result_columns()) {
+      const double factor = units[column.unit].factor;
+      // That of an error is of no use.
+      const bool has_interval = has_means && column.unit != std::string_view("%");
+      auto interval = has_interval ? find_interval(results.means(i), column.path) : std::nullopt;
+      if (interval) *interval *= factor;
+      const auto value = result_of(results, i, column);
+      const char* absent = summary.has_plateau_stress_impact_mpa() ? column.absent : "-";
+      cells.push_back(value ? result_text(factor * *value, interval, digits) : absent);
+    }
+    const std::string& mode = summary.crush_mode_words();
     cells.push_back(mode.empty() ? "-" : mode);
     table.add(std::move(cells));
   }
   std::string constants;
   if (results.rows_size() > 0)
     constants = constants_text(table.remove_constant_columns(fields + 1, kTableHeadings), width);
-  std::string text = table.text(0, width) + constants + legend_text(results, width);
+  std::string text = table.text(0, width) + constants + means_text(results, width) + legend_text(results, width);
   if (!theory_note.empty()) text += '\n' + wrapped("Note: " + printable(theory_note), width);
   return text + fit_text(results, width) + failures_text(results, width);
 }
 
 std::string sweep_table_csv(const v1::SweepTable& results) {
+  const bool has_means = !results.means().empty();
   std::string text;
   for (const std::string& field : results.fields()) text += csv_cell(field) + ',';
-  text += "job,state";
-  for (const ResultColumn& column : result_columns()) text += fmt::format(",{}", column.field);
-  text += ",crush_mode\n";
-  for (const Row& row : results.rows()) {
-    for (int i = 0; i < results.fields_size(); ++i) {
-      text += (i < row.values_size() ? value_text(row.values(i)) : std::string()) + ',';
+  text += has_means ? "jobs,succeeded,failed" : "job,state";
+  for (const ResultColumn& column : result_columns()) {
+    text += fmt::format(",{}", column.field);
+    if (has_means) text += fmt::format(",{0}_interval,{0}_count", column.field);
+  }
+  text += has_means ? ",crush_mode,crush_mode_count\n" : ",crush_mode\n";
+  const auto cell = [](const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : std::string();
+  };
+  for (int i = 0; i < results.rows_size(); ++i) {
+    const Row& row = results.rows(i);
+    const v1::Summary& summary = row.result().summary();
+    for (int k = 0; k < results.fields_size(); ++k) {
+      text += (k < row.values_size() ? fmt::format("{}", row.values(k)) : std::string()) + ',';
     }
-    text += csv_cell(row.job()) + ',' + v1::Job::State_Name(row.result().state());
+    if (has_means) {
+      const auto& means = results.means(i);
+      text += fmt::format("{},{},{}", means.job_count(), means.succeeded_count(), means.failed_count());
+    } else {
+      text += csv_cell(row.job()) + ',' + v1::Job::State_Name(row.result().state());
+    }
     for (const ResultColumn& column : result_columns()) {
-      const auto value = column.value(row.result().summary());
-      text += ',' + (value ? fmt::format("{}", *value) : std::string());
+      text += ',' + cell(result_of(results, i, column));
+      if (!has_means) continue;
+      const auto* mean = find_mean(results.means(i), column.path);
+      const bool has_interval = mean != nullptr && mean->has_interval();
+      text += ',' + cell(has_interval ? std::optional(mean->interval()) : std::nullopt);
+      text += fmt::format(",{}", mean == nullptr ? 0 : mean->job_count());
     }
-    text += ',' + crush_mode_code(row.result().summary().crush_mode()) + '\n';
+    text += ',' + crush_mode_code(summary.crush_mode());
+    if (has_means) {
+      const auto& modes = results.means(i).crush_modes();
+      text += fmt::format(",{}", modes.empty() ? 0 : modes[0].job_count());
+    }
+    text += '\n';
   }
   return text;
 }

@@ -9,12 +9,13 @@ namespace cellcrush::client {
 
 inline constexpr int kTableDigits = 3;
 
-/// A sweep's results as an aligned table, one row per job, with `digits` significant digits. Below it: common values,
-/// the meaning of the columns, `theory_note` if any, the fit of plateau against speed if any, and why jobs failed.
+/// A shown_table() aligned, with `digits` significant digits; means with their intervals. Below it: common values, the
+/// meaning of the columns, `theory_note` if any, the fit of plateau against speed if any, and why jobs failed.
 std::string sweep_table_text(const v1::SweepTable& table, const std::string& theory_note, int digits = kTableDigits,
                              int width = terminal_width());
 
-/// The same table as CSV with all digits; a missing result is an empty cell.
+/// The same table as CSV with all digits, in the units of the columns' names; a missing result is an empty cell. A mean
+/// is followed by half of its 95 % confidence interval and the number of its jobs.
 std::string sweep_table_csv(const v1::SweepTable& table);
 
 }  // namespace cellcrush::client

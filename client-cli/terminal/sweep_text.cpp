@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -45,7 +46,7 @@ std::string values_text(const v1::SweepAxis& axis) {
 // "50", "50 to 200": where the values of an axis lie.
 std::string span_text(const v1::SweepAxis& axis) {
   const auto span = [](double low, double high) {
-    return low == high ? fmt::format("{}", low) : fmt::format("{} to {}", low, high);
+    return low == high ? short_text(low) : fmt::format("{} to {}", short_text(low), short_text(high));
   };
   switch (axis.values_case()) {
     case v1::SweepAxis::kList: {
@@ -78,21 +79,21 @@ using Estimate = v1::Convergence::MeshEstimate;
 struct Words {
   std::string_view field;
   std::string_view title;
-  double scale;  ///< from the field's unit to the one shown
+  std::string_view unit;  ///< of the field
 };
 
 constexpr std::array kWords = {
-    Words{"plateau_stress_impact_mpa", "plateau at the impact plate, MPa", 1.0},
-    Words{"plateau_stress_support_mpa", "plateau at the support plate, MPa", 1.0},
-    Words{"densification_strain", "densification strain", 1.0},
-    Words{"absorbed_energy_mj", "absorbed energy, J", 1e-3},
+    Words{"plateau_stress_impact_mpa", "plateau at the impact plate", "MPa"},
+    Words{"plateau_stress_support_mpa", "plateau at the support plate", "MPa"},
+    Words{"densification_strain", "densification strain", ""},
+    Words{"absorbed_energy_mj", "absorbed energy", "mJ"},
 };
 
 Words words_of(const Quantity& quantity) {
   for (const Words& words : kWords) {
     if (words.field == quantity.field()) return words;
   }
-  return {quantity.field(), quantity.field(), 1.0};
+  return {quantity.field(), quantity.field(), ""};
 }
 
 std::string error_text(const Estimate& estimate) {
@@ -102,10 +103,13 @@ std::string error_text(const Estimate& estimate) {
 
 void add_rows(Table& table, const Quantity& quantity) {
   const Words words = words_of(quantity);
-  table.add_title(printable(words.title));
+  double largest = 0.0;
+  for (const Estimate& estimate : quantity.meshes()) largest = std::max(largest, std::abs(estimate.mean()));
+  const ShownUnit unit = unit_by_size(words.unit, largest);
+  table.add_title(printable(fmt::format("{}{}{}", words.title, *unit.name == '\0' ? "" : ", ", unit.name)));
   for (const Estimate& estimate : quantity.meshes()) {
     table.add({fmt::format("{}", estimate.elements_per_wall()), fmt::format("{}", estimate.job_count()),
-               number_text(words.scale * estimate.mean()),
+               number_text(unit.factor * estimate.mean()),
                estimate.has_scatter_relative() ? percent_text(estimate.scatter_relative()) : "", error_text(estimate)});
   }
 }

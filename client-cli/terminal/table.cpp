@@ -70,7 +70,8 @@ std::string Table::constant_text(std::size_t column, std::size_t headings, const
   if (value == "-") return text + "none";
   text += value;
   const std::string unit = headings > 1 ? rows_[headings - 1].cells[column] : std::string();
-  return text + (unit.empty() ? "" : " ") + unit;
+  const bool is_number = value.find_first_of("0123456789") != std::string::npos;
+  return text + (unit.empty() || !is_number ? "" : " " + unit);
 }
 
 std::vector<int> Table::natural_widths() const {

@@ -185,7 +185,15 @@ TEST(JobChart, TheStressAxisFollowsThePlateauAndAnArrowSaysHowHighTheFirstWaveGo
     sample.set_strain(1e-3 * i);
     sample.set_stress_impact_mpa(i < 40 ? 50.0 : 3.4);
   }
+  v1::Summary& summary = *history.job.mutable_summary();
+  summary = from_text<v1::Summary>(
+      "plateau_stress_impact_mpa: 3.4 densification_strain: 0.62 theory { shock_mpa: 3.5 }"
+      "warnings { kind: WALLS_NECK strain: 0.7 } warnings { kind: BORDERS_NEAR strain: 0.3 }");
   const Chart chart = build_job_chart(history);
+  ASSERT_EQ(chart.marks.size(), 2U) << "near borders put nothing in doubt";
+  EXPECT_EQ(chart.marks[0].text, "densification 0.62");
+  EXPECT_EQ(chart.marks[1].text, "in doubt: walls neck");
+  EXPECT_THAT(chart.note, HasSubstr("Eq. 52: no front"));
   EXPECT_GT(chart.y.high, 3.4);
   EXPECT_LT(chart.y.high, 8.0);
   ASSERT_EQ(chart.overshoots.size(), 1U);

@@ -197,6 +197,8 @@ TEST(Plot, OneFrameCanBeChosenSvgWrittenAndSeveralJobsShareAChart) {
   EXPECT_EQ(server.run({"plot", "test", "jobs/test", "-o", server.folder() / "both.PNG"}).exit_code, 0);
   EXPECT_THAT(text_of_file(one), HasSubstr("</svg>"));
   EXPECT_GT(text_of_file(three).size(), text_of_file(one).size());
+  ASSERT_EQ(server.run({"plot", "test", "-o", one, "--width", "3.5in", "--font", "8pt"}).exit_code, 0);
+  EXPECT_THAT(text_of_file(one), HasSubstr("width=\"88.9mm\""));
 }
 
 TEST(Plot, AStripShowsFramesEvenlySpacedOverTheRunWithOrWithoutTheCurve) {
@@ -252,6 +254,9 @@ TEST(Plot, OptionsThatDoNotGoTogetherAreRefused) {
                                              {"test", "--strip", "0"},
                                              {"sweeps/1", "test"},
                                              {"test", "--log", "x"},
+                                             {"test", "--series"},
+                                             {"test", "--width", "85mm"},
+                                             {"test", "--width", "85", "-o", "a.svg"},
                                              {"sweeps/1", "--frames-only"}}) {
     std::vector<std::string> arguments = {"plot"};
     arguments.insert(arguments.end(), words.begin(), words.end());

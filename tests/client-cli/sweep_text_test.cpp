@@ -1,5 +1,6 @@
 #include "terminal/sweep_text.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +9,11 @@
 
 #include "command_error.h"
 #include "expect_text.h"
+#include "plots/job_picture.h"
 #include "plots/sweep_curves.h"
+#include "plots/sweep_map.h"
 #include "programs/text_proto.h"
+#include "results/sweep_results.h"
 #include "terminal/job_list_text.h"
 #include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_progress.h"
@@ -165,6 +169,47 @@ TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {
   EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,,,,");
 }
 
+// Two speeds with three seeds each; one job of the second has failed.
+v1::SweepTable make_averaged_table() {
+  auto table = from_text<v1::SweepTable>(R"(
+    fields: ["lattice.imperfection.seed", "loading.speed_m_per_s"]
+    rows { job: "jobs/1" values: [1, 0.30000000000000004]
+           result { state: SUCCEEDED summary { step_count: 10 plateau_window_low: 0.2 plateau_window_high: 0.4 } } }
+    means { values: 0.30000000000000004 job_count: 3 succeeded_count: 3 warned_count: 1
+            crush_modes { mode: CRUSH_MODE_V words: 'V-shaped band (V)' job_count: 2 } crush_modes { job_count: 1 }
+            results { field: "plateau_stress_impact_mpa" job_count: 3 mean: 0.0341 deviation: 0.002 interval: 0.0049 }
+            results { field: "plateau_stress_support_mpa" job_count: 3 mean: 0.025 deviation: 1e-18 interval: 2e-18 }
+            results { field: "theory.shock_mpa" job_count: 3 mean: 0.03 } })");
+  *table.add_means() = table.means(0);
+  auto& second = *table.mutable_means(1);
+  second.set_values(0, 2.0);
+  second.set_succeeded_count(2);
+  second.set_failed_count(1);
+  second.mutable_results(0)->set_mean(0.0991);
+  return table;
+}
+
+TEST(SweepTable, ShowsMeansOverTheSeedsWithTheirIntervalsUnlessEachJobIsWanted) {
+  const v1::SweepTable table = make_averaged_table();
+  const std::string text = sweep_table_text(shown_table(table, false), "", kTableDigits, 120);
+  // Stresses below 0.1 MPa are in kPa, values in six digits, and an interval of round-off is none.
+  expect_parts_in(
+      text, {"  0.3       3  34.1 ± 4.9  V-shaped band (V), 2 of 3\n", "    2  2 of 3  99.1 ± 4.9  V-shaped band (V)\n",
+             "support plate 25.0 kPa", "95 % confidence interval", "1 run FAILED", "2 runs with warnings"});
+  EXPECT_THAT(text, Not(HasSubstr("seed ")));
+  EXPECT_THAT(sweep_table_text(shown_table(table, true), ""), HasSubstr("jobs/1"));
+}
+
+TEST(SweepTable, AsCsvOfMeansHasIntervalsAndCounts) {
+  const auto lines = lines_of(sweep_table_csv(shown_table(make_averaged_table(), false)));
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0].find("loading.speed_m_per_s,jobs,succeeded,failed,plateau_stress_impact_mpa,"
+                          "plateau_stress_impact_mpa_interval,plateau_stress_impact_mpa_count,"),
+            0U);
+  EXPECT_EQ(lines[1].find("0.30000000000000004,3,3,0,0.0341,0.0049,3,0.025,"), 0U) << lines[1];
+  EXPECT_TRUE(lines[2].ends_with(",V,2")) << lines[2];
+}
+
 SweepView make_view(int jobs) {
   SweepView view;
   v1::WatchSweepResponse snapshot;
@@ -271,7 +316,8 @@ TEST(SweepChart, HasPointsFitAndTheoryOverSpeed) {
 }
 
 TEST(SweepChart, SaysWhatIsMissingAndRefusesToDrawNothing) {
-  EXPECT_EQ(build_sweep_chart({{v1::Sweep(), make_table(2)}}).note, "2 of 4 jobs have no plateau");
+  EXPECT_EQ(build_sweep_chart({{v1::Sweep(), make_table(2)}}).note,
+            "Eq. 52: no front at 1 of 2 points; 2 of 4 jobs have no plateau");
   EXPECT_THROW(build_sweep_chart({{v1::Sweep(), make_table(0)}}), CommandError);
   EXPECT_THROW(build_sweep_chart({{v1::Sweep(), v1::SweepTable()}}), CommandError);
 }
@@ -290,6 +336,41 @@ TEST(SweepChart, SeveralSweepsHaveAColourAndAMarkEachAndLogarithmicAxesOnRequest
   EXPECT_GT(chart.y.low, 0.0);
   sweeps[1].table.set_fields(0, "depth_mm");
   EXPECT_THROW(build_sweep_chart(sweeps), CommandError);
+}
+
+TEST(SweepChart, MeansHaveBarsOfTheirIntervalsInTheUnitOfTheirSizeAndReasonsForAbsentTheories) {
+  const v1::SweepTable table = charted_table(make_averaged_table(), false);
+  const Chart chart = build_sweep_chart({{v1::Sweep(), table}});
+  EXPECT_EQ(chart.y.label, "plateau stress (kPa)");
+  const Curve& impact = chart.curves.front();
+  EXPECT_NEAR(impact.y[1], 99.1, 1e-9);
+  EXPECT_NEAR(impact.high[1] - impact.low[1], 9.8, 1e-9);
+  EXPECT_EQ(impact.labels, (std::vector<std::string>{"!", "!"}));
+  expect_parts_in(chart.note, {"95 % confidence interval", "Eq. 52: no front", "with\u00A0warnings"});
+}
+
+TEST(SweepMap, HasAPointForEveryPairOfValuesAndIsNoneOtherwise) {
+  auto table = from_text<v1::SweepTable>(R"(fields: ["loading.speed_m_per_s", "depth_mm"])");
+  const char* modes[] = {"CRUSH_MODE_I", "CRUSH_MODE_V", "CRUSH_MODE_V", "CRUSH_MODE_V"};
+  for (int i = 0; i < 4; ++i) {
+    *table.add_rows() = from_text<v1::SweepTable::Row>(fmt::format(
+        "values: [{}, {}] result {{ state: {} summary {{ plateau_stress_impact_mpa: 0.0{} crush_mode: {} }} }}",
+        i % 2 == 0 ? 100 : 50, i / 2 + 1, i == 3 ? "FAILED" : "SUCCEEDED", i + 1, modes[i]));
+  }
+  const auto map = build_sweep_map(table, {true, false});
+  ASSERT_TRUE(map.has_value());
+  EXPECT_EQ(map->across, (std::vector<double>{50.0, 100.0}));
+  EXPECT_EQ(map->x.label, "speed (m/s)");
+  EXPECT_EQ(std::string(map->unit.name), "kPa");
+  EXPECT_NEAR(*map->stress[map->at(0, 0)], 20.0, 1e-9);
+  EXPECT_NEAR(*map->stress[map->at(1, 1)], 30.0, 1e-9);
+  EXPECT_FALSE(map->stress[map->at(0, 1)].has_value());
+  EXPECT_EQ(map->modes[map->at(1, 0)], "mode I");
+  EXPECT_THAT(map->note, HasSubstr("1 of 4 have no plateau"));
+  const std::string svg = render_sweep_picture(PictureFormat::svg, {{v1::Sweep(), table}}, {}, false, {85.0, 8.0});
+  expect_parts_in(svg, {"width=\"85mm\"", "font-size=\"2.82", ">20.0<", ">plateau stress, impact plate (kPa)<"});
+  table.mutable_rows()->RemoveLast();
+  EXPECT_FALSE(build_sweep_map(table, {}).has_value());
 }
 
 TEST(SweepChart, TwoFieldsGiveASeriesAValueOfTheSecond) {
