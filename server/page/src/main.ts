@@ -8,6 +8,7 @@ import "./style/sweep.css";
 import "./style/new_case.css";
 import { api } from "./api/clients";
 import { exportedBy, isExported } from "./api/exported";
+import { startTheme } from "./dom/preferences";
 import { forgetToken, hasToken } from "./api/token";
 import { watch, type Connection } from "./api/watch";
 import { ComparePage } from "./compare/page";
@@ -73,6 +74,7 @@ route(/^/, () => ({
   element: h("div", { class: "page" }, h("h1", {}, "There is no such page"), h("a", { href: "/" }, "All jobs")),
 }));
 
+startTheme();
 const main = h("main", { id: "main" });
 if (isExported) {
   void showExported(main);

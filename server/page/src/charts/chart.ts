@@ -3,7 +3,8 @@
 import uPlot from "uplot";
 import { h, replaceChildren, setText, svg } from "../dom/element";
 import { number } from "../dom/format";
-import { onThemeChange, themeColour } from "../picture/colours";
+import { themeColour } from "../picture/colours";
+import { onThemeChange } from "../dom/preferences";
 import { legendOf, markPath, type ChartData, type MarkShape, type Series } from "./chart_data";
 import { bandShapes, drawShapes, markShapes } from "./chart_marks";
 import { indexBefore } from "./curves";

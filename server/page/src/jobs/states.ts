@@ -4,7 +4,7 @@ import type { CaseWords } from "../../gen/cellcrush/v1/problem_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { Warning_Kind } from "../../gen/cellcrush/v1/sample_pb";
 import { h, setText, svg } from "../dom/element";
-import { idOf } from "../dom/format";
+import { duration, idOf, milliseconds } from "../dom/format";
 
 const kWords: Record<Job_State, string> = {
   [Job_State.JOB_STATE_UNSPECIFIED]: "unknown",
@@ -63,6 +63,17 @@ export function elsewhere(executor: string): string {
 export function whereOf(job: Job): string {
   const executor = elsewhere(job.executor);
   return executor && `on ${executor}${job.place ? `: ${job.place}` : ""}`;
+}
+
+/** For how many seconds an ended job has run. */
+export function secondsOf(job: Job): number | undefined {
+  if (!job.startTime || !job.endTime) return undefined;
+  return (milliseconds(job.endTime) - milliseconds(job.startTime)) / 1000;
+}
+
+export function tookText(job: Job): string {
+  const seconds = secondsOf(job);
+  return seconds !== undefined && seconds < 1 ? "under 1 s" : duration(seconds);
 }
 
 const kWidth = 200;

@@ -4,7 +4,7 @@ import { viewBox, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { h } from "../dom/element";
 import { Camera } from "./camera";
-import { isDark, onThemeChange } from "./colours";
+import { isDark, onThemeChange } from "../dom/preferences";
 import { drawFaces, platesOf } from "./rigid_walls";
 import { fillSegments } from "./segments";
 import { PixelWalls } from "./walls_pixels";
