@@ -79,6 +79,50 @@ test('the crushes of a sweep stand side by side at the strain of one slider', as
   assert.match(await cells.first().getByRole('link').getAttribute('href'), /^\/jobs\/1\?strain=0\.2/);
 });
 
+test('a drag and the wheel zoom the chart, a double click shows all, and its scales change', async () => {
+  const plot = page.locator('.sweep-page .u-over');
+  const all = page.getByRole('button', { name: 'Show all' });
+  await plot.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await plot.boundingBox();
+  for (const zoom of [async () => {
+    await page.mouse.move(x + 0.5 * width, y + 0.2 * height);
+    await page.mouse.down();
+    await page.mouse.move(x + 0.9 * width, y + 0.8 * height, { steps: 3 });
+    await page.mouse.up();
+  }, async () => {
+    await page.mouse.move(x + 0.5 * width, y + 0.5 * height);
+    await page.mouse.wheel(0, -300);
+  }, () => plot.press('+')]) {
+    await zoom();
+    await all.waitFor();
+    await plot.dblclick({ position: { x: 4, y: 4 } });
+    await all.waitFor({ state: 'hidden' });
+  }
+  const before = await plot.screenshot();
+  await page.getByLabel('Scales').selectOption('log x and y');
+  assert.notDeepEqual(await plot.screenshot(), before);
+  await page.getByLabel('Measure of the chart').selectOption('Absorbed energy');
+  await page.locator('.sweep-page figure h3', { hasText: 'Absorbed energy' }).waitFor();
+});
+
+test('a point of the chart leads to its job', async () => {
+  await page.goto(`${daemon.url}/sweeps/1`);
+  const plot = page.locator('.sweep-page .u-over');
+  await plot.waitFor();
+  const { x, y, width, height } = await plot.boundingBox();
+  const tip = page.locator('.point-tip');
+  for (let down = 4; down < height && !await tip.isVisible(); down += 8) {
+    await page.mouse.move(x + (100 / 155) * width, y + down); // 100 m/s on an axis from 0 to 155
+    await page.waitForTimeout(20);
+  }
+  assert.match(await tip.textContent(), /job 2/);
+  await page.mouse.down();
+  await page.mouse.up();
+  await page.waitForURL('**/jobs/2');
+  await page.goto(`${daemon.url}/sweeps/1?with=2`);
+  await page.locator('.sweep-page .legend').getByText('Thick').waitFor();
+});
+
 test('the SVG of the chart has the curves of both sweeps', async () => {
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save the chart' }).click();

@@ -4,7 +4,7 @@ import type { ChartData, Series } from "../charts/chart_data";
 import { indexBefore, strainAxis } from "../charts/curves";
 import { kSmoothing, smoothedStress, stressTop, type StressCurves } from "../charts/stress";
 import { h } from "../dom/element";
-import { idOf, pathOf } from "../dom/format";
+import { idOf, pathOf, unitBySize } from "../dom/format";
 import type { JobData } from "../job/job_data";
 import { kFirstMeasures, kMeasures, measureText, titleOfMeasure, unitFor } from "../job/measures";
 import { caseValues } from "../new_case/fields";
@@ -33,8 +33,10 @@ export function comparisonChart(jobs: JobData[], names: string[], end: number): 
     columns.push(xs.map((x) => at(curve.strain, curve.impact, x)), xs.map((x) => at(curve.strain, curve.support, x)));
     if (curve.strain.length) top = Math.max(top, stressTop(curve, jobs[i].job?.summary, undefined));
   });
+  const { name, factor } = unitBySize("MPa", top);
   return {
-    series, columns, xLabel: "nominal strain", yLabel: "nominal stress (MPa)", xEnd: end, yTop: top || 1,
+    series, columns: [xs, ...columns.slice(1).map((column) => column.map((stress) => stress && stress * factor))],
+    xLabel: "nominal strain", yLabel: `nominal stress (${name})`, xEnd: end, yTop: top * factor || 1,
     bands: [{ from: 0.2, to: 0.4, label: "plateau window" }],
     note: `solid: impact plate, dashed: support plate; moving mean over ${100 * kSmoothing} % strain`,
   };

@@ -65,7 +65,7 @@ export const kMeasures: Measure[] = [...kFields]
   .map(measureOf);
 
 /** The unit for all of some values, by the largest of them. */
-export function unitFor({ unit }: Measure, values: (number | undefined)[]): Unit {
+export function unitFor({ unit }: Pick<Measure, "unit">, values: (number | undefined)[]): Unit {
   return unitBySize(unit, Math.max(0, ...values.map((value) => Math.abs(value ?? 0)).filter(Number.isFinite)));
 }
 

@@ -7,6 +7,7 @@ import { ask } from "../dom/dialog";
 import { button, h, replaceChildren, setBanner, setText } from "../dom/element";
 import { clock, idOf, plural } from "../dom/format";
 import { icon, type IconName } from "../dom/icons";
+import { kMeasures } from "../job/measures";
 import { attempt } from "../jobs/actions";
 import { hasEnded, kStates, stateBar, stateWord, titleOfSweep, variedFields } from "../jobs/states";
 import { placeIn } from "../picture/player";
@@ -30,6 +31,9 @@ export class SweepPage implements View {
   private readonly problem = h("div", { class: "banner error", hidden: true });
   private readonly chart = new Chart("Plateau stress");
   private readonly axisChoice = h("select", { "aria-label": "Field of the axis" });
+  private readonly measureChoice = h("select", { "aria-label": "Measure of the chart" },
+    h("option", { value: "" }, "Plateau stress"),
+    ...kMeasures.map(({ field, words }) => h("option", { value: field }, words)));
   private readonly table = new SweepTableView();
   private readonly stops: (() => void)[];
   private readonly overlay: SweepOverlay;
@@ -41,8 +45,9 @@ export class SweepPage implements View {
     this.overlay = new SweepOverlay(name, (query.get("with") ?? "").split(","));
     this.crushes = new CrushGrid(placeIn(query));
     this.title = `Sweep ${idOf(name)}`;
-    this.axisChoice.addEventListener("change", () => this.draw());
-    this.chart.addTools(this.axisChoice, saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`));
+    for (const choice of [this.axisChoice, this.measureChoice]) choice.addEventListener("change", () => this.draw());
+    this.chart.addTools(this.measureChoice, this.axisChoice,
+                        saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`));
     replaceChildren(this.element,
       h("header", { class: "job-header" },
         h("div", { class: "title-row" }, this.heading, h("span", { class: "spacer" }), this.actions), this.about,
@@ -96,8 +101,10 @@ export class SweepPage implements View {
     this.overlay.setPath(path);
     const others = this.overlay.swept;
     const label = others.length ? this.overlay.labelOf(sweep) : "";
-    const data = sweepChart([{ label, rows, fields }, ...others], path);
-    const note = sweep.words?.theoryNote;
+    const measure = kMeasures.find(({ field }) => field === this.measureChoice.value);
+    const data = sweepChart([{ label, rows, fields }, ...others], path, measure);
+    this.chart.setTitle(measure?.words ?? "Plateau stress");
+    const note = measure ? "" : sweep.words?.theoryNote;
     this.chart.setData(note ? { ...data, note: `${data.note}. ${note}` } : data);
     this.table.update(rows, fields);
     const { loading } = sweep.case ?? {};

@@ -1,14 +1,19 @@
-// The points of a sweep for its chart: plateau stresses against one varied field, with mean and spread over seeds.
+// The points of a sweep for its chart: plateau stresses, or another number of the results, against one varied field,
+// with mean and spread over seeds.
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { kMarkShapes, type ChartData, type Series, type Spread } from "../charts/chart_data";
+import { given } from "../dom/format";
+import { unitFor, type Measure } from "../job/measures";
 import { nameOf } from "../new_case/words";
 
 export const isSeed = (path: string): boolean => path.endsWith(".seed");
 
+const nameWithUnit = (words: string, unit: string): string => (unit ? `${words} (${unit})` : words);
+
 /** A field's name with its unit in brackets, as "speed (m/s)". */
 export function axisName(path: string): string {
   const { words, unit } = nameOf(path);
-  return unit ? `${words} (${unit})` : words;
+  return nameWithUnit(words, unit);
 }
 
 /** The place of a field among others, or -1. A field of one lattice is the same as that of another. */
@@ -29,7 +34,7 @@ function groupsOf({ label: sweep, rows, fields }: Swept, path: string): Group[] 
   const others = fields.map((_, i) => i).filter((i) => i !== axis && !isSeed(fields[i]));
   const groups = new Map<string, SweepTable_Row[]>();
   for (const row of rows) {
-    const label = others.map((i) => `${axisName(fields[i])} ${row.values[i]}`).join(", ");
+    const label = others.map((i) => `${axisName(fields[i])} ${given(row.values[i])}`).join(", ");
     groups.set(label, [...(groups.get(label) ?? []), row]);
   }
   return [...groups].map(([label, members]) => ({
@@ -47,10 +52,12 @@ function meanOf(values: number[]): Mean | undefined {
 }
 
 type Quantity = (row: SweepTable_Row) => number | undefined;
-const kImpact: Quantity = (row) => row.result?.summary?.plateauStressImpactMpa;
-const kSupport: Quantity = (row) => row.result?.summary?.plateauStressSupportMpa;
-const kShock: Quantity = (row) => row.result?.summary?.theory?.shockMpa || undefined;
-const kGibsonAshby: Quantity = (row) => row.result?.summary?.theory?.gibsonAshbyMpa || undefined;
+const quantityOf = ({ value }: Pick<Measure, "value">): Quantity => ({ result }) =>
+  result?.summary && value(result.summary);
+const kImpact = quantityOf({ value: (s) => s.plateauStressImpactMpa });
+const kSupport = quantityOf({ value: (s) => s.plateauStressSupportMpa });
+const kShock = quantityOf({ value: (s) => s.theory?.shockMpa || undefined });
+const kGibsonAshby = quantityOf({ value: (s) => s.theory?.gibsonAshbyMpa || undefined });
 
 export const kMostGroups = 6;
 const kTheoryPoints = 60;
@@ -66,8 +73,8 @@ function shockBetween({ rows, axis }: Group, xs: number[]): (number | null)[] | 
   return xs.map((x) => (x < first || x > last ? null : base + factor * x * x));
 }
 
-/** The chart of sweeps over the field `path`, which each of them varies. */
-export function sweepChart(sweeps: Swept[], path: string): ChartData {
+/** The chart of sweeps over the field `path`, which each of them varies: of a measure, or of the plateau stresses. */
+export function sweepChart(sweeps: Swept[], path: string, measure?: Measure): ChartData {
   const groups = sweeps.flatMap((swept) => groupsOf(swept, path));
   const values = groups.flatMap((group) => group.rows.map((row) => row.values[group.axis]));
   const points = [...new Set(values)].sort((a, b) => a - b);
@@ -79,16 +86,21 @@ export function sweepChart(sweeps: Swept[], path: string): ChartData {
   const series: Series[] = [];
   const columns: (number | null)[][] = [xs];
   const spreads: Spread[] = [];
-  let top = 0;
+  let [low, top] = [0, 0];
+  const shown = measure ? [quantityOf(measure)] : [kImpact, kSupport, kShock];
+  const rows = sweeps.flatMap((swept) => swept.rows);
+  const unit = unitFor(measure ?? { unit: "MPa" }, rows.flatMap((row) => shown.map((of) => of(row))));
   const add = ({ rows, axis }: Group, quantity: Quantity, look: Series, withSpread: boolean): void => {
-    const means = xs.map((x) => meanOf(rows.filter((row) => row.values[axis] === x).map(quantity)
-      .filter((value): value is number => value !== undefined)));
+    const has = (row: SweepTable_Row): boolean => quantity(row) !== undefined;
+    const members = xs.map((x) => rows.filter((row) => row.values[axis] === x && has(row)));
+    const means = members.map((at) => meanOf(at.map((row) => quantity(row)! * unit.factor)));
     if (!means.some(Boolean)) return;
-    series.push(look);
+    series.push(look.points ? { ...look, jobs: members.map((at) => at.map(({ job }) => job)) } : look);
     columns.push(means.map((mean) => mean?.mean ?? null));
     means.forEach((mean, i) => {
       if (!mean) return;
       top = Math.max(top, mean.mean + mean.deviation);
+      low = Math.min(low, mean.mean - mean.deviation);
       const { mean: middle, deviation } = mean;
       if (withSpread && mean.count > 1) {
         spreads.push({ x: xs[i], low: middle - deviation, high: middle + deviation, colour: look.colour });
@@ -98,31 +110,39 @@ export function sweepChart(sweeps: Swept[], path: string): ChartData {
   groups.slice(0, kMostGroups).forEach((group, i) => {
     const isOnly = groups.length === 1;
     const of = isOnly ? "" : `: ${group.label}`;
+    const points = { points: true, mark: kMarkShapes[i] };
+    if (measure) {
+      const look = { label: isOnly ? measure.words : group.label, colour: `series-${i}` };
+      return add(group, quantityOf(measure), { ...look, ...points }, true);
+    }
     add(group, kShock, { label: `shock theory (Eq. 51)${of}`, colour: isOnly ? "ink-2" : `series-${i}`,
                               dash: [8, 4], width: 1.4, quiet: !isOnly }, false);
     const curve = isSpeed ? shockBetween(group, xs) : undefined;
-    if (curve) columns[columns.length - 1] = curve;
+    if (curve) columns[columns.length - 1] = curve.map((value) => value && value * unit.factor);
     add(group, kGibsonAshby, { label: `quasi-static theory (Gibson-Ashby)${of}`,
                                     colour: isOnly ? "ink-2" : `series-${i}`, dash: [2, 3], width: 1.4,
                                     quiet: !isOnly }, false);
     add(group, kImpact, { label: isOnly ? "impact plate" : group.label, colour: isOnly ? "impact" : `series-${i}`,
-                          points: true, mark: kMarkShapes[i] }, true);
+                          ...points }, true);
     if (isOnly) add(group, kSupport, { label: "support plate", colour: "support", points: true, mark: "square" }, true);
   });
   const isLog = first > 0 && last / first > 20;
   const room = 0.05 * (last - first || Math.abs(last) || 1);
   return {
-    series, columns, spreads, xLabel: axisName(path), yLabel: "plateau stress (MPa)",
+    series, columns, spreads, xLabel: axisName(path),
+    yLabel: nameWithUnit(measure?.words ?? "plateau stress", unit.name),
     xLow: isLog ? first / 1.2 : first >= 0 && first < 0.35 * last ? 0 : first - room,
-    xEnd: isLog ? last * 1.2 : last + room, xLog: isLog, yTop: top > 0 ? 1.08 * top : 1,
-    note: noteOf(groups.length, spreads.length > 0),
+    xEnd: isLog ? last * 1.2 : last + room, xLog: isLog, yLow: 1.08 * low,
+    yTop: top > 0 ? 1.08 * top : low < 0 ? 0 : 1,
+    note: noteOf(groups.length, spreads.length > 0, measure),
   };
 }
 
-function noteOf(groupCount: number, hasSpread: boolean): string {
-  const notes = ["mean stress from 20 to 40 % strain"];
+function noteOf(groupCount: number, hasSpread: boolean, measure: Measure | undefined): string {
+  const notes = measure ? [] : ["mean stress from 20 to 40 % strain"];
   if (hasSpread) notes.push("bars: standard deviation between crushes");
-  if (groupCount > 1) notes.push("at the impact plate; dashed: shock theory (Eq. 51), dotted: Gibson-Ashby");
+  const hasTheory = groupCount > 1 && !measure;
+  if (hasTheory) notes.push("at the impact plate; dashed: shock theory (Eq. 51), dotted: Gibson-Ashby");
   if (groupCount > kMostGroups) notes.push(`the first ${kMostGroups} of ${groupCount} curves`);
   return notes.join("; ");
 }
