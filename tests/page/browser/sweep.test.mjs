@@ -12,16 +12,18 @@ const daemon = stage(async (its) => {
   await createSweep('Thin walls', speed, [50, 100, 150]);
   await createSweep('<b>Thick walls</b>', speed, [60, 120]);
   await createSweep('Thicknesses', 'lattice.hexagon.wall_thickness_mm', [0.3, 0.4]);
-  for (const name of ['sweeps/1', 'sweeps/2', 'sweeps/3']) await endOf(name);
+  await createSweep('Speeds and thicknesses', speed, [50, 100],
+    [{ field: 'lattice.hexagon.wall_thickness_mm', list: { values: [0.3, 0.4] } }]);
+  for (const name of ['sweeps/1', 'sweeps/2', 'sweeps/3', 'sweeps/4']) await endOf(name);
 });
 
-async function createSweep(title, field, values) {
+async function createSweep(title, field, values, more = []) {
   const swept = await daemon.presetCase('hexagon-small', (each) => {
     each.title = title;
     each.lattice.hexagon.columns = 10;
     each.loading.endStrain = 0.45;
   });
-  const sweep = { case: swept, axes: [{ field, list: { values } }] };
+  const sweep = { case: swept, axes: [{ field, list: { values } }, ...more] };
   return daemon.call('Sweeps/CreateSweep', { sweep });
 }
 
@@ -121,6 +123,21 @@ test('a point of the chart leads to its job', async () => {
   await page.waitForURL('**/jobs/2');
   await page.goto(`${daemon.url}/sweeps/1?with=2`);
   await page.locator('.sweep-page .legend').getByText('Thick').waitFor();
+});
+
+test('a sweep over two fields has a map, whose cells lead to their jobs', async () => {
+  await page.goto(`${daemon.url}/sweeps/4`);
+  const map = page.locator('.sweep-map');
+  await map.getByText('Impact plateau, MPa').waitFor();
+  const { rows } = await daemon.call('Sweeps/GetSweepTable', { name: 'sweeps/4' });
+  // From the top: thick walls, then thin ones; the sweep varies the thickness fastest.
+  const wanted = [1, 3, 0, 2].map((i) => rows[i]);
+  assert.deepEqual(await map.locator('td a').evaluateAll((links) => links.map((link) => [link.pathname.slice(1),
+    link.textContent])), wanted.map(({ job, result }) => [job, result.summary.plateauStressImpactMpa.toPrecision(3)]));
+  assert.deepEqual(await seriousFindings(page), []);
+  await page.goto(`${daemon.url}/sweeps/1?with=2`);
+  await page.locator('.sweep-page .legend').getByText('Thick').waitFor();
+  assert.equal(await map.isVisible(), false, 'one field is no map');
 });
 
 test('the SVG of the chart has the curves of both sweeps', async () => {

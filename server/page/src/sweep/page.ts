@@ -17,6 +17,7 @@ import { CrushGrid } from "./crush_grid";
 import { axisName, isSeed, sweepChart } from "./points";
 import { SweepOverlay } from "./overlay";
 import { SweepData } from "./sweep_data";
+import { SweepMap } from "./sweep_map";
 import { SweepTableView } from "./table";
 
 const kEndStrain = 0.8; // the default
@@ -34,6 +35,7 @@ export class SweepPage implements View {
   private readonly measureChoice = h("select", { "aria-label": "Measure of the chart" },
     h("option", { value: "" }, "Plateau stress"),
     ...kMeasures.map(({ field, words }) => h("option", { value: field }, words)));
+  private readonly map = new SweepMap();
   private readonly table = new SweepTableView();
   private readonly stops: (() => void)[];
   private readonly overlay: SweepOverlay;
@@ -52,7 +54,8 @@ export class SweepPage implements View {
       h("header", { class: "job-header" },
         h("div", { class: "title-row" }, this.heading, h("span", { class: "spacer" }), this.actions), this.about,
         this.states),
-      this.problem, h("section", { class: "card" }, this.chart.element, this.overlay.element), this.crushes.element,
+      this.problem, h("section", { class: "card" }, this.chart.element, this.overlay.element),
+      this.map.element, this.crushes.element,
       h("div", { class: "toolbar table-head" }, h("h2", {}, "Jobs"), h("span", { class: "spacer" }), this.table.menu,
         h("span", { class: "take-away" }, saveButton("CSV", "Save the table as a CSV file", async () =>
           download(this.table.csv(), `sweep-${idOf(name)}.csv`)))),
@@ -106,6 +109,7 @@ export class SweepPage implements View {
     this.chart.setTitle(measure?.words ?? "Plateau stress");
     const note = measure ? "" : sweep.words?.theoryNote;
     this.chart.setData(note ? { ...data, note: `${data.note}. ${note}` } : data);
+    this.map.update(rows, fields, measure ?? kMeasures[0]);
     this.table.update(rows, fields);
     const { loading } = sweep.case ?? {};
     const isCrush = sweep.words?.plates ?? true;
@@ -155,6 +159,7 @@ export class SweepPage implements View {
     this.overlay.destroy();
     this.crushes.destroy();
     for (const stop of this.stops) stop();
+    this.map.destroy();
     this.chart.destroy();
   }
 }

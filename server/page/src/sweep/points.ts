@@ -44,7 +44,7 @@ function groupsOf({ label: sweep, rows, fields }: Swept, path: string): Group[] 
 
 interface Mean { mean: number; deviation: number; count: number }
 
-function meanOf(values: number[]): Mean | undefined {
+export function meanOf(values: number[]): Mean | undefined {
   if (values.length === 0) return undefined;
   const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
   const squares = values.reduce((sum, value) => sum + (value - mean) ** 2, 0);
