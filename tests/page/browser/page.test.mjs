@@ -42,7 +42,7 @@ test('a sweep over two fields with labels is started from the form', async () =>
   await page.getByLabel('Values').fill('80, 160');
   await page.getByRole('button', { name: 'Vary another field' }).click();
   await page.getByLabel('Values').last().fill('seeds:2');
-  await page.getByText('Labels and priority').click();
+  await page.getByText('Note, labels and priority').click();
   await page.getByLabel('Labels').fill('series');
   await page.getByText('“series” is not key=value').waitFor();
   await page.getByLabel('Labels').fill('series=form');

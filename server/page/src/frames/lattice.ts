@@ -55,7 +55,7 @@ export function viewBox(lattice: Lattice): Box {
   return { lowX: box.lowX - dx, highX: box.highX + dx, lowY: box.lowY - dy, highY: box.highY + dy };
 }
 
-/** The box that shows a frame with plates: as above, wider where the walls bulge; along y only up to the impact plate. */
+/** The box of a frame with plates: as above, wider where the walls bulge; along y only up to the impact plate. */
 export function frameBox(lattice: Lattice, position: Float32Array, strain: number): Box {
   const box = viewBox(lattice);
   const now = boxOf(position);

@@ -6,10 +6,10 @@ import { clock, duration, fullTime, idOf, pathOf, quantity, strainText } from ".
 import { iconButton } from "../dom/icons";
 import { kMeasures, textWithUnit } from "../job/measures";
 import { actionsOf, attempt } from "./actions";
-import { elsewhere, hasEnded, sceneWords, setChip, stateChip, titleOf, tookText, whereOf } from "./states";
+import { elsewhere, hasEnded, noteOf, sceneWords, setChip, stateChip, titleOf, tookText, whereOf } from "./states";
 import type { JobStore } from "./store";
 
-function noteOf(job: Job, entry: Queue_Entry | undefined): string {
+function stateNote(job: Job, entry: Queue_Entry | undefined): string {
   if (job.state === Job_State.PENDING) return entry?.reason || job.causeMessage;
   if (job.progress?.stalled) return "The worker has not reported for some seconds.";
   return job.causeMessage;
@@ -32,6 +32,7 @@ export class JobRow {
   private readonly title = h("a", { class: "job-title" });
   private readonly name = h("span", { class: "faint" });
   private readonly sweep = h("a", { class: "faint" });
+  private readonly ownNote = h("div", { class: "job-note" });
   private readonly about = h("span", { class: "faint" });
   private readonly where = h("span", { class: "faint" });
   private readonly chip = stateChip();
@@ -58,7 +59,7 @@ export class JobRow {
   constructor(private readonly store: JobStore) {
     this.element = h("tr", {},
       h("td", { class: "check" }, this.select),
-      h("td", { class: "what" }, this.title,
+      h("td", { class: "what" }, this.title, this.ownNote,
         h("div", { class: "under" }, this.name, this.sweep, this.about, this.where)),
       h("td", { class: "state" }, this.chip, this.note),
       ...this.cells.values(), this.actions);
@@ -82,7 +83,8 @@ export class JobRow {
     this.select.setAttribute("aria-label", `Select job ${idOf(job.name)} to compare`);
     this.select.disabled = job.state === Job_State.PENDING;
     setChip(this.chip, job.state);
-    setText(this.note, noteOf(job, entry));
+    setText(this.note, stateNote(job, entry));
+    setText(this.ownNote, noteOf(job));
     this.note.title = [job.causeMessage, job.remedy].filter(Boolean).join(" ");
     this.updateProgress(job);
     this.updateTime(job, entry);
