@@ -9,13 +9,13 @@
 
 #include "cellcrush/convergence.h"
 #include "error.h"
+#include "jobs/seed_means.h"
 #include "jobs/sweep_points.h"
 
 namespace cellcrush::jobs {
 namespace {
 
 constexpr const char* kMeshField = "elements_per_wall";
-constexpr const char* kSeedField = "lattice.imperfection.seed";
 
 /// A quantity of a summary, by the name of its field.
 struct Measure {
@@ -26,13 +26,6 @@ struct Measure {
 constexpr std::array kMeasures = {Measure{"plateau_stress_impact_mpa", true},
                                   Measure{"plateau_stress_support_mpa", true}, Measure{"densification_strain", false},
                                   Measure{"absorbed_energy_mj", false}};
-
-std::optional<double> value_of(const Measure& measure, const v1::Summary& summary) {
-  const auto* field = v1::Summary::descriptor()->FindFieldByName(measure.field);
-  const auto& reflection = *summary.GetReflection();
-  if (field->has_presence() && !reflection.HasField(summary, field)) return std::nullopt;
-  return reflection.GetDouble(summary, field);
-}
 
 /// Index of the elements per wall in the values of a row.
 std::size_t mesh_index_of(const v1::Sweep& sweep) {
@@ -55,7 +48,7 @@ std::vector<MeshEstimate> estimates_of(const Measure& measure, const std::vector
     if (row.result().state() != v1::Job::SUCCEEDED) continue;
     const int elements = static_cast<int>(row.values(static_cast<int>(mesh_index)));
     results[elements].elements_per_wall = elements;
-    if (const auto value = value_of(measure, row.result().summary())) results[elements].values.push_back(*value);
+    if (const auto value = find_result(row.result().summary(), measure.field)) results[elements].values.push_back(*value);
   }
   std::vector<MeshResult> list;
   for (auto& [elements, result] : results) list.push_back(std::move(result));

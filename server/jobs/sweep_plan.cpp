@@ -3,8 +3,11 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <map>
 #include <string>
@@ -34,10 +37,18 @@ std::size_t bytes_of_labels(const v1::Sweep& sweep) {
   return out;
 }
 
+// Whole numbers in full, others in six digits.
+std::string title_text_of(double value) {
+  if (value == std::floor(value)) return text_of(value);
+  std::array<char, 32> text{};
+  const auto written = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6);
+  return {text.data(), written.ptr};
+}
+
 // "loading.speed_m_per_s = 50, lattice.hexagon.rows = 6".
 std::string text_of_point(const std::vector<std::string>& fields, const std::vector<double>& values) {
   std::string out;
-  for (std::size_t i = 0; i < fields.size(); ++i) out += (i == 0 ? "" : ", ") + fields[i] + " = " + text_of(values[i]);
+  for (std::size_t i = 0; i < fields.size(); ++i) out += (i == 0 ? "" : ", ") + fields[i] + " = " + title_text_of(values[i]);
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "error_table.h"
 #include "jobs/convergence.h"
+#include "jobs/seed_means.h"
 #include "jobs/sweep_plan.h"
 #include "jobs/sweep_points.h"
 #include "rpc/request_fields.h"
@@ -166,6 +167,7 @@ class SweepCalls {
 
   v1::SweepTable get_sweep_table(const Call&, const v1::GetSweepTableRequest& request) {
     const auto found = find(request.name());
+    if (request.mean_over_seeds()) return seed_means(found, request);
     const std::string question = "table of " + found.sweep.name();
     const auto page = read_full_page(request.page_size(), request.page_token(), question);
     v1::SweepTable out;
@@ -200,6 +202,34 @@ class SweepCalls {
     std::int64_t number = 0;
     v1::Sweep sweep;
   };
+  /// A page of the table's means. Every page reads all rows, some megabytes at a time.
+  v1::SweepTable seed_means(const Found& found, const v1::GetSweepTableRequest& request) {
+    const std::string question = "means of " + found.sweep.name();
+    const auto page = read_full_page(request.page_size(), request.page_token(), question);
+    v1::SweepTable out;
+    if (page.after == 0) {
+      for (auto& field : jobs::swept_fields(found.sweep)) out.add_fields(std::move(field));
+    }
+    jobs::SeedMeans means(found.sweep);
+    if (!means.varies_seed()) return out;
+    store::StoredRows stored;
+    do {
+      const auto after = stored.last_point;
+      stored = parts_.sweeps.rows(found.number, after, {std::numeric_limits<int>::max(), kPageBytes});
+      for (const auto& row : stored.rows) means.add(row);
+    } while (stored.has_more);
+    auto room = page.room();
+    for (auto point = static_cast<std::size_t>(page.after); point < means.size(); ++point) {
+      auto of_point = means.means(point);
+      if (!room.take(of_point.ByteSizeLong())) {
+        out.set_next_page_token(page_token(static_cast<std::int64_t>(point), question));
+        break;
+      }
+      *out.add_means() = std::move(of_point);
+    }
+    return out;
+  }
+
   /// Throws ServiceError (not_found) if there is none.
   Found find(const std::string& name) {
     check_length("name", name, kLongestName);

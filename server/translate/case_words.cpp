@@ -241,6 +241,9 @@ void add_words(v1::ListSweepsResponse& sweeps) {
 
 void add_words(v1::SweepTable& table) {
   for (auto& row : *table.mutable_rows()) add_words(*row.mutable_result());
+  for (auto& means : *table.mutable_means()) {
+    for (auto& counted : *means.mutable_crush_modes()) counted.set_words(words_of(counted.mode()));
+  }
 }
 
 void add_words(v1::JobEvent& event) {

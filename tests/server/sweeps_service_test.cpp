@@ -1,11 +1,13 @@
 // Sweeps: their points, their jobs and what their tables tell.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 
 #include "error.h"
 #include "google/rpc/status.pb.h"
 #include "jobs/convergence.h"
+#include "jobs/seed_means.h"
 #include "programs/text_proto.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
@@ -241,6 +243,32 @@ TEST(SweepConvergence, OfASweepOverAnythingElseIsRefused) {
   }
 }
 
+TEST(SeedMeans, CountOnlySucceededJobsAndHaveTheIntervalOfStudent) {
+  jobs::SeedMeans means(sweep_over_meshes({2.0, 4.0}, 4).sweep());
+  ASSERT_TRUE(means.varies_seed());
+  auto warned = row_of(2, 2, v1::Job::SUCCEEDED, 1.1);
+  warned.mutable_result()->mutable_summary()->add_warnings();
+  warned.mutable_result()->mutable_summary()->mutable_front()->set_shock_mpa(3.0);
+  for (const auto& row : {row_of(2, 1, v1::Job::SUCCEEDED, 1.0), row_of(4, 1, v1::Job::RUNNING, 5.0), warned,
+                          row_of(2, 3, v1::Job::SUCCEEDED, 1.2), row_of(2, 4, v1::Job::FAILED, 5.0)})
+    means.add(row);
+  ASSERT_EQ(means.size(), 2U);
+  const auto of = means.means(0);
+  EXPECT_THAT(of.values(), ElementsAre(2.0));
+  EXPECT_THAT((std::array{of.job_count(), of.succeeded_count(), of.failed_count(), of.warned_count()}),
+              ElementsAre(4, 3, 1, 1));
+  ASSERT_EQ(of.results_size(), 6) << of.DebugString();
+  EXPECT_EQ(of.results(0).field(), "plateau_stress_impact_mpa");
+  EXPECT_NEAR(of.results(0).mean(), 1.1, 1e-12);
+  EXPECT_NEAR(of.results(0).deviation(), 0.1, 1e-12);
+  EXPECT_NEAR(of.results(0).interval(), 4.30265 * 0.1 / std::sqrt(3.0), 1e-6);
+  EXPECT_EQ(of.results(3).field(), "front.shock_mpa");
+  EXPECT_EQ(of.results(3).job_count(), 1);
+  EXPECT_FALSE(of.results(3).has_interval());
+  EXPECT_EQ(means.means(1).job_count(), 1);
+  EXPECT_EQ(means.means(1).results_size(), 0);
+}
+
 class ConvergenceServiceTest : public DaemonFixture {};
 
 TEST_F(ConvergenceServiceTest, IsThatOfTheTableAndItsCostIsToldBefore) {
@@ -262,6 +290,19 @@ TEST_F(ConvergenceServiceTest, IsThatOfTheTableAndItsCostIsToldBefore) {
   const double second = client.get(sweep.jobs(1)).summary().plateau_stress_impact_mpa();
   EXPECT_NEAR(coarse.mean(), 0.5 * (first + second), 1e-9);
   EXPECT_NEAR(coarse.scatter_relative() * coarse.mean(), std::abs(first - second) / std::sqrt(2.0), 1e-9);
+  auto averaged = named<v1::GetSweepTableRequest>(sweep.name());
+  averaged.set_mean_over_seeds(true);
+  averaged.set_page_size(1);
+  auto table = answer_of(*client.sweeps, &v1::Sweeps::Stub::GetSweepTable, averaged);
+  EXPECT_THAT(table.fields(), ElementsAre(kMesh, "lattice.imperfection.seed"));
+  ASSERT_EQ(table.means_size(), 1);
+  EXPECT_EQ(table.rows_size(), 0);
+  EXPECT_EQ(table.means(0).succeeded_count(), 2);
+  EXPECT_EQ(table.means(0).results(0).mean(), coarse.mean());
+  averaged.set_page_token(table.next_page_token());
+  table = answer_of(*client.sweeps, &v1::Sweeps::Stub::GetSweepTable, averaged);
+  EXPECT_THAT(table.means(0).values(), ElementsAre(2.0));
+  EXPECT_TRUE(table.next_page_token().empty());
   asked.set_wanted_error_relative(-0.1);
   const auto refused = try_call(*client.sweeps, &v1::Sweeps::Stub::GetConvergence, asked);
   EXPECT_THAT(refused, Fails(grpc::StatusCode::INVALID_ARGUMENT, "wanted_error_relative"));

@@ -179,8 +179,12 @@ TEST(Convergence, StatisticsAreThoseOfAKnownSample) {
   EXPECT_EQ(of.count, 8);
   EXPECT_DOUBLE_EQ(of.mean, 5.0);
   EXPECT_NEAR(of.deviation, std::sqrt(32.0 / 7.0), 1e-12);
-  // Against an exact value: t of 7 degrees of freedom is 2.365.
-  EXPECT_NEAR(interval_of_difference(of, {}), 2.365 * std::sqrt(32.0 / 7.0 / 8.0), 5e-3);
+  // Against an exact value: Student's factors of 7, 11, 19 and 99 degrees of freedom, from tables.
+  const auto interval = [](int count) { return interval_of_difference({count, 5.0, std::sqrt(count)}, {}); };
+  EXPECT_NEAR(interval_of_difference(of, {}), 2.36462 * std::sqrt(32.0 / 7.0 / 8.0), 1e-5);
+  EXPECT_NEAR(interval(12), 2.20099, 3e-4);
+  EXPECT_NEAR(interval(20), 2.09302, 1e-4);
+  EXPECT_NEAR(interval(100), 1.98422, 1e-4);
 }
 
 // Two meshes of the same mean: the interval holds the difference in 95 of 100 trials.
