@@ -25,7 +25,7 @@ function compare(a: Value, b: Value, direction: 1 | -1): number {
 export class Columns<T> {
   readonly head = h("tr");
   private readonly choices = h("div", { class: "choices" });
-  readonly menu = h("details", { class: "columns-menu" }, h("summary", {}, "Columns"), this.choices);
+  readonly menu = h("details", { class: "columns-menu", hidden: true }, h("summary", {}, "Columns"), this.choices);
   private columns: Column<T>[] = [];
   private order: { key: string; direction: 1 | -1 } | undefined;
   private shownKey = "";
@@ -45,9 +45,9 @@ export class Columns<T> {
 
   set(columns: Column<T>[]): void {
     const key = columns.map((column) => `${column.key} ${column.name}`).join("\n");
+    this.columns = columns;
     if (key === this.shownKey) return;
     this.shownKey = key;
-    this.columns = columns;
     this.show();
   }
 

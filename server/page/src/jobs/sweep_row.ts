@@ -74,7 +74,7 @@ export class SweepRow {
                        table.element);
     data.changes.add(() => {
       setText(problem, data.error ? errorText(data.error) : "");
-      if (data.sweep) table.update(data.rows, data.fields);
+      if (data.sweep) table.update(data);
     });
   }
 

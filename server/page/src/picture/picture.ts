@@ -61,7 +61,7 @@ export class Picture {
     this.lattice = lattice;
     this.box = viewBox(lattice);
     this.needed = 0;
-    this.camera.setBox(this.box, lattice.plates && lattice.alongY);
+    this.camera.setBox(this.box, lattice.plates);
     this.segments = undefined;
     this.drawSoon();
   }
@@ -69,7 +69,7 @@ export class Picture {
   // Fits the view to a frame between plates. The element grows at once and shrinks when the picture rests.
   private fitTo(lattice: Lattice, position: Float32Array, strain: number): void {
     const box = this.box = frameBox(lattice, position, strain);
-    this.camera.setBox(box, lattice.alongY);
+    this.camera.setBox(box, true);
     const needed = (box.highY - box.lowY) / (box.highX - box.lowX);
     this.shrinking.stop();
     if (needed > this.limit || this.needed === 0) this.limitHeight(needed);

@@ -62,7 +62,7 @@ export class SweepOverlay {
 
   /** The sweeps to draw beside the own one. */
   get swept(): Swept[] {
-    return this.matching().map(({ sweep, rows, fields }) => ({ label: this.labelOf(sweep), rows, fields }));
+    return this.matching().map(({ sweep, ...of }) => ({ label: this.labelOf(sweep), ...of }));
   }
 
   private matching(): LoadedSweep[] {

@@ -98,19 +98,19 @@ export class SweepPage implements View {
   }
 
   private draw(): void {
-    const { sweep, rows, fields } = this.data;
+    const { sweep, rows, fields, means } = this.data;
     if (!sweep) return;
     const path = fields[Number(this.axisChoice.value) || 0] ?? "";
     this.overlay.setPath(path);
     const others = this.overlay.swept;
     const label = others.length ? this.overlay.labelOf(sweep) : "";
     const measure = kMeasures.find(({ field }) => field === this.measureChoice.value);
-    const data = sweepChart([{ label, rows, fields }, ...others], path, measure);
+    const data = sweepChart([{ label, rows, fields, means }, ...others], path, measure);
     this.chart.setTitle(measure?.words ?? "Plateau stress");
     const note = measure ? "" : sweep.words?.theoryNote;
     this.chart.setData(note ? { ...data, note: `${data.note}. ${note}` } : data);
-    this.map.update(rows, fields, measure ?? kMeasures[0]);
-    this.table.update(rows, fields);
+    this.map.update(this.data, measure ?? kMeasures[0]);
+    this.table.update(this.data);
     const { loading } = sweep.case ?? {};
     const isCrush = sweep.words?.plates ?? true;
     this.crushes.update(isCrush ? rows : [], fields, loading?.endStrain ?? kEndStrain);

@@ -1,16 +1,16 @@
 // The map of a sweep over two fields: a measure as the colour of each pair of values, which leads to its jobs.
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { given, idOf, number, pathOf, plural } from "../dom/format";
+import { given, idOf, number, plural } from "../dom/format";
 import { h, replaceChildren } from "../dom/element";
 import { isDark, onThemeChange } from "../dom/preferences";
 import { titleOfMeasure, unitFor, type Measure } from "../job/measures";
 import { stateWord } from "../jobs/states";
 import { colourTable, cssColour, kShades, wallColour } from "../picture/colours";
-import { axisName, isSeed, meanOf } from "./points";
+import { axisName, isSeed } from "./points";
+import { byPoint, jobsLink, keyOf, meanOfField } from "./seed_means";
+import type { TableData } from "./table";
 
-const kMostCompared = 6;
-
-interface Cell { rows: SweepTable_Row[]; mean: ReturnType<typeof meanOf> }
+interface Cell { rows: SweepTable_Row[]; mean: number | undefined }
 
 /** The places of the two fields of a map; undefined if the sweep varies other numbers of fields. */
 export function mapAxes(rows: SweepTable_Row[], fields: string[]): [number, number] | undefined {
@@ -30,26 +30,27 @@ export class SweepMap {
   private redraw = (): void => undefined;
   private readonly ignoreTheme = onThemeChange(() => this.redraw());
 
-  update(rows: SweepTable_Row[], fields: string[], measure: Measure): void {
+  update(data: TableData, measure: Measure): void {
+    const { rows, fields } = data;
     const axes = mapAxes(rows, fields);
     this.element.hidden = !axes;
-    this.redraw = () => axes && this.draw(rows, fields, measure, axes);
+    this.redraw = () => axes && this.draw(data, measure, axes);
     this.redraw();
   }
 
-  private draw(rows: SweepTable_Row[], fields: string[], measure: Measure, [x, y]: [number, number]): void {
-    const numberOf = ({ result }: SweepTable_Row): number | undefined =>
-      result?.summary && measure.value(result.summary);
+  private draw({ rows, fields, means: averages }: TableData, measure: Measure, [x, y]: [number, number]): void {
+    const points = byPoint(averages);
+    const numberOf = (row: SweepTable_Row): number | undefined =>
+      meanOfField(points.get(keyOf(row.values, fields)), measure.field)?.mean ??
+      (row.result?.summary && measure.value(row.result.summary));
     const unit = unitFor(measure, rows.map(numberOf));
     const cells = new Map<string, Cell>();
     for (const row of rows) {
       const key = `${row.values[x]} ${row.values[y]}`;
-      cells.set(key, { rows: [...(cells.get(key)?.rows ?? []), row], mean: undefined });
+      const value = numberOf(row);
+      cells.set(key, { rows: [...(cells.get(key)?.rows ?? []), row], mean: value && value * unit.factor });
     }
-    for (const cell of cells.values()) {
-      cell.mean = meanOf(cell.rows.map(numberOf).filter((value) => value !== undefined).map((v) => v * unit.factor));
-    }
-    const means = [...cells.values()].flatMap(({ mean }) => (mean ? [mean.mean] : []));
+    const means = [...cells.values()].flatMap(({ mean }) => (mean === undefined ? [] : [mean]));
     const [low, high] = [Math.min(...means), Math.max(...means)];
     const valuesOf = (axis: number): number[] =>
       [...new Set(rows.map((row) => row.values[axis]))].sort((a, b) => a - b);
@@ -86,14 +87,12 @@ function legend(low: number, high: number): HTMLElement {
 function cellOf(cell: Cell | undefined, shareOf: (mean: number) => number): HTMLElement {
   if (!cell) return h("td", {});
   const { rows, mean } = cell;
-  const ids = rows.map(({ job }) => idOf(job)).slice(0, kMostCompared);
-  const href = rows.length === 1 ? pathOf(rows[0].job) : `/compare?jobs=${ids.join(",")}`;
   const { result } = rows[0];
-  const text = mean ? number(mean.mean) : result ? stateWord(result.state) : "–";
-  const of = rows.length === 1 ? `job ${ids[0]}` : `mean of ${plural(mean?.count ?? 0, "job")}`;
-  const link = h("a", { href, title: `${of}: ${text}` }, text);
-  if (mean) {
-    const colour = wallColour(shareOf(mean.mean), isDark());
+  const text = mean !== undefined ? number(mean) : result ? stateWord(result.state) : "–";
+  const of = rows.length === 1 ? `job ${idOf(rows[0].job)}` : `mean of ${plural(rows.length, "job")}`;
+  const link = h("a", { href: jobsLink(rows), title: `${of}: ${text}` }, text);
+  if (mean !== undefined) {
+    const colour = wallColour(shareOf(mean), isDark());
     link.style.background = cssColour(colour);
     link.style.color = inkOn(colour);
   }

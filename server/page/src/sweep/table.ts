@@ -1,20 +1,25 @@
 // The table of a sweep: one row per job, with links, and the same as CSV.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
-import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { Columns, type Column } from "../dom/columns";
+import type { SweepTable_Row, SweepTable_SeedMeans } from "../../gen/cellcrush/v1/sweep_pb";
 import { clock, fullTime, given, idOf, milliseconds, number, pathOf, type Unit } from "../dom/format";
-import { button, h, replaceChildren, type Child } from "../dom/element";
+import { h, type Child } from "../dom/element";
+import { keep, kept } from "../dom/preferences";
+import { TableView, type CellColumn } from "../dom/table_view";
 import { kFirstMeasures, kMeasures, measureText, titleOfMeasure, unitFor, type Measure } from "../job/measures";
 import { progressBar } from "../jobs/progress_bar";
 import { hasEnded, setChip, stateChip, tookText } from "../jobs/states";
 import { csvBlob } from "../take_away/menus";
 import { axisName } from "./points";
+import { meanColumns } from "./seed_means";
+import type { LoadedSweep } from "./sweep_data";
 
-const kRowsAtFirst = 300;
+const kEachSeed = "sweep-each-seed";
 const kImpact = "plateau_stress_impact_mpa";
 
 type Row = SweepTable_Row;
-interface TableColumn extends Column<Row> { cell(row: Row): Child }
+type TableColumn = CellColumn<Row>;
+/** `means` are those over the seeds, if the sweep varies them. */
+export type TableData = Pick<LoadedSweep, "rows" | "fields" | "means">;
 
 const startOf = ({ result }: Row): number | undefined => result?.startTime && milliseconds(result.startTime);
 
@@ -58,44 +63,42 @@ function columnsOf(rows: Row[], fields: string[]): TableColumn[] {
 }
 
 export class SweepTableView {
-  readonly element = h("div", { class: "table-scroll" });
-  private readonly columns = new Columns<Row>("sweep", () => this.show());
-  /** The menu of the columns. */
-  readonly menu = this.columns.menu;
-  private readonly body = h("tbody");
-  private readonly all = button("", () => {
-    this.showsAll = true;
+  private readonly jobs = new TableView<Row>("sweep");
+  private readonly means = new TableView<SweepTable_SeedMeans>("sweep-means");
+  private readonly eachSeed = h("input", { type: "checkbox", change: () => {
+    keep(kEachSeed, this.eachSeed.checked);
     this.show();
-  }, { class: "quiet", hidden: true });
-  private rows: Row[] = [];
-  private fields: string[] = [];
-  private showsAll = false;
+  } });
+  private readonly choice = h("label", { hidden: true }, this.eachSeed, " each seed");
+  readonly element = h("div", {}, this.means.element, this.jobs.element);
+  /** What the table shows: jobs or means, and the menus of the columns. */
+  readonly menu = h("span", { class: "table-menu" }, this.choice, this.means.menu, this.jobs.menu);
+  private data: TableData = { rows: [], fields: [], means: [] };
 
   constructor() {
-    this.element.append(h("table", { class: "rows" }, h("thead", {}, this.columns.head), this.body), this.all);
+    this.eachSeed.checked = kept(kEachSeed, false);
   }
 
-  update(rows: Row[], fields: string[]): void {
-    this.rows = rows;
-    this.fields = fields;
+  update(data: TableData): void {
+    this.data = data;
     this.show();
   }
 
   private show(): void {
-    const { rows, columns } = this;
-    columns.set(columnsOf(rows, this.fields));
-    const shown = columns.sorted(rows).slice(0, this.showsAll ? undefined : kRowsAtFirst);
-    const cells = columns.shown as TableColumn[];
-    replaceChildren(this.body, ...shown.map((row) =>
-      h("tr", {}, ...cells.map(({ figure, cell }) => h("td", { class: figure ? "figure" : "" }, cell(row))))));
-    this.all.hidden = shown.length === rows.length;
-    this.all.textContent = `All ${rows.length} rows`;
+    const { rows, fields, means } = this.data;
+    const areMeans = means.length > 0 && !this.eachSeed.checked;
+    this.choice.hidden = means.length === 0;
+    this.means.element.hidden = this.means.menu.hidden = !areMeans;
+    this.jobs.element.hidden = this.jobs.menu.hidden = areMeans;
+    if (areMeans) this.means.update(means, meanColumns(this.data));
+    else this.jobs.update(rows, columnsOf(rows, fields));
   }
 
   csv(): Blob {
     const measures = kMeasures.filter(({ field }) => kFirstMeasures.includes(field));
-    return csvBlob([...this.fields, "job", "state", ...measures.map(({ field }) => field)],
-      this.rows.map(({ values, job, result }) =>
+    const { rows, fields } = this.data;
+    return csvBlob([...fields, "job", "state", ...measures.map(({ field }) => field)],
+      rows.map(({ values, job, result }) =>
         [...values, job, result ? Job_State[result.state] : "",
          ...measures.map(({ value }) => result?.summary && value(result.summary))]));
   }
