@@ -223,7 +223,7 @@ struct Daemon::Impl {
   void serve_http() {
     if (!wanted_http) return;
     try {
-      gateway.emplace(*wanted_http, gate, service.methods, options.connections);
+      gateway.emplace(*wanted_http, gate, service.methods, options.connections, options.framing_origins);
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
       warn_without_http(error);

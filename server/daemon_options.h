@@ -31,6 +31,8 @@ struct DaemonOptions {
   /// Address "HOST:PORT" that serves the API and the web page over HTTP, with TLS if `access` has it, or "none".
   /// Empty: 127.0.0.1:8080, or nowhere if that is in use or the other options forbid it.
   std::string http;
+  /// Origins, such as "https://grafana.example.org", whose pages may show the web page in a frame.
+  std::vector<std::string> framing_origins;
   /// Number of jobs that run at once on this machine. 0: the number of cores.
   int workers = 0;
   /// Program started as `PROGRAM worker ...`.

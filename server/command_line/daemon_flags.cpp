@@ -42,6 +42,20 @@ std::string cluster_problem(const std::string& text) {
   }
 }
 
+// Empty for an origin: a scheme, a host and, unless it is that of the scheme, a port.
+std::string origin_problem(const std::string& text) {
+  constexpr std::string_view kOfHost = "abcdefghijklmnopqrstuvwxyz0123456789.-:[]";
+  const std::string_view origin = text;
+  const std::size_t scheme = origin.starts_with("https://") ? 8 : origin.starts_with("http://") ? 7 : 0;
+  const bool is_origin =
+      scheme > 0 && origin.size() > scheme && origin.find_first_not_of(kOfHost, scheme) == std::string_view::npos;
+  if (is_origin) return "";
+  return fmt::format(
+      "\"{}\" is not an origin. Write it as https://HOST or https://HOST:PORT, in lower case and without "
+      "a path.",
+      text);
+}
+
 // Reads a TOML file of options and rejects a key that is not an option. Otherwise a misspelt key would silently leave a
 // default in force.
 class CheckedConfig final : public CLI::ConfigTOML {
@@ -107,6 +121,11 @@ void DaemonFlags::add_addresses(CLI::App& app) {
       "--http", options_.http,
       "HOST:PORT that serves the API and the web page over HTTP, or over HTTPS with --tls-cert; none: nowhere "
       "(default: 127.0.0.1:8080 if it is free)");
+  app.add_option("--allow-framing", options_.framing_origins,
+                 "Origin whose pages may show the web page in a frame, such as https://grafana.example.org; may be "
+                 "repeated (default: none)")
+      ->check(origin_problem)
+      ->type_name("ORIGIN");
   app.add_option("--metrics", options_.metrics,
                  "Loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)");
 }

@@ -24,7 +24,7 @@ constexpr std::uint32_t kLargestHeader = 16 * 1024;
 constexpr std::chrono::seconds kFarewell{1};
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
-    "media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    "media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors ";
 
 template <class Body>
 bhttp::response<Body> new_response(unsigned status, bool keep_alive, const char* caching) {
@@ -184,7 +184,11 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
     return Refusal{400,
                    {StatusCode::PERMISSION_DENIED, "One Host header, and at most one Origin header, must be sent."}};
   }
-  const BrowserHeaders headers{request[Field::host], request[Field::origin], request["Sec-Fetch-Site"]};
+  // The content policy of the page names the sites that may frame it.
+  const bool is_frame = !parts_.framing_origins.empty() && request.method() == bhttp::verb::get &&
+                        request["Sec-Fetch-Mode"] == "navigate" && request["Sec-Fetch-Dest"] == "iframe";
+  const BrowserHeaders headers{request[Field::host], request[Field::origin],
+                               is_frame ? std::string_view() : std::string_view(request["Sec-Fetch-Site"])};
   if (const auto refusal = check_browser(headers, {parts_.port, parts_.has_tls}))
     return Refusal{refusal->status, {StatusCode::PERMISSION_DENIED, refusal->why}};
   const auto* method = method_of(request);
@@ -286,7 +290,8 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
   auto response = new_response<bhttp::string_body>(known ? 304 : 200, keep_alive_, "no-cache");
   response.set(Field::etag, tag);
   response.set(Field::vary, "Accept-Encoding");
-  response.set("Content-Security-Policy", kContentPolicy);
+  const std::string& framing = parts_.framing_origins;
+  response.set("Content-Security-Policy", kContentPolicy + (framing.empty() ? "'none'" : framing));
   if (!known) {
     response.set(Field::content_type, web::content_type_of_file(file->name));
     if (!small.empty()) response.set(Field::content_encoding, "gzip");

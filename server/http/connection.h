@@ -48,6 +48,7 @@ struct GatewayParts {
   const access::Gate& gate;
   const rpc::MethodTable& methods;
   net::ConnectionLimits limits;
+  std::string framing_origins;  ///< which may frame the page, separated by spaces; empty: none
   int port = 0;
   bool has_tls = false;
   bool stopping = false;

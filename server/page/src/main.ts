@@ -6,8 +6,10 @@ import "./style/jobs.css";
 import "./style/job.css";
 import "./style/sweep.css";
 import "./style/new_case.css";
+import "./style/server.css";
 import { api } from "./api/clients";
 import { exportedBy, isExported } from "./api/exported";
+import { chooseTheme, kThemes, startTheme, theme, type Theme } from "./dom/preferences";
 import { forgetToken, hasToken } from "./api/token";
 import { watch, type Connection } from "./api/watch";
 import { ComparePage } from "./compare/page";
@@ -16,6 +18,8 @@ import { JobPage } from "./job/page";
 import { JobsPage } from "./jobs/page";
 import { NewCasePage } from "./new_case/page";
 import { route, startRouter, valuesOfUrl } from "./router";
+import { HelpPage } from "./server/help";
+import { ServerPage } from "./server/page";
 import { SweepPage } from "./sweep/page";
 
 const kConnectionWords: Record<Connection, string> = {
@@ -44,9 +48,18 @@ function topBar(): HTMLElement {
   watch.freshStarts.add(() => void tellVersion().catch(() => undefined));
   return h("header", { class: "top" },
     h("a", { class: "brand", href: "/" }, iconOfPage(), "cellcrush"),
-    h("nav", {}, h("a", { href: "/" }, "Jobs"), h("a", { href: "/new" }, "New case")),
-    h("span", { class: "spacer" }), version,
+    h("nav", {}, h("a", { href: "/" }, "Jobs"), h("a", { href: "/new" }, "New case"),
+      h("a", { href: "/server" }, "Server"), h("a", { href: "/help" }, "Help")),
+    h("span", { class: "spacer" }), version, themeChoice(),
     hasToken() ? button("Forget the token", forgetToken, { class: "quiet" }) : null, status, retry);
+}
+
+function themeChoice(): HTMLElement {
+  const choice = h("select", { class: "theme", "aria-label": "Theme", title: "Theme",
+                               change: () => chooseTheme(choice.value as Theme) },
+    ...kThemes.map((name) => h("option", { value: name }, name)));
+  choice.value = theme();
+  return choice;
 }
 
 function iconOfPage(): HTMLElement {
@@ -68,11 +81,14 @@ route(/^\/jobs\/(\d+)$/, (match, query) => new JobPage(`jobs/${match[1]}`, query
 route(/^\/sweeps\/(\d+)$/, (match, query) => new SweepPage(`sweeps/${match[1]}`, query));
 route(/^\/compare$/, (_, query) => new ComparePage(query));
 route(/^\/new$/, (_, query) => new NewCasePage(query));
+route(/^\/server$/, () => new ServerPage());
+route(/^\/help$/, () => new HelpPage());
 route(/^/, () => ({
   title: "Not found", destroy: () => undefined,
   element: h("div", { class: "page" }, h("h1", {}, "There is no such page"), h("a", { href: "/" }, "All jobs")),
 }));
 
+startTheme();
 const main = h("main", { id: "main" });
 if (isExported) {
   void showExported(main);

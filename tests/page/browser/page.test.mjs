@@ -42,7 +42,7 @@ test('a sweep over two fields with labels is started from the form', async () =>
   await page.getByLabel('Values').fill('80, 160');
   await page.getByRole('button', { name: 'Vary another field' }).click();
   await page.getByLabel('Values').last().fill('seeds:2');
-  await page.getByText('Labels and priority').click();
+  await page.getByText('Note, labels and priority').click();
   await page.getByLabel('Labels').fill('series');
   await page.getByText('“series” is not key=value').waitFor();
   await page.getByLabel('Labels').fill('series=form');
@@ -63,6 +63,12 @@ test('a sweep over two fields with labels is started from the form', async () =>
     }
     await page.getByRole('cell', { name: job.summary.plateauStressImpactMpa.toPrecision(3) }).first().waitFor();
   }
+  // The seeds are averaged, unless each is wanted.
+  await page.getByRole('link', { name: '2 of 2' }).nth(1).waitFor();
+  const rows = page.locator('.sweep-page .rows:visible tbody tr');
+  assert.equal(await rows.count(), 2);
+  await page.getByLabel('each seed').check();
+  assert.equal(await rows.count(), 4);
 });
 
 // A field of a message in protobuf's binary form.
@@ -137,10 +143,47 @@ test('a case keeps its loads in the form, and problems stand at what they are ab
   assert.deepEqual(sent.loading, { ...submitted.loading, endAtRest: 0.25 });
 });
 
+test('a note from the form stands beside the title, and is no other label', async () => {
+  await page.goto(daemon.url + '/new');
+  await page.getByText('Note, labels and priority').click();
+  await page.getByLabel('Note').fill('after the repair');
+  await page.getByRole('button', { name: 'Start the job' }).click();
+  await page.waitForURL((url) => /jobs/.test(url.pathname));
+  await page.locator('.job-note', { hasText: 'after the repair' }).waitFor();
+  assert.equal(await page.getByText('labels note').count(), 0);
+  await page.getByRole('link', { name: 'Jobs' }).click();
+  await page.locator('.jobs .job-note', { hasText: 'after the repair' }).waitFor();
+});
+
+test('the page of the server shows its workers and its queue', async () => {
+  const slow = await daemon.presetCase('type-i');
+  const names = [];
+  for (let i = 0; i < 2; ++i) names.push((await daemon.call('Jobs/CreateJob', { case: slow })).name);
+  await page.goto(daemon.url + '/server');
+  await page.getByText('1 of 1 job').waitFor();
+  await page.getByRole('heading', { name: 'Waiting: 1' }).waitFor();
+  await page.getByText('The only worker is busy').or(page.getByText('workers are busy')).first().waitFor();
+  assert.deepEqual(await seriousFindings(page), []);
+  for (const name of names.reverse()) await daemon.call('Jobs/CancelJob', { name });
+  await page.getByText('0 of 1 job').waitFor();
+});
+
+test('the chosen theme is kept', async () => {
+  const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const automatic = await background();
+  await page.getByLabel('Theme').selectOption('dark');
+  assert.notEqual(await background(), automatic);
+  await page.reload();
+  await page.getByLabel('Theme').waitFor();
+  assert.notEqual(await background(), automatic);
+  await page.getByLabel('Theme').selectOption('auto');
+  assert.equal(await background(), automatic);
+});
+
 test('nothing serious stands in the way of people who cannot see or point', async () => {
   for (const colorScheme of ['light', 'dark']) {
     await page.emulateMedia({ colorScheme });
-    for (const path of ['/', '/jobs/1', '/new']) {
+    for (const path of ['/', '/jobs/1', '/new', '/help', '/compare?jobs=1,2']) {
       await page.goto(daemon.url + path);
       await page.waitForTimeout(800);
       assert.deepEqual(await seriousFindings(page), [], `${path}, ${colorScheme}`);

@@ -12,16 +12,18 @@ const daemon = stage(async (its) => {
   await createSweep('Thin walls', speed, [50, 100, 150]);
   await createSweep('<b>Thick walls</b>', speed, [60, 120]);
   await createSweep('Thicknesses', 'lattice.hexagon.wall_thickness_mm', [0.3, 0.4]);
-  for (const name of ['sweeps/1', 'sweeps/2', 'sweeps/3']) await endOf(name);
+  await createSweep('Speeds and thicknesses', speed, [50, 100],
+    [{ field: 'lattice.hexagon.wall_thickness_mm', list: { values: [0.3, 0.4] } }]);
+  for (const name of ['sweeps/1', 'sweeps/2', 'sweeps/3', 'sweeps/4']) await endOf(name);
 });
 
-async function createSweep(title, field, values) {
+async function createSweep(title, field, values, more = []) {
   const swept = await daemon.presetCase('hexagon-small', (each) => {
     each.title = title;
     each.lattice.hexagon.columns = 10;
     each.loading.endStrain = 0.45;
   });
-  const sweep = { case: swept, axes: [{ field, list: { values } }] };
+  const sweep = { case: swept, axes: [{ field, list: { values } }, ...more] };
   return daemon.call('Sweeps/CreateSweep', { sweep });
 }
 
@@ -77,6 +79,65 @@ test('the crushes of a sweep stand side by side at the strain of one slider', as
   assert.notDeepEqual(await picture.screenshot(), before);
   await page.waitForFunction(() => location.search.includes('strain=0.2'));
   assert.match(await cells.first().getByRole('link').getAttribute('href'), /^\/jobs\/1\?strain=0\.2/);
+});
+
+test('a drag and the wheel zoom the chart, a double click shows all, and its scales change', async () => {
+  const plot = page.locator('.sweep-page .u-over');
+  const all = page.getByRole('button', { name: 'Show all' });
+  await plot.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await plot.boundingBox();
+  for (const zoom of [async () => {
+    await page.mouse.move(x + 0.5 * width, y + 0.2 * height);
+    await page.mouse.down();
+    await page.mouse.move(x + 0.9 * width, y + 0.8 * height, { steps: 3 });
+    await page.mouse.up();
+  }, async () => {
+    await page.mouse.move(x + 0.5 * width, y + 0.5 * height);
+    await page.mouse.wheel(0, -300);
+  }, () => plot.press('+')]) {
+    await zoom();
+    await all.waitFor();
+    await plot.dblclick({ position: { x: 4, y: 4 } });
+    await all.waitFor({ state: 'hidden' });
+  }
+  const before = await plot.screenshot();
+  await page.getByLabel('Scales').selectOption('log x and y');
+  assert.notDeepEqual(await plot.screenshot(), before);
+  await page.getByLabel('Measure of the chart').selectOption('Absorbed energy');
+  await page.locator('.sweep-page figure h3', { hasText: 'Absorbed energy' }).waitFor();
+});
+
+test('a point of the chart leads to its job', async () => {
+  await page.goto(`${daemon.url}/sweeps/1`);
+  const plot = page.locator('.sweep-page .u-over');
+  await plot.waitFor();
+  const { x, y, width, height } = await plot.boundingBox();
+  const tip = page.locator('.point-tip');
+  for (let down = 4; down < height && !await tip.isVisible(); down += 8) {
+    await page.mouse.move(x + (100 / 155) * width, y + down); // 100 m/s on an axis from 0 to 155
+    await page.waitForTimeout(20);
+  }
+  assert.match(await tip.textContent(), /job 2/);
+  await page.mouse.down();
+  await page.mouse.up();
+  await page.waitForURL('**/jobs/2');
+  await page.goto(`${daemon.url}/sweeps/1?with=2`);
+  await page.locator('.sweep-page .legend').getByText('Thick').waitFor();
+});
+
+test('a sweep over two fields has a map, whose cells lead to their jobs', async () => {
+  await page.goto(`${daemon.url}/sweeps/4`);
+  const map = page.locator('.sweep-map');
+  await map.getByText('Impact plateau, MPa').waitFor();
+  const { rows } = await daemon.call('Sweeps/GetSweepTable', { name: 'sweeps/4' });
+  // From the top: thick walls, then thin ones; the sweep varies the thickness fastest.
+  const wanted = [1, 3, 0, 2].map((i) => rows[i]);
+  assert.deepEqual(await map.locator('td a').evaluateAll((links) => links.map((link) => [link.pathname.slice(1),
+    link.textContent])), wanted.map(({ job, result }) => [job, result.summary.plateauStressImpactMpa.toPrecision(3)]));
+  assert.deepEqual(await seriousFindings(page), []);
+  await page.goto(`${daemon.url}/sweeps/1?with=2`);
+  await page.locator('.sweep-page .legend').getByText('Thick').waitFor();
+  assert.equal(await map.isVisible(), false, 'one field is no map');
 });
 
 test('the SVG of the chart has the curves of both sweeps', async () => {

@@ -129,11 +129,24 @@ TEST_F(HttpGatewayTest, SlowAndLargeRequestsAreRefused) {
   EXPECT_THAT(exchange(head), StartsWith("HTTP/1.1 413"));
 }
 
+TEST_F(HttpGatewayTest, NamedOriginsMayFrameThePageButNotCallMethods) {
+  DaemonOptions options = http_options();
+  options.framing_origins = {"https://a.example", "http://b.example:8888"};
+  start(options);
+  const std::string framing = "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: navigate\r\nSec-Fetch-Dest: iframe\r\n";
+  const std::string page = exchange(request("GET /jobs/3", framing));
+  EXPECT_THAT(page, StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(page, HasSubstr("frame-ancestors https://a.example http://b.example:8888\r\n"));
+  EXPECT_THAT(call("GetJob", "application/json", "{}", framing), StartsWith("HTTP/1.1 403"));
+}
+
 TEST_F(HttpGatewayTest, ThePageHasItsHeaders) {
   const std::string page = exchange(request("GET /jobs/3", ""));
   EXPECT_THAT(page, StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(page, HasSubstr("frame-ancestors 'none'"));
   EXPECT_THAT(page, HasSubstr("text/html"));
+  const std::string framing = "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: navigate\r\nSec-Fetch-Dest: iframe\r\n";
+  EXPECT_THAT(exchange(request("GET /jobs/3", framing)), StartsWith("HTTP/1.1 403"));
   const auto at = page.find("ETag: ") + 6;
   const std::string tag = page.substr(at, page.find("\r\n", at) - at);
   EXPECT_THAT(exchange(request("GET /", "If-None-Match: " + tag + "\r\n")), StartsWith("HTTP/1.1 304"));

@@ -39,6 +39,8 @@ export interface Series {
   mark?: MarkShape;
   /** Left out of the legend. */
   quiet?: boolean;
+  /** The jobs of each point, by name. */
+  jobs?: string[][];
   /** The value of the legend, if it is not that of the curve. */
   legendValue?: (index: number) => number | undefined;
 }
@@ -65,6 +67,7 @@ export interface ChartData {
   spreads?: Spread[];
   xLow?: number;
   xLog?: boolean;
+  yLog?: boolean;
   note?: string;
 }
 

@@ -66,6 +66,10 @@ export function drawShapes(plot: uPlot, data: ChartData, shapesOf: typeof bandSh
   const { ctx, bbox } = plot;
   const unit = devicePixelRatio;
   ctx.save();
+  ctx.beginPath();
+  const margin = 1.4 * kPointRadius * unit; // points on the edge are whole
+  ctx.rect(bbox.left - margin, bbox.top - margin, bbox.width + 2 * margin, bbox.height + 2 * margin);
+  ctx.clip();
   const [x, y] = ["x", "y"].map((scale) => (value: number): number => plot.valToPos(value, scale, true));
   for (const shape of shapesOf(data, { ...bbox, unit, x, y })) {
     ctx.fillStyle = ctx.strokeStyle = themeColour(shape.colour);

@@ -2,6 +2,7 @@
 import { getOption, hasOption } from "@bufbuild/protobuf";
 import { term } from "../../gen/cellcrush/v1/field_pb";
 import { SampleSchema, type Sample } from "../../gen/cellcrush/v1/sample_pb";
+import { unitBySize } from "../dom/format";
 import type { ChartData, Series } from "./chart_data";
 import { finite, thin, type Axis } from "./curves";
 
@@ -28,7 +29,7 @@ export function energyChart(samples: Sample[], axis: Axis, workOf = "work of the
   const all = finite(samples, axis);
   const kept = thin(all.map((s) => s.energyKineticMj), kMostPoints).map((place) => all[place]);
   const most = kept.reduce((value, s) => Math.max(value, s.workExternalMj), 0);
-  const [unit, perMj] = most < 100 ? ["mJ", 1] : most < 1e6 ? ["J", 1e-3] : ["kJ", 1e-6];
+  const { name: unit, factor: perMj } = unitBySize("mJ", most);
   const terms = kTerms.filter((term) => kept.some((s) => Math.abs(term.value(s)) > kVisibleShare * most));
   const sums = kept.map(() => 0);
   let low = 0;

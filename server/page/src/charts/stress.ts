@@ -1,6 +1,6 @@
 // Stress at both plates against strain, beside theory; without plates, forces of the rigid walls.
 import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
-import { number } from "../dom/format";
+import { given, number, unitBySize, type Unit } from "../dom/format";
 import type { Band, ChartData, Level, Mark, Series } from "./chart_data";
 import { finite, quantile, runningMean, thin, type Axis } from "./curves";
 
@@ -34,12 +34,13 @@ export function stressTop(smooth: StressCurves, summary: Summary | undefined, th
   return top > 0 ? top : 1;
 }
 
-function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top: number): Level[] {
+function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top: number, unit: Unit): Level[] {
   const levels: Level[] = [];
   const add = (value: number | undefined, label: string, dash: number[]): void => {
     if (!value) return;
     const beyond = value > top ? ", beyond the chart" : "";
-    levels.push({ value, colour: "ink-2", dash, label: `${label}: ${number(value)} MPa${beyond}` });
+    const shown = value * unit.factor;
+    levels.push({ value: shown, colour: "ink-2", dash, label: `${label}: ${given(shown)} ${unit.name}${beyond}` });
   };
   add(theory?.shockMpa, "shock theory (Eq. 51)", [8, 4]);
   add(summary?.front?.shockMpa, "shock theory, measured jumps (Eq. 52)", [10, 3, 2, 3]);
@@ -47,7 +48,7 @@ function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top:
   const [from, to] = [summary?.plateauWindowLow, summary?.plateauWindowHigh];
   const plateau = { colour: "ink", dash: [], label: "", from, to };
   for (const value of [summary?.plateauStressImpactMpa, summary?.plateauStressSupportMpa]) {
-    if (value !== undefined) levels.push({ ...plateau, value });
+    if (value !== undefined) levels.push({ ...plateau, value: value * unit.factor });
   }
   return levels;
 }
@@ -58,15 +59,18 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
   const kept = finite(samples, axis);
   const smooth = smoothedStress(samples, axis);
   const top = stressTop(smooth, summary, note ? undefined : theory);
-  const curves = [smooth.strain, kept.map((s) => s.stressImpactMpa), kept.map((s) => s.stressSupportMpa),
-                  smooth.impact, smooth.support];
+  const unit = unitBySize("MPa", top);
+  const stresses = [kept.map((s) => s.stressImpactMpa), kept.map((s) => s.stressSupportMpa), smooth.impact,
+                    smooth.support].map((column) => column.map((stress) => stress * unit.factor));
+  const curves = [smooth.strain, ...stresses];
   const places = thin(curves[1], kMostPoints);
   const columns = curves.map((column) => places.map((place) => column[place]));
   const peak = kept.reduce((most, s) => Math.max(most, s.stressImpactMpa, s.stressSupportMpa), 0);
   const bands: Band[] = [{ from: 0.2, to: 0.4, label: "plateau window" }];
   const densification = summary?.densificationStrain;
   const marks: Mark[] = densification === undefined ? [] : [{ at: densification, label: "densification" }];
-  const beyond = peak > 1.001 * top ? `; single samples reach ${number(peak, 2)} MPa, off the chart` : "";
+  const beyond = peak > 1.001 * top
+    ? `; single samples reach ${number(peak * unit.factor, 2)} ${unit.name}, off the chart` : "";
   return {
     series: [
       { label: "", colour: "impact", width: 0.8, opacity: 0.3, quiet: true },
@@ -74,8 +78,8 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
       { label: "impact plate", colour: "impact", width: 2 },
       { label: "support plate", colour: "support", width: 2 },
     ],
-    columns, xLabel: axis.label, yLabel: "nominal stress (MPa)", xEnd: axis.end, yTop: top,
-    levels: levelsOf(summary, theory, top), bands, marks,
+    columns, xLabel: axis.label, yLabel: `nominal stress (${unit.name})`, xEnd: axis.end,
+    yTop: top * unit.factor, levels: levelsOf(summary, theory, top, unit), bands, marks,
     note: `moving mean over ${100 * kSmoothing} % strain; thin: every sample${beyond}${note ? `. ${note}` : ""}`,
   };
 }

@@ -62,6 +62,7 @@ export class ComparePage implements View {
   private readonly player = new Player();
   private readonly chart = new Chart("Stress and strain", (x) => this.player.seek(x));
   private readonly numbers = h("div", {});
+  private readonly all = h("input", { type: "checkbox", change: () => this.showNumbers() });
   private readonly bar: PlayerBar;
   private readonly jobs: Compared[];
   private readonly drawing = new Later(() => this.draw(), kDrawMs);
@@ -100,7 +101,9 @@ export class ComparePage implements View {
         ...this.jobs.map((job) => job.element)),
       h("div", { class: "card compare-player", hidden: this.jobs.length === 0 }, this.bar.element),
       h("div", { class: "compare-below", hidden: this.jobs.length === 0 },
-        h("section", { class: "card" }, this.chart.element), this.numbers));
+        h("section", { class: "card" }, this.chart.element),
+        h("div", { class: "toolbar table-head" }, h("h2", {}, "What differs"), h("span", { class: "spacer" }),
+          h("label", {}, this.all, " all fields")), this.numbers));
   }
 
   private readonly key = (event: KeyboardEvent): void => void this.bar.key(event);
@@ -116,8 +119,12 @@ export class ComparePage implements View {
 
   private update(job: Compared): void {
     job.update();
-    replaceChildren(this.numbers, comparisonTable(this.jobs.map((compared) => compared.data)));
+    this.showNumbers();
     this.drawing.soon();
+  }
+
+  private showNumbers(): void {
+    replaceChildren(this.numbers, comparisonTable(this.jobs.map((compared) => compared.data), this.all.checked));
   }
 
   private draw(): void {

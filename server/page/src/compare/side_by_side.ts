@@ -1,13 +1,12 @@
 // Several jobs side by side: their smoothed stresses over one axis of strain, their numbers, and all fields in which
 // their cases differ.
-import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import type { ChartData, Series } from "../charts/chart_data";
 import { indexBefore, strainAxis } from "../charts/curves";
 import { kSmoothing, smoothedStress, stressTop, type StressCurves } from "../charts/stress";
 import { h } from "../dom/element";
-import { idOf, number, pathOf } from "../dom/format";
+import { idOf, pathOf, unitBySize } from "../dom/format";
 import type { JobData } from "../job/job_data";
-import { kSummaryNumbers, summaryText } from "../job/results";
+import { kFirstMeasures, kMeasures, measureText, titleOfMeasure, unitFor } from "../job/measures";
 import { caseValues } from "../new_case/fields";
 
 const kPoints = 1200;
@@ -34,36 +33,53 @@ export function comparisonChart(jobs: JobData[], names: string[], end: number): 
     columns.push(xs.map((x) => at(curve.strain, curve.impact, x)), xs.map((x) => at(curve.strain, curve.support, x)));
     if (curve.strain.length) top = Math.max(top, stressTop(curve, jobs[i].job?.summary, undefined));
   });
+  const { name, factor } = unitBySize("MPa", top);
   return {
-    series, columns, xLabel: "nominal strain", yLabel: "nominal stress (MPa)", xEnd: end, yTop: top || 1,
+    series, columns: [xs, ...columns.slice(1).map((column) => column.map((stress) => stress && stress * factor))],
+    xLabel: "nominal strain", yLabel: `nominal stress (${name})`, xEnd: end, yTop: top * factor || 1,
     bands: [{ from: 0.2, to: 0.4, label: "plateau window" }],
     note: `solid: impact plate, dashed: support plate; moving mean over ${100 * kSmoothing} % strain`,
   };
 }
 
-const kNumbers: [string, (s: Summary) => string][] = [
-  ...kSummaryNumbers.map((of): [string, (s: Summary) => string] => [of.name, (s) => summaryText(of, s)]),
-  ["Gibson-Ashby, MPa", (s) => number(s.theory?.gibsonAshbyMpa)],
-  ["Crush mode", (s) => s.crushModeWords || "–"],
-];
-
 const kLongest = 60; // characters of a list, such as the nodes of a frame
 const shortened = (text: string): string => (text.length > kLongest ? `${text.slice(0, kLongest)}…` : text);
 
-export function comparisonTable(jobs: JobData[]): HTMLElement {
+interface Line { name: string; values: (string | undefined)[] }
+const differs = ({ values }: Line): boolean => new Set(values).size > 1;
+
+function caseLines(jobs: JobData[]): Line[] {
   const facts = jobs.map((data) => {
     const value = data.check?.completedCase ?? data.job?.case;
     return value ? caseValues(value) : new Map<string, string>();
   });
   const names = [...new Set(facts.flatMap((map) => [...map.keys()]))];
-  const differing = names.filter((name) => new Set(facts.map((map) => map.get(name))).size > 1);
-  const row = (name: string, values: (string | undefined)[]): HTMLElement =>
+  return names.map((name) => ({ name, values: facts.map((map) => map.get(name)) }));
+}
+
+function resultLines(jobs: JobData[]): Line[] {
+  const summaries = jobs.map(({ job }) => job?.summary);
+  const numbers = kMeasures.map((measure) => {
+    const unit = unitFor(measure, summaries.map((summary) => summary && measure.value(summary)));
+    return { name: titleOfMeasure(measure, unit),
+             values: summaries.map((summary) => summary && measureText(measure, summary, unit)) };
+  });
+  return [...numbers.slice(0, kFirstMeasures.length),
+          { name: "Crush mode", values: summaries.map((summary) => summary?.crushModeWords || undefined) },
+          ...numbers.slice(kFirstMeasures.length)];
+}
+
+/** The fields of the cases and the numbers of the results: all, or those in which the jobs differ. */
+export function comparisonTable(jobs: JobData[], all: boolean): HTMLElement {
+  const rows = (lines: Line[]): HTMLElement[] => lines.filter((line) => all || differs(line)).map(({ name, values }) =>
     h("tr", {}, h("th", { scope: "row" }, name),
-      ...values.map((value) => h("td", { class: "figure", title: value }, value ? shortened(value) : "–")));
+      ...values.map((value) => h("td", { class: "figure", title: value }, value ? shortened(value) : "–"))));
+  const none = h("tr", {}, h("td", { colspan: jobs.length + 1, class: "faint" }, "no difference"));
+  const group = (name: string, lines: HTMLElement[]): HTMLElement =>
+    h("tbody", {}, h("tr", { class: "group" }, h("th", { scope: "rowgroup", colspan: jobs.length + 1 }, name)),
+      ...(lines.length ? lines : [none.cloneNode(true)]));
   return h("div", { class: "table-scroll" }, h("table", { class: "rows" },
     h("thead", {}, h("tr", {}, h("td", {}), ...jobs.map((data) =>
       h("th", { scope: "col", class: "figure" }, h("a", { href: pathOf(data.name) }, `job ${idOf(data.name)}`))))),
-    h("tbody", {}, ...differing.map((name) => row(name, facts.map((map) => map.get(name)))),
-      ...kNumbers.map(([name, text]) => row(name, jobs.map((data) =>
-        data.job?.summary && text(data.job.summary)))))));
+    group("Case", rows(caseLines(jobs))), group("Result", rows(resultLines(jobs)))));
 }

@@ -12,6 +12,30 @@ export function number(value: number | undefined, digits = 3): string {
   return value.toFixed(Math.min(decimals, 6));
 }
 
+/** A number as it was given, in at most six significant digits: a value of a case or of an axis. */
+export const given = (value: number): string => String(Number(value.toPrecision(6))).replace("e+", "e");
+
+export interface Unit { name: string; factor: number }
+
+// From a size on: the unit, and the factor to it.
+const kBySize: Record<string, [number, string, number][]> = {
+  MPa: [[0.1, "MPa", 1], [0, "kPa", 1e3]],
+  mJ: [[1e6, "kJ", 1e-6], [1e3, "J", 1e-3], [0, "mJ", 1]],
+};
+
+/** The unit for numbers of a size: kPa below 0.1 MPa; J from 1000 mJ, kJ from 1000 J. */
+export function unitBySize(unit: string, size: number): Unit {
+  const found = size > 0 ? kBySize[unit]?.find(([from]) => size >= from) : undefined;
+  return found ? { name: found[1], factor: found[2] } : { name: unit, factor: 1 };
+}
+
+/** A number with its unit, by its size. */
+export function quantity(value: number | undefined, unit: string, digits = 3): string {
+  if (value === undefined) return kMissing;
+  const { name, factor } = unitBySize(unit, Math.abs(value));
+  return `${number(value * factor, digits)} ${name}`;
+}
+
 export function percent(fraction: number | undefined, digits = 2): string {
   if (fraction === undefined || !Number.isFinite(fraction)) return kMissing;
   if (fraction !== 0 && Math.abs(fraction) < 1e-4) return "under 0.01 %";
@@ -46,6 +70,7 @@ export function bytes(size: number | bigint): string {
 const kSameDay = new Intl.DateTimeFormat("en-GB", { hour: "2-digit", minute: "2-digit" });
 const kOtherDay = new Intl.DateTimeFormat("en-GB", { day: "numeric", month: "short", hour: "2-digit",
                                                      minute: "2-digit" });
+const kOtherYear = new Intl.DateTimeFormat("en-GB", { dateStyle: "medium" });
 const kFull = new Intl.DateTimeFormat("en-GB", { dateStyle: "medium", timeStyle: "medium" });
 
 export interface Instant { seconds: bigint; nanos: number }
@@ -58,7 +83,9 @@ export function milliseconds(time: Instant): number {
 export function clock(time: Instant | undefined): string {
   if (!time) return kMissing;
   const date = new Date(milliseconds(time));
-  return (date.toDateString() === new Date().toDateString() ? kSameDay : kOtherDay).format(date);
+  const today = new Date();
+  if (date.getFullYear() !== today.getFullYear()) return kOtherYear.format(date);
+  return (date.toDateString() === today.toDateString() ? kSameDay : kOtherDay).format(date);
 }
 
 export function fullTime(time: Instant | undefined): string {

@@ -55,6 +55,18 @@ export function viewBox(lattice: Lattice): Box {
   return { lowX: box.lowX - dx, highX: box.highX + dx, lowY: box.lowY - dy, highY: box.highY + dy };
 }
 
+/** The box of a frame with plates: as above, wider where the walls bulge; along y only up to the impact plate. */
+export function frameBox(lattice: Lattice, position: Float32Array, strain: number): Box {
+  const box = viewBox(lattice);
+  const now = boxOf(position);
+  const plate = wallThickness(box);
+  if (!lattice.alongY) {
+    return { ...box, lowY: Math.min(box.lowY, now.lowY - plate), highY: Math.max(box.highY, now.highY + plate) };
+  }
+  return { lowX: Math.min(box.lowX, now.lowX - plate), highX: Math.max(box.highX, now.highX + plate),
+           lowY: box.lowY + strain * lattice.length, highY: box.highY };
+}
+
 /** Of plates and rigid walls across a box, in a picture. */
 export function wallThickness(box: Box): number {
   return 0.009 * Math.hypot(box.highX - box.lowX, box.highY - box.lowY);

@@ -6,7 +6,7 @@ import { h, replaceChildren, setBanner, setText } from "../dom/element";
 import { clock, count, duration, fullTime, idOf, pathOf, strainText } from "../dom/format";
 import { icon } from "../dom/icons";
 import { actionsOf, attempt } from "../jobs/actions";
-import { causeWords, hasEnded, setChip, stateChip, titleOf, whereOf } from "../jobs/states";
+import { causeWords, hasEnded, kNote, noteOf, setChip, stateChip, titleOf, whereOf } from "../jobs/states";
 import type { JobStore } from "../jobs/store";
 import { go } from "../router";
 
@@ -19,6 +19,7 @@ export class JobHeader {
   readonly element: HTMLElement;
   private readonly title = h("h1");
   private readonly chip = stateChip();
+  private readonly note = h("p", { class: "job-note" });
   private readonly about = h("p", { class: "faint about" });
   private readonly bar = h("progress", { max: 1, "aria-label": "progress" });
   private readonly progress = h("span", { class: "faint" });
@@ -31,7 +32,7 @@ export class JobHeader {
   constructor(private readonly store: JobStore) {
     this.element = h("header", { class: "job-header" },
       h("div", { class: "title-row" }, this.title, this.chip, h("span", { class: "spacer" }), this.actions),
-      h("div", { class: "about-row" }, this.about, this.progressRow), this.cause);
+      this.note, h("div", { class: "about-row" }, this.about, this.progressRow), this.cause);
   }
 
   /** `entry` is the place of a waiting job in the queue. */
@@ -50,7 +51,9 @@ export class JobHeader {
   }
 
   private updateAbout(job: Job): void {
-    const labels = Object.entries(job.labels).map(([key, value]) => `${key}=${value}`).join(", ");
+    setText(this.note, noteOf(job));
+    const labels = Object.entries(job.labels).filter(([key]) => key !== kNote)
+      .map(([key, value]) => `${key}=${value}`).join(", ");
     const where = whereOf(job);
     const key = [job.sweep, labels, job.owner, job.retryOf, job.attempt, job.state, where].join("\n");
     if (key === this.aboutKey) return;

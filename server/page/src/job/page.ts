@@ -7,6 +7,7 @@ import { idOf } from "../dom/format";
 import { Chart } from "../charts/chart";
 import { strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";
+import { kSampleColumns, sampleChart, wordsOfColumn } from "../charts/sample_chart";
 import { forceChart, stressChart } from "../charts/stress";
 import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
@@ -40,6 +41,10 @@ export class JobPage implements View {
   private readonly bar: PlayerBar;
   private readonly stress = new Chart("Stress and strain", (x) => this.player.seek(x));
   private readonly energy = new Chart("Energy ledger", (x) => this.player.seek(x));
+  // What the second chart has: the ledger, or a number of the samples.
+  private readonly below = h("select", { "aria-label": "Measure of the chart", change: () => this.updateCurves() },
+    h("option", { value: "" }, "Energy ledger"),
+    ...kSampleColumns.map(({ name }) => h("option", { value: name }, wordsOfColumn(name))));
   private readonly waiting = h("p", { class: "picture-note" }, "Loading the frames…");
   private readonly numbers = h("section", { class: "card", hidden: true });
   private readonly facts = h("section", { class: "card", hidden: true });
@@ -79,6 +84,7 @@ export class JobPage implements View {
     const { picture } = this.frames;
     picture.element.append(this.waiting);
     addSaving(this.stress, this.data, "stress");
+    this.energy.addTools(this.below);
     addSaving(this.energy, this.data, "energy");
     replaceChildren(this.element, this.header.element, this.problem, this.warnings,
       this.grid);
@@ -178,7 +184,10 @@ export class JobPage implements View {
     this.stress.setTitle(isDriven ? "Forces of the rigid walls" : "Stress and strain");
     this.stress.element.hidden = !stress;
     if (stress) this.stress.setData(stress);
-    this.energy.setData(energyChart(samples, this.axis, isDriven ? "work of all loads" : undefined));
+    const { value: column } = this.below;
+    this.energy.setTitle(column ? wordsOfColumn(column) : "Energy ledger");
+    this.energy.setData(column ? sampleChart(samples, this.axis, column)
+      : energyChart(samples, this.axis, isDriven ? "work of all loads" : undefined));
     this.setEnd();
   }
 

@@ -1,79 +1,57 @@
 // The numbers of a result, with units, beside theory.
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import { h } from "../dom/element";
-import { count, duration, number, percent, strainText } from "../dom/format";
+import { count, duration, number, percent, quantity, strainText } from "../dom/format";
 import { fieldHelp } from "../new_case/words";
-
-/** A number of a summary for tables: its path in the message, and its text in the unit of the name. */
-interface SummaryNumber {
-  name: string;
-  field: string;
-  value(s: Summary): number | undefined;
-  text?: (value: number | undefined) => string;
-}
-
-export const summaryText = ({ value, text = number }: SummaryNumber, s: Summary): string => text(value(s));
-
-export const kSummaryNumbers: SummaryNumber[] = [
-  { name: "Impact plateau, MPa", field: "plateau_stress_impact_mpa", value: (s) => s.plateauStressImpactMpa },
-  { name: "Support plateau, MPa", field: "plateau_stress_support_mpa", value: (s) => s.plateauStressSupportMpa },
-  { name: "Shock theory (Eq. 51), MPa", field: "theory.shock_mpa", value: (s) => s.theory?.shockMpa },
-  { name: "Densification strain", field: "densification_strain", value: (s) => s.densificationStrain,
-    text: strainText },
-  { name: "Absorbed energy, J", field: "absorbed_energy_mj", value: (s) => s.absorbedEnergyMj,
-    text: (value) => number(value && value / 1000) },
-  { name: "Ledger error", field: "energy_error_relative", value: (s) => s.energyErrorRelative,
-    text: (value) => percent(value, 3) },
-];
 
 function besideTheory(value: number | undefined, theory: number | undefined, name: string): string {
   if (!value || !theory) return "";
   const ratio = theory / value - 1;
-  return `${name} ${number(theory)} MPa, ${percent(Math.abs(ratio))} ${ratio >= 0 ? "higher" : "lower"}`;
+  return `${name} ${quantity(theory, "MPa")}, ${percent(Math.abs(ratio))} ${ratio >= 0 ? "higher" : "lower"}`;
 }
 
 /** `note` says when not to compare with theory. */
 export function resultsList(s: Summary, note: string): HTMLElement {
   const { theory } = s;
   const list = h("dl", { class: "results" });
-  const add = (name: string, field: string, value: string, unit = "", beside = ""): void =>
+  const add = (name: string, field: string, value: string, beside = ""): void =>
     list.append(h("div", { title: fieldHelp("Summary", field) }, h("dt", {}, name),
-      h("dd", {}, h("b", {}, value), unit && ` ${unit}`, beside && h("span", { class: "faint beside" }, beside))));
+      h("dd", {}, h("b", {}, value), beside && h("span", { class: "faint beside" }, beside))));
   const compared = note ? () => "" : besideTheory;
   const impact = s.plateauStressImpactMpa;
   if (impact !== undefined || theory?.gibsonAshbyMpa) {
-    add("Plateau stress, impact plate", "plateau_stress_impact_mpa", number(impact), "MPa",
+    add("Plateau stress, impact plate", "plateau_stress_impact_mpa", quantity(impact, "MPa"),
         impact === undefined ? "the run ended before strain 0.40"
           : compared(impact, theory?.shockMpa, "shock theory (Eq. 51)"));
-    add("Plateau stress, support plate", "plateau_stress_support_mpa", number(s.plateauStressSupportMpa), "MPa",
+    add("Plateau stress, support plate", "plateau_stress_support_mpa", quantity(s.plateauStressSupportMpa, "MPa"),
         compared(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby"));
-    add("Densification strain", "densification_strain", strainText(s.densificationStrain), "",
+    add("Densification strain", "densification_strain", strainText(s.densificationStrain),
         s.densificationStrain === undefined ? "no lasting rise of the stress" : "");
   }
   if (s.plateauStressToDensificationMpa !== undefined) {
     add("Mean stress to densification", "plateau_stress_to_densification_mpa",
-        number(s.plateauStressToDensificationMpa), "MPa");
+        quantity(s.plateauStressToDensificationMpa, "MPa"));
   }
   const absorbed = s.absorbedEnergyMj;
   if (absorbed) {
-    add("Absorbed energy", "absorbed_energy_mj", number(absorbed < 1000 ? absorbed : absorbed / 1000),
-        absorbed < 1000 ? "mJ" : "J", "to strain 0.50, or the end of a shorter run");
+    add("Absorbed energy", "absorbed_energy_mj", quantity(absorbed, "mJ"),
+        "to strain 0.50, or the end of a shorter run");
   }
   if (theory?.gibsonAshbyMpa && s.crushModeWords) { // a frame has no cells
-    add("Crush mode", "crush_mode", s.crushModeWords, "",
+    add("Crush mode", "crush_mode", s.crushModeWords,
         s.crushModeStrain === undefined ? "" : `first seen at strain ${strainText(s.crushModeStrain)}`);
   }
   if (s.front) {
-    add("Strain behind the front", "front", number(s.front.strainBehind), "",
-        `shock theory, measured jumps (Eq. 52) ${number(s.front.shockMpa)} MPa`);
+    add("Strain behind the front", "front", number(s.front.strainBehind),
+        `shock theory, measured jumps (Eq. 52) ${quantity(s.front.shockMpa, "MPa")}`);
   }
   if (s.quasiStatic) {
-    add("Difference between the plates", "quasi_static", percent(s.quasiStatic.plateDifferenceRelative), "",
+    add("Difference between the plates", "quasi_static", percent(s.quasiStatic.plateDifferenceRelative),
         "of their mean; 0 if quasi-static");
   }
   add("Energy ledger error", "energy_error_relative", percent(s.energyErrorRelative, 3));
-  add("Deepest penetration", "deepest_penetration", percent(s.deepestPenetration), "",
+  add("Deepest penetration", "deepest_penetration", percent(s.deepestPenetration),
       "of the thickness of the thinner wall");
-  add("Solver time", "solver_seconds", duration(s.solverSeconds), "", `${count(s.stepCount)} steps`);
+  add("Solver time", "solver_seconds", duration(s.solverSeconds), `${count(s.stepCount)} steps`);
   return list;
 }

@@ -7,7 +7,7 @@ import { button, h, setText } from "../dom/element";
 import { idOf, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
 import { QueuePanel } from "./queue";
-import { hasEnded, kActiveStates, kStates, stateWord, titleOf } from "./states";
+import { kActiveStates, kStates, stateWord, titleOf } from "./states";
 import { JobStore } from "./store";
 import { SweepsList } from "./sweeps_list";
 import { JobTable } from "./table";
@@ -20,15 +20,19 @@ const kTypingMs = 250;
 const withState = (filter: string, state: string): string =>
   [filter, `state = ${state}`].filter(Boolean).join(" AND ");
 
+// Jobs that count in the words above the list, and in the progress of their sweep.
+const isBusy = ({ state }: Job): boolean => state === Job_State.RUNNING || state === Job_State.CANCELLING;
+
 export class JobsPage implements View {
   readonly title = "Jobs";
   readonly element = h("div", { class: "page jobs-page" });
-  private readonly store = new JobStore((job) => this.passes(job));
+  private readonly store = new JobStore((job) => isBusy(job) || this.passes(job));
   private readonly queue = new QueuePanel(() => this.show());
-  private readonly sweeps = new SweepsList();
+  private readonly sweeps = new SweepsList((sweep) => [...this.store.jobs.values()].filter((job) =>
+    job.sweep === sweep && job.state === Job_State.RUNNING));
   private readonly table = new JobTable(this.store, (names) => this.showSelection(names));
   private readonly text = h("input", { type: "search", placeholder: "Title, or owner = \"name\"",
-                                       "aria-label": "Filter of jobs" });
+                                       "aria-label": "Filter of sweeps and jobs" });
   private readonly state = h("select", { "aria-label": "State" }, h("option", { value: "" }, "any state"),
     ...kStates.map((state) => h("option", { value: Job_State[state] }, stateWord(state))));
   private readonly withSweeps = h("input", { type: "checkbox" });
@@ -55,12 +59,13 @@ export class JobsPage implements View {
     this.state.addEventListener("change", () => this.filtering.afresh(0));
     this.withSweeps.addEventListener("change", () => this.filtering.afresh(0));
     this.element.append(
-      this.queue.element, this.sweeps.element,
+      this.queue.element,
+      h("div", { class: "toolbar" }, this.text, this.counts), this.sweeps.element,
       h("section", {},
-        h("div", { class: "toolbar" }, h("h2", {}, "Jobs"), this.text, this.state,
-          h("label", {}, this.withSweeps, " jobs of sweeps"), h("span", { class: "spacer" }), this.unselect,
-          this.compare),
-        this.counts, this.table.element, this.empty, this.more));
+        h("div", { class: "toolbar" }, h("h2", {}, "Jobs"), this.state,
+          h("label", {}, this.withSweeps, " also those of sweeps"), h("span", { class: "spacer" }), this.unselect,
+          this.compare, this.table.menu),
+        this.table.element, this.empty, this.more));
     this.stops = [
       this.store.changes.add(() => this.show()),
       this.store.stateChanges.add(() => this.queue.refresh()),
@@ -87,16 +92,16 @@ export class JobsPage implements View {
     return this.isShown(job);
   }
 
-  // Jobs of sweeps are listed by their sweep; here only while they run, unless the user wants all.
+  // Jobs of sweeps stand in their sweep, and here too if the user wants all.
   private isShown(job: Job): boolean {
     if (this.state.value && Job_State[job.state] !== this.state.value) return false;
-    if (!job.sweep || this.withSweeps.checked) return true;
-    return job.state === Job_State.RUNNING || job.state === Job_State.CANCELLING;
+    return !job.sweep || this.withSweeps.checked;
   }
 
   private async load(fromStart: boolean): Promise<void> {
     const generation = ++this.generation;
     const filter = this.filterText();
+    this.sweeps.filter(this.text.value);
     try {
       const active = fromStart ? await this.listActive(filter) : [];
       if (generation !== this.generation) return;
@@ -136,6 +141,7 @@ export class JobsPage implements View {
 
   private show(): void {
     this.table.update(this.queue.entries, (job) => this.isShown(job));
+    this.sweeps.show();
     const jobs = [...this.store.jobs.values()];
     const countOf = (state: Job_State): number =>
       state === Job_State.PENDING ? this.queue.waitingCount : jobs.filter((job) => job.state === state).length;
@@ -143,11 +149,11 @@ export class JobsPage implements View {
       .filter(({ n }) => n > 0).map(({ state, n }) => `${n} ${stateWord(state)}`);
     if (this.table.hiddenCount) words.push("the first 100 waiting are listed");
     setText(this.counts, words.join(" · ") || (this.isLoaded ? "no job is running or waiting" : ""));
-    this.empty.hidden = this.empty.textContent === "" || jobs.some((job) => !hasEnded(job) || this.isShown(job));
+    this.empty.hidden = this.empty.textContent === "" || jobs.some((job) => this.isShown(job));
   }
 
   private showEmpty(error: string): void {
-    const none = this.text.value || this.state.value ? "No job matches the filter." : "No jobs yet.";
+    const none = this.text.value || this.state.value ? "No job matches the filter." : "No job outside of sweeps.";
     setText(this.empty, error || none);
     this.show();
     this.empty.hidden = !error && [...this.store.jobs.values()].some((job) => this.isShown(job));

@@ -2,27 +2,27 @@
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
 import { h, setText } from "../dom/element";
-import { clock, duration, fullTime, idOf, milliseconds, number, pathOf, strainText } from "../dom/format";
+import { clock, duration, fullTime, idOf, pathOf, quantity, strainText } from "../dom/format";
 import { iconButton } from "../dom/icons";
+import { kMeasures, textWithUnit } from "../job/measures";
 import { actionsOf, attempt } from "./actions";
-import { elsewhere, hasEnded, sceneWords, setChip, stateChip, titleOf, whereOf } from "./states";
+import { elsewhere, hasEnded, noteOf, sceneWords, setChip, stateChip, titleOf, tookText, whereOf } from "./states";
 import type { JobStore } from "./store";
 
-/** How long a job has run. */
-function tookText(job: Job): string {
-  if (!job.startTime || !job.endTime) return duration(undefined);
-  const seconds = (milliseconds(job.endTime) - milliseconds(job.startTime)) / 1000;
-  return seconds < 1 ? "under 1 s" : duration(seconds);
-}
-
-function noteOf(job: Job, entry: Queue_Entry | undefined): string {
+function stateNote(job: Job, entry: Queue_Entry | undefined): string {
   if (job.state === Job_State.PENDING) return entry?.reason || job.causeMessage;
   if (job.progress?.stalled) return "The worker has not reported for some seconds.";
   return job.causeMessage;
 }
 
-function setFigure(cell: HTMLElement, value: number | undefined): void {
-  setText(cell, number(value));
+export const impactOf = ({ summary, progress }: Job): number | undefined =>
+  summary ? summary.plateauStressImpactMpa : progress?.plateauSoFarMpa;
+
+/** Those of a summary that have no cell of their own. */
+export const kMoreMeasures = kMeasures.slice(2);
+
+function setStress(cell: HTMLElement, value: number | undefined): void {
+  setText(cell, quantity(value, "MPa"));
   cell.classList.toggle("missing", value === undefined);
 }
 
@@ -32,6 +32,7 @@ export class JobRow {
   private readonly title = h("a", { class: "job-title" });
   private readonly name = h("span", { class: "faint" });
   private readonly sweep = h("a", { class: "faint" });
+  private readonly ownNote = h("div", { class: "job-note" });
   private readonly about = h("span", { class: "faint" });
   private readonly where = h("span", { class: "faint" });
   private readonly chip = stateChip();
@@ -39,24 +40,39 @@ export class JobRow {
   private readonly bar = h("progress", { max: 1 });
   private readonly strain = h("span", { class: "strain" });
   private readonly time = h("td", { class: "figure", "data-label": "time" });
-  private readonly impact = h("td", { class: "figure", "data-label": "impact, MPa" });
-  private readonly support = h("td", { class: "figure", "data-label": "support, MPa" });
+  private readonly impact = h("td", { class: "figure", "data-label": "impact plateau" });
+  private readonly support = h("td", { class: "figure", "data-label": "support plateau" });
   private readonly owner = h("td", { class: "owner", "data-label": "owner" });
   private readonly created = h("td", { class: "figure", "data-label": "created" });
   private readonly actions = h("td", { class: "actions" });
   private shownState = -1;
 
+  // Those that the user can leave out, by the keys of their columns, in their order.
+  private readonly cells = new Map<string, HTMLElement>([
+    ["done", h("td", { class: "done" }, h("div", { class: "progress" }, this.bar, this.strain))],
+    ["time", this.time], ["impact", this.impact], ["support", this.support],
+    ...kMoreMeasures.map((measure): [string, HTMLElement] => [measure.field,
+      h("td", { class: "figure", "data-label": measure.words })]),
+    ["owner", this.owner], ["created", this.created],
+  ]);
+
   constructor(private readonly store: JobStore) {
     this.element = h("tr", {},
       h("td", { class: "check" }, this.select),
-      h("td", { class: "what" }, this.title,
+      h("td", { class: "what" }, this.title, this.ownNote,
         h("div", { class: "under" }, this.name, this.sweep, this.about, this.where)),
       h("td", { class: "state" }, this.chip, this.note),
-      h("td", { class: "done" }, h("div", { class: "progress" }, this.bar, this.strain)),
-      this.time, this.impact, this.support, this.owner, this.created, this.actions);
+      ...this.cells.values(), this.actions);
   }
 
-  update(job: Job, entry: Queue_Entry | undefined): void {
+  /** `shown` has the keys of the columns to show. */
+  update(job: Job, entry: Queue_Entry | undefined, shown: Set<string>): void {
+    for (const [key, cell] of this.cells) cell.hidden = !shown.has(key);
+    for (const measure of kMoreMeasures) {
+      if (shown.has(measure.field)) {
+        setText(this.cells.get(measure.field)!, job.summary ? textWithUnit(measure, job.summary) : "");
+      }
+    }
     setText(this.title, titleOf(job));
     this.title.href = pathOf(job.name);
     setText(this.name, `job ${idOf(job.name)}`);
@@ -67,14 +83,15 @@ export class JobRow {
     this.select.setAttribute("aria-label", `Select job ${idOf(job.name)} to compare`);
     this.select.disabled = job.state === Job_State.PENDING;
     setChip(this.chip, job.state);
-    setText(this.note, noteOf(job, entry));
+    setText(this.note, stateNote(job, entry));
+    setText(this.ownNote, noteOf(job));
     this.note.title = [job.causeMessage, job.remedy].filter(Boolean).join(" ");
     this.updateProgress(job);
     this.updateTime(job, entry);
     const { summary, progress } = job;
-    setFigure(this.impact, summary ? summary.plateauStressImpactMpa : progress?.plateauSoFarMpa);
+    setStress(this.impact, impactOf(job));
     this.impact.classList.toggle("so-far", !summary && progress?.plateauSoFarMpa !== undefined);
-    setFigure(this.support, summary?.plateauStressSupportMpa);
+    setStress(this.support, summary?.plateauStressSupportMpa);
     setText(this.owner, job.owner);
     setText(this.created, clock(job.createTime));
     this.created.title = fullTime(job.createTime);

@@ -4,7 +4,7 @@ import type { CaseWords } from "../../gen/cellcrush/v1/problem_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { Warning_Kind } from "../../gen/cellcrush/v1/sample_pb";
 import { h, setText, svg } from "../dom/element";
-import { idOf } from "../dom/format";
+import { duration, idOf, milliseconds } from "../dom/format";
 
 const kWords: Record<Job_State, string> = {
   [Job_State.JOB_STATE_UNSPECIFIED]: "unknown",
@@ -54,6 +54,10 @@ export function titleOf(job: Job): string {
   return job.title || job.case?.title || `Job ${idOf(job.name)}`;
 }
 
+/** The label that says in words what a job is about. */
+export const kNote = "note";
+export const noteOf = (job: Job): string => job.labels[kNote] ?? "";
+
 /** Name of an executor other than the daemon's machine; empty for that machine, and from daemons without executors. */
 export function elsewhere(executor: string): string {
   return executor === "local" ? "" : executor;
@@ -63,6 +67,17 @@ export function elsewhere(executor: string): string {
 export function whereOf(job: Job): string {
   const executor = elsewhere(job.executor);
   return executor && `on ${executor}${job.place ? `: ${job.place}` : ""}`;
+}
+
+/** For how many seconds an ended job has run. */
+export function secondsOf(job: Job): number | undefined {
+  if (!job.startTime || !job.endTime) return undefined;
+  return (milliseconds(job.endTime) - milliseconds(job.startTime)) / 1000;
+}
+
+export function tookText(job: Job): string {
+  const seconds = secondsOf(job);
+  return seconds !== undefined && seconds < 1 ? "under 1 s" : duration(seconds);
 }
 
 const kWidth = 200;

@@ -4,10 +4,11 @@ import { Listeners } from "../dom/calls";
 import { watch } from "../api/watch";
 import { hasEnded } from "./states";
 
-/** Keeps what the watch does not tell of a job: its case, which does not change, its title, progress and place. */
+/** Keeps what the watch does not tell of a job: its case and labels, which do not change, title, progress and place. */
 export function keepUntold(job: Job, old: Job | undefined): void {
   if (!old) return;
   if (!job.case && old.case) [job.case, job.words] = [old.case, old.words];
+  if (Object.keys(job.labels).length === 0) job.labels = old.labels;
   job.title ||= old.title;
   if (!hasEnded(job)) job.progress ??= old.progress;
   if (job.state === old.state) job.place ||= old.place;

@@ -1,36 +1,55 @@
 // The table of jobs: those that have not ended first, in the order of the queue, then the others, newest first.
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
-import { byNumber } from "../dom/format";
+import { Columns, type Column } from "../dom/columns";
+import { byNumber, milliseconds } from "../dom/format";
 import { h } from "../dom/element";
-import { JobRow } from "./row";
-import { hasEnded } from "./states";
+import { impactOf, JobRow, kMoreMeasures } from "./row";
+import { hasEnded, secondsOf, titleOf } from "./states";
 import type { JobStore } from "./store";
 
 const kMostWaiting = 100;
-const kHead = ["", "Job", "State", "Progress", "Time", "Impact plateau, MPa", "Support plateau, MPa", "Owner",
-               "Created", ""];
+
+const kColumns: Column<Job>[] = [
+  { key: "select", name: "", shown: "always" },
+  { key: "what", name: "Job", shown: "always", value: titleOf },
+  { key: "state", name: "State", shown: "always", value: ({ state }) => state },
+  { key: "done", name: "Progress", value: (job) => (hasEnded(job) ? undefined : job.progress?.fraction) },
+  { key: "time", name: "Time", figure: true, value: secondsOf },
+  { key: "impact", name: "Impact plateau", figure: true, value: impactOf },
+  { key: "support", name: "Support plateau", figure: true, value: ({ summary }) => summary?.plateauStressSupportMpa },
+  ...kMoreMeasures.map((measure) => ({ key: measure.field, figure: true, shown: false,
+    name: measure.words, value: ({ summary }: Job) => summary && measure.value(summary) })),
+  { key: "owner", name: "Owner", value: ({ owner }) => owner || undefined },
+  { key: "created", name: "Created", figure: true,
+    value: ({ createTime }) => createTime && milliseconds(createTime) },
+  { key: "actions", name: "", shown: "always" },
+];
 
 export class JobTable {
   readonly element: HTMLElement;
   /** Number of waiting jobs that are left out. */
   hiddenCount = 0;
+  private readonly columns = new Columns<Job>("jobs", () => this.show());
+  /** The menu of the columns. */
+  readonly menu = this.columns.menu;
   private readonly body = h("tbody");
+  private show = (): void => undefined;
   private readonly rows = new Map<string, JobRow>();
   private readonly selected = new Set<string>();
 
   constructor(private readonly store: JobStore, private readonly selectionChanged: (names: string[]) => void) {
-    this.element = h("table", { class: "jobs" },
-      h("thead", {}, h("tr", {}, ...kHead.map((text, i) =>
-        h("th", { scope: "col", class: i >= 4 && i <= 6 || i === 8 ? "figure" : "" }, text)))),
-      this.body);
+    this.columns.set(kColumns);
+    this.element = h("table", { class: "jobs" }, h("thead", {}, this.columns.head), this.body);
   }
 
   update(queue: Map<string, Queue_Entry>, isShown: (job: Job) => boolean): void {
-    const jobs = this.arrange(queue, isShown);
+    this.show = () => this.update(queue, isShown);
+    const jobs = this.columns.sorted(this.arrange(queue, isShown));
+    const shown = new Set(this.columns.shown.map(({ key }) => key));
     const elements = jobs.map((job) => {
       const row = this.rowOf(job.name);
-      row.update(job, queue.get(job.name));
+      row.update(job, queue.get(job.name), shown);
       row.element.classList.toggle("ended", hasEnded(job));
       return row.element;
     });

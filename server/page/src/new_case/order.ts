@@ -1,5 +1,6 @@
-// Labels and priority of a new job or sweep.
+// Note, labels and priority of a new job or sweep.
 import { h, labelled } from "../dom/element";
+import { kNote } from "../jobs/states";
 import { showHint } from "./field_input";
 
 /** The labels that a text such as "series=a, batch=2" gives, or what is wrong with the text. */
@@ -19,6 +20,7 @@ export interface Order { labels: Record<string, string>; priority: number }
 
 export class OrderInput {
   readonly element: HTMLElement;
+  private readonly note = h("input", { type: "text", autocomplete: "off", maxlength: 120 });
   private readonly labels = h("input", { type: "text", autocomplete: "off", spellcheck: "false",
                                          placeholder: "series=a, batch=2" });
   private readonly priority = h("input", { type: "number", min: -100, max: 100, step: 1, value: 0 });
@@ -26,9 +28,10 @@ export class OrderInput {
   private readonly priorityHint = h("div", { class: "limits" });
 
   constructor(changed: () => void) {
-    for (const input of [this.labels, this.priority]) input.addEventListener("input", changed);
-    this.element = h("details", { class: "order" }, h("summary", {}, "Labels and priority"),
-      h("div", { class: "fields" }, labelled("Labels", this.labels, this.labelsHint),
+    for (const input of [this.note, this.labels, this.priority]) input.addEventListener("input", changed);
+    this.element = h("details", { class: "order" }, h("summary", {}, "Note, labels and priority"),
+      h("div", { class: "fields" }, labelled("Note", this.note, h("div", { class: "limits" },
+        "shown beside the title; a label of its own")), labelled("Labels", this.labels, this.labelsHint),
         labelled("Priority", this.priority, this.priorityHint)));
     this.read();
   }
@@ -36,6 +39,8 @@ export class OrderInput {
   /** Undefined while a text cannot be read. */
   read(): Order | undefined {
     const labels = labelsOf(this.labels.value);
+    const note = this.note.value.trim();
+    if (note && typeof labels !== "string") labels[kNote] ??= note;
     const areLabels = typeof labels !== "string";
     showHint(this.labelsHint, areLabels ? "key=value, to filter the job list" : labels, areLabels);
     const priority = Number(this.priority.value);

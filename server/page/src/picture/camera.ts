@@ -13,6 +13,9 @@ export class Camera {
   width = 1;
   height = 1;
   private box: Box = { lowX: 0, highX: 1, lowY: 0, highY: 1 };
+  /** Whether the box stands at the top where it is lower than the canvas. */
+  private atTop = false;
+  private isSized = false;
 
   get scale(): number {
     return this.fitScale * this.zoom;
@@ -21,12 +24,18 @@ export class Camera {
   setSize(width: number, height: number): void {
     this.width = width;
     this.height = height;
-    this.setBox(this.box);
+    this.rescale();
   }
 
-  /** Sets what `fit` shows, and keeps the zoom. */
-  setBox(box: Box): void {
-    this.box = box;
+  /** Sets what `fit` shows; a view that was zoomed in stays. */
+  setBox(box: Box, atTop = false): void {
+    Object.assign(this, { box, atTop });
+    if (this.zoom === 1 || !this.isSized) this.rescale();
+    this.isSized = true;
+  }
+
+  private rescale(): void {
+    const { box } = this;
     const fits = Math.min(this.width / (box.highX - box.lowX), this.height / (box.highY - box.lowY));
     this.fitScale = Math.max(fits, 1e-12);
     if (this.zoom === 1) this.centre();
@@ -34,12 +43,13 @@ export class Camera {
 
   fit(): void {
     this.zoom = 1;
-    this.centre();
+    this.rescale();
   }
 
   private centre(): void {
     this.x = 0.5 * (this.box.lowX + this.box.highX);
-    this.y = 0.5 * (this.box.lowY + this.box.highY);
+    const { lowY, highY } = this.box;
+    this.y = this.atTop ? highY - 0.5 * this.height / this.scale : 0.5 * (lowY + highY);
   }
 
   toScreenX(x: number): number {
@@ -63,7 +73,7 @@ export class Camera {
   zoomAt(sx: number, sy: number, factor: number): void {
     const [x, y] = this.toWorld(sx, sy);
     this.zoom = Math.min(Math.max(this.zoom * factor, 1), kMostZoom);
-    if (this.zoom === 1) return this.centre();
+    if (this.zoom === 1) return this.rescale();
     this.x = x - (sx - 0.5 * this.width) / this.scale;
     this.y = y + (sy - 0.5 * this.height) / this.scale;
   }

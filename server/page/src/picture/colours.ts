@@ -1,23 +1,13 @@
 // The colour of a wall by its plastic fraction: plasma, which readers with colour-blindness can order, cut to the part
 // that contrasts with the background. The pictures of the command line use the same map.
 import { h } from "../dom/element";
+import { isDark, onThemeChange } from "../dom/preferences";
 
 type Rgb = [number, number, number];
 
 // plasma at 0, 1/8, ..., 1
 const kPlasma: Rgb[] = [[13, 8, 135], [84, 2, 163], [139, 10, 165], [185, 50, 137], [219, 92, 104], [244, 136, 73],
                         [254, 188, 43], [244, 228, 37], [240, 249, 33]];
-
-const darkTheme = (): MediaQueryList => matchMedia("(prefers-color-scheme: dark)");
-
-export const isDark = (): boolean => darkTheme().matches;
-
-/** Calls when the theme changes, until the returned function is called. */
-export function onThemeChange(call: () => void): () => void {
-  const theme = darkTheme();
-  theme.addEventListener("change", call);
-  return () => theme.removeEventListener("change", call);
-}
 
 function plasma(at: number): Rgb {
   const place = Math.min(Math.max(at, 0), 1) * (kPlasma.length - 1);

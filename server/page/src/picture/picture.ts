@@ -1,17 +1,20 @@
 // The drawing of a lattice: walls on one canvas, plates and marks on another over it.
-import { boxOf, viewBox, type Box, type Lattice } from "../frames/lattice";
+import { boxOf, frameBox, viewBox, type Box, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
-import { Listeners } from "../dom/calls";
+import { Later, Listeners } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { number, percent } from "../dom/format";
 import { Camera } from "./camera";
-import { isDark, onThemeChange, themeColour } from "./colours";
+import { themeColour } from "./colours";
+import { isDark, onThemeChange } from "../dom/preferences";
 import { addGestures } from "./gestures";
 import { drawOverlay } from "./overlay";
 import type { Face } from "./rigid_walls";
 import { fillSegments, findNearest, kSegmentFloats, type Segments } from "./segments";
 import { createWalls, type Walls } from "./walls";
 
+const kScaleRoom = 40; // pixels
+const kRestMs = 500;
 const kReach = 14; // pixels from the pointer within which a wall is found
 
 export class Picture {
@@ -22,6 +25,10 @@ export class Picture {
   private readonly topCanvas = h("canvas", { tabindex: 0, role: "img" });
   private readonly tip = h("div", { class: "tip", hidden: true });
   private readonly noted = h("div", { class: "noted" });
+  // Height over width that the frame needs, and that the element is limited to.
+  private needed = 0;
+  private limit = 0;
+  private readonly shrinking = new Later(() => this.limitHeight(this.needed), kRestMs);
   private readonly walls: Walls;
   private readonly observer = new ResizeObserver(() => this.resize());
   private readonly ignoreTheme: () => void;
@@ -53,16 +60,27 @@ export class Picture {
     if (this.lattice === lattice) return;
     this.lattice = lattice;
     this.box = viewBox(lattice);
-    if (lattice.plates) this.limitHeight(boxOf(lattice.undeformed));
-    this.camera.setBox(this.box);
+    this.needed = 0;
+    this.camera.setBox(this.box, lattice.plates);
     this.segments = undefined;
     this.drawSoon();
   }
 
-  // No higher than a specimen of this width over height needs.
-  private limitHeight({ lowX, highX, lowY, highY }: Box): void {
-    const aspect = (highX - lowX) / (highY - lowY);
-    this.element.style.maxHeight = `calc(100cqw / ${(0.82 * aspect).toFixed(3)} + 44px)`;
+  // Fits the view to a frame between plates. The element grows at once and shrinks when the picture rests.
+  private fitTo(lattice: Lattice, position: Float32Array, strain: number): void {
+    const box = this.box = frameBox(lattice, position, strain);
+    this.camera.setBox(box, true);
+    const needed = (box.highY - box.lowY) / (box.highX - box.lowX);
+    this.shrinking.stop();
+    if (needed > this.limit || this.needed === 0) this.limitHeight(needed);
+    else if (needed < this.limit) this.shrinking.afresh();
+    this.needed = needed;
+  }
+
+  // No higher than a box of this height over width needs, with room for the scale.
+  private limitHeight(needed: number): void {
+    this.limit = needed;
+    this.element.style.maxHeight = `calc(${(100 * needed).toFixed(2)}cqw + ${kScaleRoom}px)`;
   }
 
   /** Widens what `fit` shows, for a frame of beams that moves beyond its undeformed box. */
@@ -83,6 +101,7 @@ export class Picture {
   show(fields: Fields, strain: number, faces: Face[] = []): void {
     if (!this.lattice) return;
     this.faces = faces;
+    if (this.lattice.plates) this.fitTo(this.lattice, fields.position, strain);
     this.segments = fillSegments(this.lattice, fields, this.segments);
     this.walls.setSegments(this.segments);
     this.strain = strain;
@@ -203,6 +222,7 @@ export class Picture {
 
   destroy(): void {
     this.ignoreTheme();
+    this.shrinking.stop();
     this.observer.disconnect();
     cancelAnimationFrame(this.scheduled);
     this.walls.destroy();

@@ -1,10 +1,10 @@
 // A small picture of a lattice and its plates, without gestures. It draws pixel by pixel, as browsers limit the
 // number of WebGL contexts.
-import { viewBox, type Lattice } from "../frames/lattice";
+import { frameBox, viewBox, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { h } from "../dom/element";
 import { Camera } from "./camera";
-import { isDark, onThemeChange } from "./colours";
+import { isDark, onThemeChange } from "../dom/preferences";
 import { drawFaces, platesOf } from "./rigid_walls";
 import { fillSegments } from "./segments";
 import { PixelWalls } from "./walls_pixels";
@@ -36,14 +36,15 @@ export class SmallPicture {
     const ratio = devicePixelRatio;
     element.width = Math.round(clientWidth * ratio);
     element.height = Math.round(clientHeight * ratio);
-    const box = viewBox(shown.lattice);
+    const { lattice, fields, strain } = shown;
+    const box = lattice.plates ? frameBox(lattice, fields.position, strain) : viewBox(lattice);
     camera.setSize(clientWidth, clientHeight);
     camera.setBox(box);
     this.walls.setDark(isDark());
     this.walls.draw(camera, ratio);
     const context = element.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    drawFaces(context, camera, platesOf(shown.lattice, shown.strain), box);
+    drawFaces(context, camera, platesOf(lattice, strain), box);
   }
 
   destroy(): void {

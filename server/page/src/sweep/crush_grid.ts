@@ -2,6 +2,7 @@
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
+import { given } from "../dom/format";
 import { nameOf } from "../new_case/words";
 import { colourLegend } from "../picture/colours";
 import { Player } from "../picture/player";
@@ -118,7 +119,7 @@ export class CrushGrid {
 // A value with its unit, as "speed 50 m/s".
 function valueWords(path: string, value: number): string {
   const { words, unit } = nameOf(path);
-  return `${words} ${Number(value.toPrecision(4))} ${unit}`.trim();
+  return `${words} ${given(value)} ${unit}`.trim();
 }
 
 // The rows to show, by their values: of too many, as many seeds of each combination as fit, or evenly spaced ones.

@@ -1,5 +1,5 @@
 // Other sweeps over the same field, in the chart of a sweep: which of them, and why not others.
-import type { Sweep, SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
+import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { api, errorText, ifAny, isNotFound } from "../api/clients";
 import { Later, Listeners } from "../dom/calls";
 import { idOf, pathOf } from "../dom/format";
@@ -7,27 +7,11 @@ import { watch } from "../api/watch";
 import { h, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { pathsOf, titleOfSweep } from "../jobs/states";
+import { loadSweep, type LoadedSweep } from "./sweep_data";
 import { axisName, isSeed, kMostGroups, placeOf, type Swept } from "./points";
 
 const kListed = 100; // sweeps that can be chosen, the newest
 const kCalmMs = 1500;
-
-/** A sweep with all rows of its table. */
-export interface LoadedSweep { sweep: Sweep; rows: SweepTable_Row[]; fields: string[] }
-
-export async function loadSweep(name: string, signal?: AbortSignal): Promise<LoadedSweep> {
-  const sweep = await api.sweeps.getSweep({ name }, { signal });
-  const rows: SweepTable_Row[] = [];
-  let fields: string[] = [];
-  let pageToken = "";
-  do {
-    const page = await api.sweeps.getSweepTable({ name, pageToken }, { signal });
-    if (page.fields.length) fields = page.fields;
-    rows.push(...page.rows);
-    pageToken = page.nextPageToken;
-  } while (pageToken);
-  return { sweep, rows, fields };
-}
 
 export class SweepOverlay {
   readonly element = h("div", { class: "overlay" });
@@ -78,7 +62,7 @@ export class SweepOverlay {
 
   /** The sweeps to draw beside the own one. */
   get swept(): Swept[] {
-    return this.matching().map(({ sweep, rows, fields }) => ({ label: this.labelOf(sweep), rows, fields }));
+    return this.matching().map(({ sweep, ...of }) => ({ label: this.labelOf(sweep), ...of }));
   }
 
   private matching(): LoadedSweep[] {

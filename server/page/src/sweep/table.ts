@@ -1,55 +1,105 @@
 // The table of a sweep: one row per job, with links, and the same as CSV.
-import { Job_State } from "../../gen/cellcrush/v1/job_pb";
-import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
-import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { idOf, pathOf } from "../dom/format";
-import { button, h, replaceChildren } from "../dom/element";
-import { kSummaryNumbers, summaryText } from "../job/results";
-import { setChip, stateChip } from "../jobs/states";
+import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
+import type { SweepTable_Row, SweepTable_SeedMeans } from "../../gen/cellcrush/v1/sweep_pb";
+import { clock, fullTime, given, idOf, milliseconds, number, pathOf, type Unit } from "../dom/format";
+import { h, type Child } from "../dom/element";
+import { keep, kept } from "../dom/preferences";
+import { TableView, type CellColumn } from "../dom/table_view";
+import { kFirstMeasures, kMeasures, measureText, titleOfMeasure, unitFor, type Measure } from "../job/measures";
+import { progressBar } from "../jobs/progress_bar";
+import { hasEnded, setChip, stateChip, tookText } from "../jobs/states";
 import { csvBlob } from "../take_away/menus";
 import { axisName } from "./points";
+import { meanColumns } from "./seed_means";
+import type { LoadedSweep } from "./sweep_data";
 
-const kRowsAtFirst = 300;
+const kEachSeed = "sweep-each-seed";
+const kImpact = "plateau_stress_impact_mpa";
+
+type Row = SweepTable_Row;
+type TableColumn = CellColumn<Row>;
+/** `means` are those over the seeds, if the sweep varies them. */
+export type TableData = Pick<LoadedSweep, "rows" | "fields" | "means">;
+
+const startOf = ({ result }: Row): number | undefined => result?.startTime && milliseconds(result.startTime);
+
+function stateCell({ result }: Row): Child {
+  const chip = stateChip();
+  setChip(chip, result?.state ?? Job_State.JOB_STATE_UNSPECIFIED);
+  chip.title = result?.causeMessage ?? "";
+  return h("div", { class: "state-cell" }, chip, result && !hasEnded(result) && result.progress && progressBar(result));
+}
+
+function ofMeasure(measure: Measure, rows: Row[]): TableColumn {
+  const numberOf = ({ result }: Row): number | undefined => {
+    if (result?.summary) return measure.value(result.summary);
+    return measure.field === kImpact ? result?.progress?.plateauSoFarMpa : undefined;
+  };
+  const unit: Unit = unitFor(measure, rows.map(numberOf));
+  const cell = (row: Row): Child => {
+    const { summary } = row.result ?? {};
+    if (summary) return measureText(measure, summary, unit);
+    const soFar = numberOf(row);
+    return soFar !== undefined && h("span", { class: "so-far", title: "so far" }, number(soFar * unit.factor));
+  };
+  return { key: measure.field, name: titleOfMeasure(measure, unit), figure: true, value: numberOf, cell,
+           shown: kFirstMeasures.includes(measure.field) };
+}
+
+function columnsOf(rows: Row[], fields: string[]): TableColumn[] {
+  const job = ({ result }: Row): Job | undefined => result;
+  return [
+    ...fields.map((field, i): TableColumn => ({ key: field, name: axisName(field), figure: true, shown: "always",
+      value: (row) => row.values[i], cell: (row) => given(row.values[i]) })),
+    { key: "job", name: "Job", shown: "always", value: (row) => Number(idOf(row.job)),
+      cell: (row) => h("a", { href: pathOf(row.job) }, `job ${idOf(row.job)}`) },
+    { key: "state", name: "State", shown: "always", value: (row) => job(row)?.state, cell: stateCell },
+    ...kMeasures.map((measure) => ofMeasure(measure, rows)),
+    { key: "started", name: "Started", figure: true, shown: false, value: startOf,
+      cell: (row) => h("span", { title: fullTime(job(row)?.startTime) }, clock(job(row)?.startTime)) },
+    { key: "took", name: "Time", figure: true, shown: false, value: startOf,
+      cell: (row) => row.result && hasEnded(row.result) && tookText(row.result) },
+  ];
+}
 
 export class SweepTableView {
-  readonly element = h("div", { class: "table-scroll" });
-  private rows: SweepTable_Row[] = [];
-  private fields: string[] = [];
-  private showsAll = false;
+  private readonly jobs = new TableView<Row>("sweep");
+  private readonly means = new TableView<SweepTable_SeedMeans>("sweep-means");
+  private readonly eachSeed = h("input", { type: "checkbox", change: () => {
+    keep(kEachSeed, this.eachSeed.checked);
+    this.show();
+  } });
+  private readonly choice = h("label", { hidden: true }, this.eachSeed, " each seed");
+  readonly element = h("div", {}, this.means.element, this.jobs.element);
+  /** What the table shows: jobs or means, and the menus of the columns. */
+  readonly menu = h("span", { class: "table-menu" }, this.choice, this.means.menu, this.jobs.menu);
+  private data: TableData = { rows: [], fields: [], means: [] };
 
-  update(rows: SweepTable_Row[], fields: string[]): void {
-    this.rows = rows;
-    this.fields = fields;
-    const shown = this.showsAll ? rows : rows.slice(0, kRowsAtFirst);
-    const head = [...fields.map(axisName), "Job", "State", ...kSummaryNumbers.map((column) => column.name)];
-    const jobPlace = fields.length;
-    replaceChildren(this.element, h("table", { class: "rows" },
-      h("thead", {}, h("tr", {}, ...head.map((text, i) =>
-        h("th", { scope: "col", class: i === jobPlace || i === jobPlace + 1 ? "" : "figure" }, text)))),
-      h("tbody", {}, ...shown.map((row) => this.rowOf(row)))));
-    if (shown.length < rows.length) {
-      this.element.append(button(`All ${rows.length} rows`, () => {
-        this.showsAll = true;
-        this.update(this.rows, this.fields);
-      }, { class: "quiet" }));
-    }
+  constructor() {
+    this.eachSeed.checked = kept(kEachSeed, false);
   }
 
-  private rowOf(row: SweepTable_Row): HTMLElement {
-    const chip = stateChip();
-    setChip(chip, row.result?.state ?? Job_State.JOB_STATE_UNSPECIFIED);
-    chip.title = row.result?.causeMessage ?? "";
-    const { summary } = row.result ?? {};
-    return h("tr", {}, ...row.values.map((value) => h("td", { class: "figure" }, Number(value.toPrecision(6)))),
-      h("td", {}, h("a", { href: pathOf(row.job) }, `job ${idOf(row.job)}`)), h("td", {}, chip),
-      ...kSummaryNumbers.map((column) => h("td", { class: "figure" }, summary && summaryText(column, summary))));
+  update(data: TableData): void {
+    this.data = data;
+    this.show();
+  }
+
+  private show(): void {
+    const { rows, fields, means } = this.data;
+    const areMeans = means.length > 0 && !this.eachSeed.checked;
+    this.choice.hidden = means.length === 0;
+    this.means.element.hidden = this.means.menu.hidden = !areMeans;
+    this.jobs.element.hidden = this.jobs.menu.hidden = areMeans;
+    if (areMeans) this.means.update(means, meanColumns(this.data));
+    else this.jobs.update(rows, columnsOf(rows, fields));
   }
 
   csv(): Blob {
-    const numbers = (summary: Summary | undefined): (number | undefined)[] =>
-      kSummaryNumbers.map(({ value }) => summary && value(summary));
-    return csvBlob([...this.fields, "job", "state", ...kSummaryNumbers.map(({ field }) => field)],
-      this.rows.map(({ values, job, result }) =>
-        [...values, job, result ? Job_State[result.state] : "", ...numbers(result?.summary)]));
+    const measures = kMeasures.filter(({ field }) => kFirstMeasures.includes(field));
+    const { rows, fields } = this.data;
+    return csvBlob([...fields, "job", "state", ...measures.map(({ field }) => field)],
+      rows.map(({ values, job, result }) =>
+        [...values, job, result ? Job_State[result.state] : "",
+         ...measures.map(({ value }) => result?.summary && value(result.summary))]));
   }
 }

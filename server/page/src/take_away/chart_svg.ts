@@ -19,13 +19,13 @@ function ticksOf(low: number, high: number, wanted: number): number[] {
   return ticks;
 }
 
-function xTicks(data: ChartData): number[] {
-  if (data.xLog) {
-    const decades = [1, 2, 5].flatMap((factor) => [-6, -5, -4, -3, -2, -1, 0, 1, 2, 3, 4, 5, 6]
-      .map((power) => Number((factor * 10 ** power).toPrecision(1))));
-    return decades.filter((value) => value >= (data.xLow ?? 0) && value <= data.xEnd);
-  }
-  return ticksOf(data.xLow ?? 0, data.xEnd, 8);
+const kPowers = Array.from({ length: 25 }, (_, i) => i - 12);
+
+function axisTicks(low: number, high: number, isLog: boolean | undefined, wanted: number): number[] {
+  if (!isLog) return ticksOf(low, high, wanted);
+  const steps = high / low > 1e3 ? [1] : [1, 2, 5];
+  return kPowers.flatMap((power) => steps.map((step) => Number(`${step}e${power}`)))
+    .filter((value) => value >= low && value <= high);
 }
 
 function curve(data: ChartData, series: Series, column: (number | null)[], { x, y }: Place): SVGElement {
@@ -48,11 +48,11 @@ function frame(data: ChartData, { x, y }: Place): SVGElement[] {
   const { left, top, width, height } = kPlot;
   const bottom = top + height;
   const parts: SVGElement[] = [svg("rect", { x: left, y: top, width, height, fill: "none", stroke: "#222" })];
-  for (const tick of xTicks(data)) {
+  for (const tick of axisTicks(data.xLow ?? 0, data.xEnd, data.xLog, 8)) {
     parts.push(svg("path", { d: `M${x(tick)},${bottom}v5`, stroke: "#222" }),
                svg("text", { x: x(tick), y: bottom + 19, "text-anchor": "middle", ...kFont }, tick));
   }
-  for (const tick of ticksOf(data.yLow ?? 0, data.yTop, 6)) {
+  for (const tick of axisTicks(data.yLow ?? 0, data.yTop, data.yLog, 6)) {
     parts.push(svg("path", { d: `M${left},${y(tick)}h-5`, stroke: "#222" }),
                svg("text", { x: left - 9, y: y(tick) + 4, "text-anchor": "end", ...kFont }, tick));
   }
@@ -92,13 +92,12 @@ function legend(data: ChartData, top: number): SVGElement[] {
 
 export function chartSvg(data: ChartData, title: string): Blob {
   const { left, top, width, height } = kPlot;
-  const low = data.yLow ?? 0;
-  const [first, last, of] = [data.xLow ?? 0, data.xEnd, data.xLog ? Math.log : (value: number) => value];
-  const share = (value: number): number => (of(value) - of(first)) / (of(last) - of(first));
+  const share = (value: number, low: number, high: number, isLog?: boolean): number =>
+    (isLog ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low));
   const place: Place = {
     ...kPlot, unit: 1,
-    x: (value) => left + width * share(value),
-    y: (value) => top + height * (1 - (value - low) / (data.yTop - low)),
+    x: (value) => left + width * share(value, data.xLow ?? 0, data.xEnd, data.xLog),
+    y: (value) => top + height * (1 - share(value, data.yLow ?? 0, data.yTop, data.yLog)),
   };
   const bottom = top + height + 62;
   const legendEntries = legend(data, bottom);

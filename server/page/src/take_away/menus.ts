@@ -12,8 +12,8 @@ import type { Picture } from "../picture/picture";
 import type { Player } from "../picture/player";
 import { chartSvg } from "./chart_svg";
 import { canRecord, picturePng, recordCrush } from "./picture_files";
-import { ScalarType, type DescMessage } from "@bufbuild/protobuf";
-import { FrontSchema, SampleSchema, type Front, type Sample } from "../../gen/cellcrush/v1/sample_pb";
+import { kSampleColumns } from "../charts/sample_chart";
+import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
 
 /** Saves a blob as a file of the user. */
 export function download(blob: Blob, name: string): void {
@@ -37,28 +37,9 @@ export function csvBlob(header: string[], rows: (string | number | undefined)[][
   return new Blob([lines.join("\n") + "\n"], { type: "text/csv" });
 }
 
-interface Column { name: string; value: (sample: Sample) => number | undefined }
-
-function columnsOf(schema: DescMessage, scalar: ScalarType, prefix: string,
-                   part: (sample: Sample) => Sample | Front | undefined): Column[] {
-  return schema.fields.filter((field) => field.fieldKind === "scalar" && field.scalar === scalar).map((field) => ({
-    name: prefix + field.name,
-    value: (sample) => {
-      const numbers = part(sample) as Record<string, unknown> | undefined;
-      return numbers && Number(numbers[field.localName]);
-    },
-  }));
-}
-
-// Every number of a sample and its front, as in /history of result.h5; the counts last.
-const kColumns = [
-  ...columnsOf(SampleSchema, ScalarType.DOUBLE, "", (sample) => sample),
-  ...columnsOf(FrontSchema, ScalarType.DOUBLE, "front_", (sample) => sample.front),
-  ...columnsOf(SampleSchema, ScalarType.INT64, "", (sample) => sample),
-];
-
 export function historyCsv(samples: Sample[]): Blob {
-  return csvBlob(kColumns.map(({ name }) => name), samples.map((sample) => kColumns.map(({ value }) => value(sample))));
+  return csvBlob(kSampleColumns.map(({ name }) => name),
+    samples.map((sample) => kSampleColumns.map(({ value }) => value(sample))));
 }
 
 export function saveButton(label: string, what: string,

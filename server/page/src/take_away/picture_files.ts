@@ -1,7 +1,8 @@
 // Files of the picture: a film of the crush, played at the rate of the player, and a PNG.
 import type { Picture } from "../picture/picture";
 import type { Player } from "../picture/player";
-import { cssColour, isDark, kShades, themeColour, wallColour } from "../picture/colours";
+import { cssColour, kShades, themeColour, wallColour } from "../picture/colours";
+import { isDark } from "../dom/preferences";
 
 const kTypes = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
 const kFilmWidth = 1280;
