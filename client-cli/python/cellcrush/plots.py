@@ -1,6 +1,7 @@
 """Plots by matplotlib, sized for a column of a journal."""
 from __future__ import annotations
 
+import io
 import time
 from typing import TYPE_CHECKING, Any, Optional, Tuple
 
@@ -182,9 +183,16 @@ def animate(results: "Results", width_mm: float = 85.0, font_pt: float = 8.0,
 def live_plot(job: "Job", width_mm: float = 85.0, font_pt: float = 8.0) -> "matplotlib.axes.Axes":
     pyplot = need("matplotlib.pyplot", "python3-matplotlib")
     ax = _axes(None, width_mm)
-    notebook, handle, next_s = notebook_display(), None, 0.0
+    notebook: Any = notebook_display()
+    handle, next_s = None, 0.0
     if notebook:
-        handle = notebook.display(ax.figure, display_id=True)
+        handle = notebook.display("", display_id=True)
+
+    def picture() -> Any:
+        png = io.BytesIO()
+        ax.figure.savefig(png, format="png")
+        return notebook.Image(png.getvalue())
+
     for kind, watch in job.events():
         if kind != "sample" or time.monotonic() < next_s:
             continue
@@ -192,13 +200,13 @@ def live_plot(job: "Job", width_mm: float = 85.0, font_pt: float = 8.0) -> "matp
         _draw_curves(ax, samples_array(list(watch.samples.values())))
         _finish(ax, font_pt)
         if handle is not None:
-            handle.update(ax.figure)
+            handle.update(picture())
         elif pyplot.get_backend().lower() != "agg":
             pyplot.pause(0.01)
         next_s = time.monotonic() + _REDRAWN_S
     ax.clear()
     plot_curves(job, ax, width_mm, font_pt)
     if handle is not None:
-        handle.update(ax.figure)
+        handle.update(picture())
         pyplot.close(ax.figure)
     return ax
