@@ -81,7 +81,12 @@ def raise_error(error: grpc.RpcError, address: str) -> NoReturn:
 
 
 def need(module: str, package: str) -> Any:
-    """Imports a module that not every use of this package needs."""
+    """Imports a module that not every use of this package needs.
+
+    >>> need("no_such_module", "python3-no-such")
+    Traceback (most recent call last):
+    ImportError: this needs no_such_module: install it with `apt install python3-no-such`
+    """
     import importlib
 
     try:
