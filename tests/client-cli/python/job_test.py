@@ -77,6 +77,26 @@ class Jobs(WithServer):
             self.assertEqual(state, "SUCCEEDED")
             self.assertGreater(count, 100)
 
+    def test_asyncio_has_sweeps_and_watches(self):
+        async def crush():
+            server = await cellcrush.aio.connect(self.server.address)
+            self.assertEqual((await server.check(PRESET, SMALL)).problems, [])
+            sweep = await (await server.sweep(PRESET, SMALL, speed_m_per_s=[100, 200])).wait()
+            job = (await sweep.jobs())[0]
+            self.assertIn(job.name, [other.name for other in await server.jobs("state = SUCCEEDED")])
+            strains = [sample.strain async for sample in job.watch()]
+            self.assertEqual(strains, list((await job.history())["strain"]))
+            self.assertGreater(len(await job.frames()), 5)
+            states = list((await sweep.table())["state"])
+            await sweep.delete()
+            slow = await server.submit(PRESET, SLOW)
+            with self.assertRaises(cc.JobFailed):
+                await (await slow.cancel()).wait()
+            await slow.delete()
+            return states
+
+        self.assertEqual(asyncio.run(crush()), ["SUCCEEDED"] * 2)
+
     def test_a_bar_shows_progress(self):
         with contextlib.redirect_stderr(io.StringIO()) as shown:
             self.server.submit(PRESET, SMALL).wait(progress=True)
@@ -114,14 +134,14 @@ class Interruptions(unittest.TestCase):
                        threading.Thread(target=sweep.wait)]
             for thread in threads:
                 thread.start()
-            time.sleep(0.5)
-            self.assertEqual(job.refresh().state, "RUNNING")
+            while server.get(job.name).state == "PENDING":
+                time.sleep(0.05)
             daemon.kill()
             daemon.wait()
             time.sleep(0.5)
             daemon = self.start(folder)
             for thread in threads:
-                thread.join(60)
+                thread.join(200)
             steps = list(server.get(job.name).samples()["step"])
             self.assertEqual(watched, steps)
             self.assertEqual(sweep.states, {"SUCCEEDED": 2})

@@ -41,7 +41,8 @@ class Sweeps(WithServer):
             warnings.simplefilter("always")
             sweep = self.server.sweep(PRESET, SMALL, seeds=2).cancel()
         self.assertRegex(str(caught[0].message), "amplitude_mm=0.01")
-        sweep.wait()
+        sweep.retry().wait()  # no job failed, so none runs again
+        self.assertEqual(sweep.states, {"CANCELLED": 2})
         self.assertIn(sweep.name, [other.name for other in self.server.sweeps()])
         sweep.delete()
         with self.assertRaises(cc.NotFound):
