@@ -1,0 +1,150 @@
+"""Samples, meshes and frames as numpy arrays."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Iterable, Iterator, List, Sequence, Tuple
+
+import numpy as np
+from google.protobuf.descriptor import FieldDescriptor
+from google.protobuf.message import Message
+
+from cellcrush.v1.event_pb2 import FrameChunk, MeshChunk
+from cellcrush.v1.sample_pb2 import Mesh as MeshMessage
+from cellcrush.v1.sample_pb2 import Sample
+from cellcrush.words import unit_of, words_of
+
+Array = np.ndarray[Any, Any]
+
+
+def _numbers(message: Any, prefix: str = "") -> Iterator[Tuple[str, type, float]]:
+    for field in message.DESCRIPTOR.fields:
+        if field.type == FieldDescriptor.TYPE_DOUBLE:
+            yield prefix + field.name, np.float64, getattr(message, field.name)
+        elif field.type == FieldDescriptor.TYPE_INT64:
+            yield prefix + field.name, np.int64, getattr(message, field.name)
+
+
+def _columns(sample: Sample) -> Iterator[Tuple[str, type, float]]:
+    yield from _numbers(sample)
+    for name, kind, value in _numbers(sample.front, "front_"):
+        yield name, kind, value if sample.HasField("front") else np.nan
+    for node in sample.watched:
+        yield from _numbers(node, f"nodes.{node.node}.")
+    for wall in sample.rigid_walls:
+        yield from _numbers(wall, f"rigid_walls.{wall.wall}.")
+
+
+def samples_array(samples: Sequence[Sample]) -> Array:
+    """A structured array with a row for each sample, its fields named like the datasets of result.h5.
+
+    >>> samples_array([Sample(strain=0.5), Sample(strain=0.6)])["strain"]
+    array([0.5, 0.6])
+    """
+    columns = list(_columns(samples[0] if samples else Sample()))
+    array = np.empty(len(samples), dtype=[(name, kind) for name, kind, _ in columns])
+    for i, sample in enumerate(samples):
+        array[i] = tuple(value for _, _, value in _columns(sample))
+    return array
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """What is constant during a run. N particles, E elements; lengths in mm."""
+
+    position_mm: Array  # (N, 2), before loading
+    element_nodes: Array  # (E, 2), numbers of particles
+    thickness_mm: Array  # (E)
+    length_mm: float  # of the undeformed lattice along the crush
+    width_mm: float  # and across
+    impact_plate_mm: float  # face of the plate along the crush, before loading
+    support_plate_mm: float
+    along_y: bool  # whether the crush is along y
+
+
+@dataclass(frozen=True)
+class Frames:
+    """The deformed mesh at F times."""
+
+    time_s: Array  # (F)
+    strain: Array  # (F)
+    position_mm: Array  # (F, N, 2), float32
+    plastic_fraction: Array  # (F, E), float32: share of each element's section that has yielded
+
+    def __len__(self) -> int:
+        return len(self.time_s)
+
+    def nearest(self, strain: float) -> int:
+        """The index of the frame nearest to a nominal strain."""
+        return int(np.abs(self.strain - strain).argmin())
+
+
+def mesh_from(chunks: Iterable[MeshChunk]) -> Mesh:
+    whole = MeshMessage()
+    for chunk in chunks:
+        whole.MergeFrom(chunk.mesh)
+    return Mesh(np.array(whole.position_mm, np.float32).reshape(-1, 2),
+                np.array(whole.element_nodes, np.int32).reshape(-1, 2), np.array(whole.thickness_mm, np.float32),
+                whole.length_mm, whole.width_mm, whole.impact_plate_mm, whole.support_plate_mm, whole.along_y)
+
+
+def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:
+    """Frames, each from all of its chunks."""
+    positions = [np.concatenate([np.array(c.frame.position_mm, np.float32) for c in chunks]) for chunks in frames]
+    plastic = [np.concatenate([np.array(c.frame.plastic_fraction, np.float32) for c in chunks]) for chunks in frames]
+    return Frames(np.array([chunks[0].frame.time_s for chunks in frames]),
+                  np.array([chunks[0].frame.strain for chunks in frames]),
+                  np.array([p.reshape(-1, 2) for p in positions]), np.array(plastic))
+
+
+class Values:
+    """The numbers of a summary by name; None where the run does not give one.
+
+    >>> from cellcrush.v1.sample_pb2 import Summary
+    >>> values = Values(Summary(densification_strain=0.5))
+    >>> values.densification_strain, values.plateau_stress_impact_mpa
+    (0.5, None)
+    """
+
+    def __init__(self, message: Message) -> None:
+        self._message: Any = message
+
+    def __getattr__(self, name: str) -> Any:
+        field = self._message.DESCRIPTOR.fields_by_name.get(name)
+        if name.startswith("_") or field is None:
+            raise AttributeError(name)
+        if field.label == FieldDescriptor.LABEL_REPEATED:
+            return list(getattr(self._message, name))
+        if field.has_presence and not self._message.HasField(name):
+            return None
+        value = getattr(self._message, name)
+        if field.message_type is not None:
+            return Values(value)
+        return field.enum_type.values_by_number[value].name if field.enum_type else value
+
+    def __dir__(self) -> List[str]:
+        return [field.name for field in self._message.DESCRIPTOR.fields]
+
+    def as_dict(self, prefix: str = "") -> dict[str, Any]:
+        """All values, those of groups under names such as "theory.shock_mpa"."""
+        values: dict[str, Any] = {}
+        for field in self._message.DESCRIPTOR.fields:
+            if field.message_type is not None and (field.label == FieldDescriptor.LABEL_REPEATED or
+                                                   field.message_type.name == "Case"):
+                continue  # lists of messages and whole cases are no values
+            value = getattr(self, field.name)
+            group = isinstance(value, Values)
+            values.update(value.as_dict(prefix + field.name + ".") if group else {prefix + field.name: value})
+        return values
+
+    def _rows(self) -> List[Tuple[str, str]]:
+        shown = [(name, value) for name, value in self.as_dict().items() if value not in (None, "", [])]
+        return [(name, f"{value:.6g} {unit_of(name)}".rstrip() if isinstance(value, float) else str(value))
+                for name, value in shown]
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{name}: {text}" for name, text in self._rows())
+
+    def _repr_html_(self) -> str:
+        from cellcrush.display import html_table
+
+        return html_table([(words_of(name), text) for name, text in self._rows()])

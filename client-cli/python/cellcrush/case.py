@@ -1,0 +1,218 @@
+"""Cases from dicts, text, JSON, files and protos, with the field paths of every other surface."""
+from __future__ import annotations
+
+import difflib
+import functools
+import os
+import pathlib
+import re
+from typing import Any, Callable, Iterator, Mapping, Optional, Union
+
+from google.protobuf import json_format, text_format
+from google.protobuf.descriptor import Descriptor, FieldDescriptor
+from google.protobuf.message import Message
+
+from cellcrush.errors import CaseError, Problem
+from cellcrush.v1.case_pb2 import Case
+
+CaseLike = Union[Case, Mapping[str, Any], str, "os.PathLike[str]"]
+
+_PRESET = "preset:"
+_WHOLE = (FieldDescriptor.TYPE_INT32, FieldDescriptor.TYPE_INT64, FieldDescriptor.TYPE_UINT32,
+          FieldDescriptor.TYPE_UINT64)
+
+
+def _refuse(field: str, value: object, message: str, remedy: str) -> CaseError:
+    return CaseError([Problem(field, "" if value is None else str(value), message, remedy)])
+
+
+def _near(word: str, known: list[str]) -> str:
+    near = [name for name in known if name.startswith(word + "_")] or difflib.get_close_matches(word, known, 1)
+    return f"Did you mean {near[0]}?" if near else "Known are " + ", ".join(known) + "."
+
+
+def refuse_unknown(path: str, name: str, group: Optional[Descriptor]) -> CaseError:
+    """The error for a path with a name that its group does not have."""
+    return _refuse(path, None, "is no field of a case.", _near(name, [f.name for f in group.fields]) if group else "")
+
+
+def all_paths(descriptor: Descriptor = Case.DESCRIPTOR, prefix: str = "") -> Iterator[str]:
+    """The paths of all fields outside of lists, groups included."""
+    for field in descriptor.fields:
+        yield prefix + field.name
+        if field.message_type is not None and field.label != FieldDescriptor.LABEL_REPEATED:
+            yield from all_paths(field.message_type, prefix + field.name + ".")
+
+
+@functools.lru_cache(maxsize=None)
+def _paths_by_last_part() -> dict[str, list[str]]:
+    paths: dict[str, list[str]] = {}
+    for path in all_paths():
+        paths.setdefault(path.rsplit(".", 1)[-1], []).append(path)
+    return paths
+
+
+def _fits(case: Case, path: str) -> bool:
+    """Whether no other member of a choice stands in the way, such as a square in that of a hexagon."""
+    message: Message = case
+    for part in path.split(".")[:-1]:
+        field = message.DESCRIPTOR.fields_by_name[part]
+        choice = field.containing_oneof
+        if choice is not None and message.WhichOneof(choice.name) not in (None, part):
+            return False
+        message = getattr(message, part)
+    return True
+
+
+def find_path(word: str, case: Case) -> str:
+    """The path of a field: itself, or the only path in this case that ends in this word.
+
+    >>> find_path("speed_m_per_s", Case()), find_path("lattice__hexagon__rows", Case())
+    ('loading.speed_m_per_s', 'lattice.hexagon.rows')
+    """
+    path = word.replace("__", ".")
+    if "." in path or "[" in path or path in Case.DESCRIPTOR.fields_by_name:
+        return path
+    known = _paths_by_last_part()
+    found = [candidate for candidate in known.get(path, []) if _fits(case, candidate)]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        raise _refuse(word, None, "is the name of several fields.", "Give one of " + ", ".join(found) + ".")
+    if path in known:
+        raise _refuse(word, None, "is no field of this lattice.", "The paths are " + ", ".join(known[path]) + ".")
+    raise _refuse(word, None, "is no field of a case.", _near(path, sorted(known)))
+
+
+def _scalar(field: FieldDescriptor, value: Any, path: str) -> Any:
+    if field.enum_type is not None:
+        names = [entry.name for entry in field.enum_type.values if entry.number != 0]
+        if isinstance(value, str) and value.upper() in names:
+            return field.enum_type.values_by_name[value.upper()].number
+        if isinstance(value, int) and value in field.enum_type.values_by_number:
+            return value
+        raise _refuse(path, value, "is not valid.", "Give one of " + ", ".join(names) + ".")
+    try:
+        if field.type == FieldDescriptor.TYPE_STRING:
+            return str(value)
+        if field.type == FieldDescriptor.TYPE_BOOL:
+            if value not in (True, False):
+                raise ValueError
+            return bool(value)
+        number = float(value)
+        if field.type in _WHOLE:
+            whole = int(value)
+            if whole != number:
+                raise ValueError
+            return whole
+        return number
+    except (TypeError, ValueError, OverflowError):
+        kind = {FieldDescriptor.TYPE_BOOL: "True or False", FieldDescriptor.TYPE_STRING: "a text"}.get(
+            field.type, "a whole number" if field.type in _WHOLE else "a number")
+        raise _refuse(path, value, "is not valid.", f"Give {kind}.") from None
+
+
+def _fill(message: Message, values: Mapping[str, Any], prefix: str) -> None:
+    for key, value in values.items():
+        set_field(message, key, value, prefix)
+
+
+def set_field(message: Message, path: str, value: Any, prefix: str = "") -> None:
+    """Sets the field at a path to a number, name, list, mapping or message.
+
+    >>> case = Case()
+    >>> set_field(case, "lattice.hexagon.rows", 7)
+    >>> case.lattice.hexagon.rows
+    7
+    """
+    head, _, rest = path.partition(".")
+    match = re.fullmatch(r"(\w+)(?:\[(\d+)\])?", head)
+    name, index = (match.group(1), match.group(2)) if match else (head, None)
+    here = prefix + head
+    field = message.DESCRIPTOR.fields_by_name.get(name)
+    if field is None:
+        raise refuse_unknown(here, name, message.DESCRIPTOR)
+    choice = field.containing_oneof
+    if choice is not None and message.WhichOneof(choice.name) not in (None, name):
+        present = message.WhichOneof(choice.name)
+        raise _refuse(here, None, f"cannot be set: the case has {prefix}{present}.",
+                      f"Start from a case with {here}.")
+    repeated = field.label == FieldDescriptor.LABEL_REPEATED
+    current = getattr(message, name)
+    if repeated and index is not None:
+        if int(index) >= len(current):
+            raise _refuse(here, None, f"is no entry: the list has {len(current)}.", "Indices count from 0.")
+        if field.message_type is None:
+            current[int(index)] = _scalar(field, value, here)
+            return
+        current, repeated = current[int(index)], False
+    elif index is not None:
+        raise _refuse(here, None, "is not a list.", f"Write {prefix}{name}.")
+    if rest:
+        if repeated or field.message_type is None:
+            what = "a list" if repeated else "a single value"
+            raise _refuse(here, None, f"is {what}.", f"Name an entry, such as {here}[0]." if repeated else "")
+        set_field(current, rest, value, here + ".")
+    elif repeated:
+        del current[:]
+        for i, entry in enumerate(value):
+            if field.message_type is None:
+                current.append(_scalar(field, entry, here))
+            else:
+                _assign(current.add(), entry, f"{here}[{i}]")
+    elif field.message_type is not None:
+        current.SetInParent()
+        _assign(current, value, here)
+    else:
+        setattr(message, name, _scalar(field, value, here))
+
+
+def _assign(message: Message, value: Any, path: str) -> None:
+    if isinstance(value, Mapping):
+        _fill(message, value, path + ".")
+    elif isinstance(value, type(message)):
+        message.CopyFrom(value)
+    else:
+        names = ", ".join(field.name for field in message.DESCRIPTOR.fields)
+        raise _refuse(path, value, "is a group.", f"Give a dict with fields of it: {names}.")
+
+
+def parse_case(text: str, source: str = "the text") -> Case:
+    """A case from protobuf text or JSON.
+
+    >>> parse_case("depth_mm: 4").depth_mm
+    4.0
+    """
+    try:
+        if text.lstrip().startswith("{"):
+            case: Case = json_format.Parse(text, Case())
+        else:
+            case = text_format.Parse(text, Case())
+    except (json_format.ParseError, text_format.ParseError) as error:
+        raise _refuse("case", None, f"cannot be read from {source}: {error}.", "") from None
+    return case
+
+
+def build_case(source: CaseLike, fields: Mapping[str, Any], preset: Callable[[str], Case]) -> Case:
+    """The case that any of the accepted forms describes, with these fields set. `preset` finds one by name."""
+    case = Case()
+    if isinstance(source, Case):
+        case.CopyFrom(source)
+    elif isinstance(source, Mapping):
+        for key, value in source.items():
+            set_field(case, find_path(key, case), value)
+    elif isinstance(source, str) and source.startswith(_PRESET):
+        case.CopyFrom(preset(source[len(_PRESET):]))
+    elif isinstance(source, str) and re.search(r"[{\n]|:\s", source):
+        case = parse_case(source)
+    else:
+        try:
+            text = pathlib.Path(source).read_text()
+        except (OSError, UnicodeDecodeError) as error:
+            reason = error.strerror if isinstance(error, OSError) else "not a text file"
+            raise _refuse("case", None, f"cannot be read: {source}: {reason}.",
+                          "Give a file, preset:NAME, text or a dict.") from None
+        case = parse_case(text, str(source))
+    for word, value in fields.items():
+        set_field(case, find_path(word, case), value)
+    return case

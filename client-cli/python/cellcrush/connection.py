@@ -1,0 +1,204 @@
+"""The connection to a daemon: its address, who calls, and calls and streams that survive interruptions."""
+from __future__ import annotations
+
+import ipaddress
+import os
+import pathlib
+import threading
+import time
+from typing import Any, Callable, Iterator, Optional, Tuple, TypeVar
+
+import grpc
+
+from cellcrush.errors import NotConnected, raise_error
+from cellcrush.v1 import admin_service_pb2_grpc, cases_service_pb2_grpc, jobs_service_pb2_grpc, sweeps_service_pb2_grpc
+
+DEFAULT_ADDRESS = "127.0.0.1:50551"
+# A mesh of a large lattice is one message; the daemon is called directly, whatever proxy the environment names.
+OPTIONS = [("grpc.max_receive_message_length", -1), ("grpc.max_send_message_length", -1), ("grpc.enable_http_proxy", 0),
+           ("grpc.initial_reconnect_backoff_ms", 100), ("grpc.min_reconnect_backoff_ms", 500),
+           ("grpc.max_reconnect_backoff_ms", 1000)]
+CALL_TIMEOUT_S = 120.0
+SILENCE_S = 60.0  # a living watch sends something every 15 s
+MAX_PAUSE_S = 5.0
+RECOVERABLE = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED, grpc.StatusCode.CANCELLED,
+               grpc.StatusCode.RESOURCE_EXHAUSTED)
+
+Event = TypeVar("Event")
+
+
+def find_address(address: Optional[str]) -> str:
+    """The given address, else $CELLCRUSH_SERVER, else the daemon's default socket, else its default port.
+
+    >>> find_address("crusher:50551")
+    'crusher:50551'
+    """
+    address = address or os.environ.get("CELLCRUSH_SERVER", "")
+    if not address:
+        data = os.environ.get("XDG_DATA_HOME") or os.path.expanduser("~/.local/share")
+        socket = pathlib.Path(data, "cellcrush", "cellcrushd.sock")
+        return f"unix:{socket}" if socket.is_socket() else DEFAULT_ADDRESS
+    host, _, port = address.rpartition(":")
+    if not (address.startswith("unix:") and len(address) > 5) and not (host and port.isdigit()):
+        raise ValueError(f"address {address!r}: expected unix:PATH or HOST:PORT")
+    return address
+
+
+def _is_this_machine(address: str) -> bool:
+    host = address.rpartition(":")[0].strip("[]")
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+class Connection:
+    """A channel to a daemon. Every call of it is safe to repeat, and is repeated while the daemon does not answer."""
+
+    def __init__(self, address: Optional[str], ca: Optional[str], token_file: Optional[str], certificate: Optional[str],
+                 key: Optional[str], patience_s: float) -> None:
+        self.address = find_address(address)
+        self.patience_s = patience_s
+        self.metadata: Tuple[Tuple[str, str], ...] = ()
+        self.credentials: Optional[grpc.ChannelCredentials] = None
+        if not self.address.startswith("unix:"):
+            self._read_credentials(ca, token_file, certificate, key)
+        if self.credentials is None:
+            channel = grpc.insecure_channel(self.address, options=OPTIONS)
+        else:
+            channel = grpc.secure_channel(self.address, self.credentials, options=OPTIONS)
+        self.channel = channel
+        self.cases = cases_service_pb2_grpc.CasesStub(channel)
+        self.jobs = jobs_service_pb2_grpc.JobsStub(channel)
+        self.sweeps = sweeps_service_pb2_grpc.SweepsStub(channel)
+        self.admin = admin_service_pb2_grpc.AdminStub(channel)
+
+    def _read_credentials(self, ca: Optional[str], token_file: Optional[str], certificate: Optional[str],
+                          key: Optional[str]) -> None:
+        ca = ca or os.environ.get("CELLCRUSH_TLS_CA")
+        if bool(certificate) != bool(key):
+            raise ValueError("certificate and key go together: give both or neither")
+        if certificate and not ca:
+            raise ValueError("certificate requires ca, the authority of the server's certificate")
+        token_file = token_file or os.environ.get("CELLCRUSH_TOKEN_FILE")
+        token = pathlib.Path(token_file).read_text() if token_file else os.environ.get("CELLCRUSH_TOKEN", "")
+        if token_file and not token.strip():
+            raise ValueError(f"token_file {token_file}: holds no token")
+        if token.strip():
+            if not ca and not _is_this_machine(self.address):
+                raise ValueError(f"the token is not sent to {self.address} in plain text, where others could read it: "
+                                 "turn on TLS with ca= or CELLCRUSH_TLS_CA")
+            self.metadata = (("authorization", "Bearer " + token.strip()),)
+        if ca:
+            read = [pathlib.Path(file).read_bytes() if file else None for file in (ca, key, certificate)]
+            self.credentials = grpc.ssl_channel_credentials(*read)
+
+    def require(self) -> None:
+        """Waits for the daemon for two seconds."""
+        if not self._is_ready(2.0):
+            raise NotConnected(f"no server answers at {self.address}. Start cellcrushd, or give its address to "
+                               "connect().")
+
+    def _is_ready(self, timeout_s: float) -> bool:
+        ready = grpc.channel_ready_future(self.channel)
+        try:
+            ready.result(timeout=timeout_s)
+            return True
+        except grpc.FutureTimeoutError:
+            return False
+        finally:
+            ready.cancel()
+
+    def _pause(self, patience: "Patience") -> bool:
+        """Waits before another try; False when patience is up. Calls alone would not do: between them nothing drives
+        the handshake of a new connection."""
+        pause = patience.next_pause()
+        if pause is None:
+            return False
+        time.sleep(pause)
+        return self._is_ready(patience.left_s())
+
+    def call(self, method: Callable[..., Event], request: Any) -> Event:
+        """Calls a method; repeats it while the daemon is away."""
+        patience = Patience(self.patience_s)
+        while True:
+            try:
+                return method(request, timeout=CALL_TIMEOUT_S, metadata=self.metadata)
+            except grpc.RpcError as error:
+                lost = error.code() in (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED)
+                if not lost or not self._pause(patience):
+                    raise_error(error, self.address)
+
+    def pages(self, method: Callable[..., Event], request: Any) -> Iterator[Event]:
+        """All pages of a list."""
+        while True:
+            page: Any = self.call(method, request)
+            yield page
+            if not page.next_page_token:
+                return
+            request.page_token = page.next_page_token
+
+    def follow(self, method: Callable[..., Any], next_request: Callable[[], Any],
+               is_complete: Callable[[], bool]) -> Iterator[Any]:
+        """The messages of a stream, which goes on where it broke: `next_request` asks for what comes after the last."""
+        patience = Patience(self.patience_s)
+        while True:
+            stream = method(next_request(), metadata=self.metadata)
+            watchdog = Watchdog(stream.cancel)
+            try:
+                for message in stream:
+                    watchdog.heard()
+                    patience.renew()
+                    yield message
+                if is_complete():
+                    return
+                lost = "the server closed the stream"
+            except grpc.RpcError as error:
+                if error.code() not in RECOVERABLE:
+                    raise_error(error, self.address)
+                lost = error.details() or ""
+            finally:
+                watchdog.stop()
+                stream.cancel()
+            if not self._pause(patience):
+                raise NotConnected(f"lost the connection to {self.address}: {lost}")
+
+
+class Patience:
+    """Pauses that double, up to a total."""
+
+    def __init__(self, patience_s: float) -> None:
+        self._patience_s = patience_s
+        self.renew()
+
+    def renew(self) -> None:
+        self._end, self._next = time.monotonic() + self._patience_s, 0.25
+
+    def next_pause(self) -> Optional[float]:
+        """The next pause; None when patience is up."""
+        pause, self._next = self._next, min(2 * self._next, MAX_PAUSE_S)
+        return pause if time.monotonic() + pause <= self._end else None
+
+    def left_s(self) -> float:
+        return self._end - time.monotonic()
+
+
+class Watchdog:
+    """Cancels a stream on which nothing arrives."""
+
+    def __init__(self, cancel: Callable[[], Any]) -> None:
+        self._cancel, self._stop = cancel, threading.Event()
+        self.heard()
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def heard(self) -> None:
+        self._last = time.monotonic()
+
+    def stop(self) -> None:
+        self._stop.set()
+
+    def _run(self) -> None:
+        while not self._stop.wait(1.0):
+            if time.monotonic() - self._last > SILENCE_S:
+                self._cancel()
+                return

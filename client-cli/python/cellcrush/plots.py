@@ -1,0 +1,212 @@
+"""Plots by matplotlib, sized for a column of a journal."""
+from __future__ import annotations
+
+import io
+import time
+from typing import TYPE_CHECKING, Any, Optional, Tuple
+
+import numpy as np
+
+from cellcrush.arrays import Array, samples_array
+from cellcrush.display import notebook_display
+from cellcrush.errors import need
+from cellcrush.words import label_of, short_names
+
+if TYPE_CHECKING:
+    import matplotlib.animation
+    import matplotlib.axes
+    from cellcrush.job import Job
+    from cellcrush.results import Results
+    from cellcrush.sweep import Sweep
+
+_MM = 1.0 / 25.4
+_BLUE, _ORANGE, _GREY = "#0072b2", "#d55e00", "#666666"  # told apart by the colour-blind
+_SMOOTHED = 0.02  # strain over which a curve is averaged
+_REDRAWN_S = 0.5
+_DPI = 200.0
+
+
+def _axes(ax: "Optional[matplotlib.axes.Axes]", width_mm: float, aspect: float = 0.75) -> "matplotlib.axes.Axes":
+    pyplot = need("matplotlib.pyplot", "python3-matplotlib")
+    if ax is None:
+        size = (width_mm * _MM, aspect * width_mm * _MM)
+        ax = pyplot.subplots(figsize=size, dpi=_DPI, layout="constrained")[1]
+    ax.set_prop_cycle(color=[_BLUE, _ORANGE, "#009e73", "#cc79a7", "#56b4e9", "#e69f00"])
+    return ax
+
+
+def _finish(ax: Any, font_pt: float, title: str = "", columns: int = 2) -> None:
+    """The legend goes above the axes, where it hides no curve."""
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(fontsize=font_pt, frameon=False, handlelength=1.5, ncols=columns, loc="lower left",
+                  borderaxespad=0.0, bbox_to_anchor=(0.0, 1.02), columnspacing=1.2, title=title or None,
+                  title_fontsize=font_pt, alignment="left")
+    for text in (ax.title, ax.xaxis.label, ax.yaxis.label):
+        text.set_fontsize(font_pt)
+    ax.tick_params(labelsize=font_pt, direction="in", width=0.5)
+    for spine in ax.spines.values():
+        spine.set_linewidth(0.5)
+
+
+def _smoothed(x: Array, y: Array) -> Array:
+    """Mean of y over all points within half of a window of each x, which ascends."""
+    total = np.concatenate([[0.0], np.cumsum(y)])
+    low, high = np.searchsorted(x, x - 0.5 * _SMOOTHED), np.searchsorted(x, x + 0.5 * _SMOOTHED, "right")
+    means: Array = (total[high] - total[low]) / np.maximum(high - low, 1)
+    return means
+
+
+def _draw_curves(ax: Any, samples: Array) -> None:
+    strain, top = samples["strain"], 0.0
+    for name, label, colour in (("stress_impact_mpa", "impact plate", _BLUE),
+                                ("stress_support_mpa", "support plate", _ORANGE)):
+        smooth = _smoothed(strain, samples[name])
+        ax.plot(strain, samples[name], color=colour, alpha=0.25, linewidth=0.4)
+        ax.plot(strain, smooth, color=colour, linewidth=1.0, label=label)
+        top = max(top, *smooth[strain > _SMOOTHED], 0.0)
+    ax.set(xlim=(0.0, None), ylim=(0.0, 1.1 * top or None), xlabel="nominal strain", ylabel="nominal stress (MPa)")
+
+
+def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
+                font_pt: float = 8.0) -> "matplotlib.axes.Axes":
+    ax = _axes(ax, width_mm)
+    _draw_curves(ax, results.samples())
+    summary = results.summary
+    if summary.plateau_stress_impact_mpa is not None:
+        window = (summary.plateau_window_low, summary.plateau_window_high)
+        ax.plot(window, [summary.plateau_stress_impact_mpa] * 2, color="black", linewidth=1.2, solid_capstyle="butt",
+                label=f"plateau {summary.plateau_stress_impact_mpa:.4g} MPa")
+    if summary.densification_strain is not None:
+        ax.axvline(summary.densification_strain, color=_GREY, linewidth=0.6, linestyle=":",
+                   label=f"densification {summary.densification_strain:.3g}")
+    _finish(ax, font_pt)
+    return ax
+
+
+def _intervals(sweep: "Sweep") -> Tuple[Any, str, "list[str]"]:
+    names = short_names(sweep.fields)
+    seeds = [name for name in names if name.rsplit(".", 1)[-1] == "seed" and len(names) > 1]
+    table = sweep.table(mean_over=seeds)
+    others = [name for name in names if name not in seeds]
+    return table, others[0], others[1:]
+
+
+def plot_sweep(sweep: "Sweep", ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
+               font_pt: float = 8.0) -> "matplotlib.axes.Axes":
+    table, first, others = _intervals(sweep)
+    ax = _axes(ax, width_mm)
+    groups = table.groupby(others if len(others) > 1 else others[0], sort=False) if others else [((), table)]
+    for key, rows in groups:
+        rows = rows.sort_values(first)
+        values = key if isinstance(key, tuple) else (key,)
+        group = ", ".join(f"{value:g}" for value in values)
+        colour = None
+        for plate, marker, line in (("impact", "o", "-"), ("support", "s", "--")):
+            column = f"plateau_stress_{plate}_mpa"
+            bars = rows[column + "_ci95"]
+            drawn = ax.errorbar(rows[first], rows[column], yerr=None if bars.isna().all() else bars, marker=marker,
+                                markersize=3, linewidth=0.8, capsize=2, elinewidth=0.6, color=colour, linestyle=line,
+                                label=(group if plate == "impact" else None) if group else f"{plate} plate")
+            colour = drawn[0].get_color() if group else None
+    if others:
+        ax.plot([], [], color=_GREY, linewidth=0.8, linestyle="--", marker="s", markersize=3, label="support")
+    theory = table["shock_mpa"].notna() & (table["shock_mpa"] > 0)
+    if first == "speed_m_per_s" and not others and theory.sum() > 1:
+        slope, constant = np.polyfit(table[first][theory] ** 2, table["shock_mpa"][theory], 1)
+        speeds = np.linspace(table[first].min(), table[first].max(), 200)
+        ax.plot(speeds, constant + slope * speeds**2, color="black", linewidth=0.8, label="shock theory (Eq. 51)")
+    ax.set(xlabel=label_of(first), ylabel="plateau stress (MPa)", ylim=(0.0, None))
+    _finish(ax, font_pt, ", ".join(label_of(name) for name in others), 4 if len(others) == 1 else 2)
+    return ax
+
+
+class _Picture:
+    """A frame as lines, coloured by plastic fraction, which can show another one."""
+
+    def __init__(self, results: "Results", ax: Any, font_pt: float) -> None:
+        collections = need("matplotlib.collections", "python3-matplotlib")
+        self._frames, self._mesh = results.frames, results.mesh
+        # Thickness to scale: a point of a line is 1/72 inch.
+        positions = self._frames.position_mm
+        low, high = positions.min(axis=(0, 1)), positions.max(axis=(0, 1))
+        box = ax.get_window_extent()
+        scale = min(box.width / (high[0] - low[0]), box.height / (high[1] - low[1])) * 72.0 / ax.figure.dpi
+        self._lines = collections.LineCollection([], cmap="inferno_r", linewidths=np.maximum(
+            self._mesh.thickness_mm * scale, 0.35))
+        self._lines.set_clim(-0.25, 1.0)  # elastic walls stay visible on white
+        ax.add_collection(self._lines)
+        self._plate: Any = None
+        if self._mesh.impact_plate_mm != self._mesh.support_plate_mm:
+            draw = ax.axhline if self._mesh.along_y else ax.axvline
+            draw(self._mesh.support_plate_mm, color=_GREY, linewidth=1.5, clip_on=False)
+            self._plate = draw(self._mesh.impact_plate_mm, color=_GREY, linewidth=1.5, clip_on=False)
+        ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
+        ax.set_axis_off()
+        self._title = ax.set_title("", fontsize=font_pt)
+        self.show(0)
+
+    def show(self, index: int) -> Tuple[Any, Any]:
+        self._lines.set_segments(self._frames.position_mm[index][self._mesh.element_nodes])
+        self._lines.set_array(self._frames.plastic_fraction[index])
+        self._title.set_text(f"strain {self._frames.strain[index]:.2f}")
+        if self._plate is not None:
+            travel = self._frames.strain[index] * self._mesh.length_mm
+            place = self._mesh.impact_plate_mm + travel * np.sign(
+                self._mesh.support_plate_mm - self._mesh.impact_plate_mm)
+            (self._plate.set_ydata if self._mesh.along_y else self._plate.set_xdata)([place, place])
+        return self._lines, self._title
+
+
+def _aspect(results: "Results") -> float:
+    size = results.frames.position_mm.max(axis=(0, 1)) - results.frames.position_mm.min(axis=(0, 1))
+    return float(size[1] / size[0]) + 0.08
+
+
+def plot_frame(results: "Results", strain: float, ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
+               font_pt: float = 8.0) -> "matplotlib.axes.Axes":
+    ax = _axes(ax, width_mm, _aspect(results))
+    _Picture(results, ax, font_pt).show(results.frames.nearest(strain))
+    return ax
+
+
+def animate(results: "Results", width_mm: float = 85.0, font_pt: float = 8.0,
+            frames_per_s: float = 12.0) -> "matplotlib.animation.FuncAnimation":
+    animation = need("matplotlib.animation", "python3-matplotlib")
+    ax = _axes(None, width_mm, _aspect(results))
+    picture = _Picture(results, ax, font_pt)
+    movie: "matplotlib.animation.FuncAnimation" = animation.FuncAnimation(
+        ax.figure, picture.show, frames=len(results.frames), interval=1000.0 / frames_per_s)
+    need("matplotlib.pyplot", "python3-matplotlib").close(ax.figure)  # a notebook shows the movie alone
+    return movie
+
+
+def live_plot(job: "Job", width_mm: float = 85.0, font_pt: float = 8.0) -> "matplotlib.axes.Axes":
+    pyplot = need("matplotlib.pyplot", "python3-matplotlib")
+    ax = _axes(None, width_mm)
+    notebook: Any = notebook_display()
+    handle, next_s = None, 0.0
+    if notebook:
+        handle = notebook.display("", display_id=True)
+
+    def picture() -> Any:
+        png = io.BytesIO()
+        ax.figure.savefig(png, format="png")
+        return notebook.Image(png.getvalue())
+
+    for kind, watch in job.events():
+        if kind != "sample" or time.monotonic() < next_s:
+            continue
+        ax.clear()
+        _draw_curves(ax, samples_array(list(watch.samples.values())))
+        _finish(ax, font_pt)
+        if handle is not None:
+            handle.update(picture())
+        elif pyplot.get_backend().lower() != "agg":
+            pyplot.pause(0.01)
+        next_s = time.monotonic() + _REDRAWN_S
+    ax.clear()
+    plot_curves(job, ax, width_mm, font_pt)
+    if handle is not None:
+        handle.update(picture())
+        pyplot.close(ax.figure)
+    return ax

@@ -1,0 +1,74 @@
+"""Cases in all their forms, and what is said of wrong ones."""
+import unittest
+
+import cellcrush as cc
+from support import PRESET, SMALL, WithServer
+
+
+class Cases(WithServer):
+    def test_all_forms_give_the_same_case(self):
+        case = self.server.case(PRESET, SMALL)
+        from google.protobuf import json_format, text_format
+
+        text = text_format.MessageToString(case)
+        file = self.folder / "case.txtpb"
+        file.write_text(text)
+        nested = json_format.MessageToDict(case, preserving_proto_field_name=True)
+        for form in (case, text, json_format.MessageToJson(case), file, str(file), nested):
+            self.assertEqual(self.server.case(form), case, type(form))
+
+    def test_fields_have_the_paths_of_everywhere(self):
+        case = self.server.case(PRESET, {"contact.friction": 0.2}, lattice__hexagon__rows=5, direction="y",
+                                threads=2.0)
+        self.assertEqual((case.contact.friction, case.lattice.hexagon.rows, case.loading.direction,
+                          case.numerics.threads), (0.2, 5, 2, 2))
+        frame = self.server.case({"lattice.frame.nodes": [{"id": "a", "x_mm": 1}, {"id": "b"}]},
+                                 {"lattice.frame.nodes[1].x_mm": 3})
+        self.assertEqual([node.x_mm for node in frame.lattice.frame.nodes], [1, 3])
+
+    def test_every_wrong_field_names_itself_and_the_remedy(self):
+        for fields, field, remedy in (
+                ({"speed_m_per_s": "fast"}, "loading.speed_m_per_s", "Give a number"),
+                ({"columns": 2.5}, "lattice.hexagon.columns", "whole number"),
+                ({"speed": 3}, "speed", "Did you mean speed_m_per_s?"),
+                ({"friction": 0.1}, "friction", "contact.friction, plates.friction"),
+                ({"direction": "Z"}, "loading.direction", "one of X, Y"),
+                ({"lattice.square.rows": 3}, "lattice.square", "Start from a case"),
+                ({"lattice.hexagon": 3}, "lattice.hexagon", "dict"),
+                ({"loading.speed_m_per_s.x": 3}, "loading.speed_m_per_s", ""),
+                ({"lattice.hexagon.colums": 3}, "lattice.hexagon.colums", "Did you mean columns?")):
+            with self.assertRaises(cc.CaseError, msg=fields) as raised:
+                self.server.submit(PRESET, fields)
+            problem = raised.exception.problems[0]
+            self.assertEqual(problem.field, field)
+            self.assertIn(remedy, problem.remedy)
+
+    def test_the_daemon_lists_all_problems(self):
+        with self.assertRaises(cc.CaseError) as raised:
+            self.server.submit({"lattice.hexagon.columns": 1, "end_strain": 2})
+        fields = [problem.field for problem in raised.exception.problems]
+        self.assertIn("lattice.hexagon.columns", fields)
+        self.assertIn("depth_mm", fields)
+        self.assertTrue(all(problem.remedy for problem in raised.exception.problems))
+        self.assertEqual(fields, [problem.field for problem in self.server.check(
+            {"lattice.hexagon.columns": 1, "end_strain": 2}).problems])
+
+    def test_what_cannot_be_read_is_refused(self):
+        for source in ("nothing.txtpb", "depth_mm: x", '{"depth": 4}'):
+            with self.assertRaises(cc.CaseError, msg=source):
+                self.server.submit(source)
+        with self.assertRaisesRegex(cc.NotFound, "hexagon-small"):
+            self.server.submit("preset:hexagon-smal")
+
+    def test_a_check_predicts_the_run(self):
+        check = self.server.check(PRESET, SMALL)
+        self.assertEqual(check.problems, [])
+        self.assertGreater(check.step_count, 100)
+        self.assertGreater(check.theory.shock_mpa, check.theory.gibson_ashby_mpa)
+        self.assertIn(PRESET, self.server.presets())
+        self.assertIn("default", self.server.explain("end_strain"))
+        self.assertRegex(str(self.server.check(PRESET, SMALL, density_kg_per_m3=2.7).notes[0]), "density")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,174 @@
+"""Jobs: results as arrays, and waits that survive what happens to them."""
+import asyncio
+import contextlib
+import io
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import cellcrush as cc
+import cellcrush.aio
+import numpy as np
+from support import PRESET, SLOW, SMALL, WithServer
+
+
+class Jobs(WithServer):
+    def test_results_come_as_arrays_with_units(self):
+        job = self.crush()
+        samples, frames, mesh = job.samples(), job.frames, job.mesh
+        self.assertEqual(job.state, "SUCCEEDED")
+        self.assertAlmostEqual(samples["strain"][-1], 0.5, places=2)
+        self.assertEqual(frames.position_mm.shape, (len(frames), *mesh.position_mm.shape))
+        self.assertEqual(frames.plastic_fraction.shape, (len(frames), len(mesh.element_nodes)))
+        np.testing.assert_array_equal(frames.position_mm[0], mesh.position_mm)
+        window = (samples["strain"] > 0.2) & (samples["strain"] <= 0.4)
+        self.assertAlmostEqual(samples["stress_impact_mpa"][window].mean(), job.summary.plateau_stress_impact_mpa,
+                               delta=0.05 * job.summary.plateau_stress_impact_mpa)
+        self.assertIsNone(job.summary.densification_strain)
+        history = job.history()
+        self.assertEqual((len(history), history.attrs["units"]["stress_impact_mpa"]), (len(samples), "MPa"))
+        dataset = job.xarray()
+        self.assertEqual(dataset.position_mm.attrs["units"], "mm")
+        self.assertEqual(dataset.position_mm.dims, ("frame", "particle", "axis"))
+        self.assertIn("MPa", job._repr_html_())
+        self.assertEqual([s.strain for s in job.watch()], list(samples["strain"]))
+
+    def test_a_watched_node_has_columns(self):
+        frame = {"lattice.frame": {
+            "nodes": [{"id": "a", "x_mm": 0, "y_mm": 0}, {"id": "b", "x_mm": 10, "y_mm": 0}],
+            "beams": [{"start": "a", "end": "b", "thickness_mm": 1}], "watched_nodes": ["b"], "end_time_s": 1e-4,
+            "supports": [{"node": "a", "fix_x": True, "fix_y": True, "fix_rotation": True}],
+            "loads": [{"node": "b", "component": "COMPONENT_Y",
+                       "force_n_or_n_mm": {"points": [{"time_s": 0, "value": 1}]}}]},
+            "depth_mm": 1, "youngs_modulus_mpa": 70000, "yield_stress_mpa": 100, "density_kg_per_m3": 2700}
+        job = self.server.submit(frame, sample_count=20).wait()
+        self.assertGreater(job.samples()["nodes.b.uy_mm"][-1], 0.0)
+
+    def test_commands_change_the_state(self):
+        job = self.server.submit(PRESET, SLOW, labels={"study": "walls"})
+        self.assertEqual(job.suspend().state, "SUSPENDED")
+        self.assertIn(job.resume().state, ("PENDING", "RUNNING"))
+        job.cancel()
+        with self.assertRaisesRegex(cc.JobFailed, "CANCELLED"):
+            job.wait()
+        self.assertEqual([j.name for j in self.server.jobs('label.study = "walls"')], [job.name])
+        self.assertEqual(self.server.get(job.name).case.loading.speed_m_per_s, 0.5)
+        job.delete()
+        with self.assertRaises(cc.NotFound):
+            self.server.get(job.name)
+
+    def test_a_request_id_names_one_job(self):
+        jobs = [self.server.submit(PRESET, SMALL, request_id="once") for _ in range(2)]
+        self.assertEqual(jobs[0].name, jobs[1].name)
+
+    def test_asyncio_waits_for_many_jobs(self):
+        async def crush():
+            server = await cellcrush.aio.connect(self.server.address)
+            jobs = [await server.submit(PRESET, SMALL, speed_m_per_s=speed) for speed in (100, 200)]
+            await asyncio.gather(*(job.wait() for job in jobs))
+            return [(job.state, len(await job.samples())) for job in jobs]
+
+        for state, count in asyncio.run(crush()):
+            self.assertEqual(state, "SUCCEEDED")
+            self.assertGreater(count, 100)
+
+    def test_asyncio_has_sweeps_and_watches(self):
+        async def crush():
+            server = await cellcrush.aio.connect(self.server.address)
+            self.assertEqual((await server.check(PRESET, SMALL)).problems, [])
+            sweep = await (await server.sweep(PRESET, SMALL, speed_m_per_s=[100, 200])).wait()
+            job = (await sweep.jobs())[0]
+            self.assertIn(job.name, [other.name for other in await server.jobs("state = SUCCEEDED")])
+            strains = [sample.strain async for sample in job.watch()]
+            self.assertEqual(strains, list((await job.history())["strain"]))
+            self.assertGreater(len(await job.frames()), 5)
+            states = list((await sweep.table())["state"])
+            await sweep.delete()
+            slow = await server.submit(PRESET, SLOW)
+            with self.assertRaises(cc.JobFailed):
+                await (await slow.cancel()).wait()
+            await slow.delete()
+            return states
+
+        self.assertEqual(asyncio.run(crush()), ["SUCCEEDED"] * 2)
+
+    def test_a_bar_shows_progress(self):
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            self.server.submit(PRESET, SMALL).wait(progress=True)
+        self.assertRegex(shown.getvalue(), "100%  SUCCEEDED")
+
+    def test_ctrl_c_leaves_the_job_running(self):
+        job = self.server.submit(PRESET, SLOW)
+        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt):
+            job.wait()
+        self.assertIn(f"{job.name} keeps running", said.getvalue())
+        self.assertIn(job.refresh().state, ("PENDING", "RUNNING"))
+        job.cancel()
+
+
+class Interruptions(unittest.TestCase):
+    def start(self, folder):
+        daemon = subprocess.Popen([os.environ["CELLCRUSHD"], "--data", f"{folder}/data", "--listen",
+                                   f"unix:{folder}/s", "--http", "none"], stdout=subprocess.PIPE, text=True)
+        daemon.stdout.readline()
+        daemon.stdout.close()
+        return daemon
+
+    def test_waits_go_on_when_the_daemon_is_killed_and_started_again(self):
+        import tempfile
+
+        with tempfile.TemporaryDirectory(dir="/tmp") as folder:
+            daemon = self.start(folder)
+            server = cc.connect(f"unix:{folder}/s")
+            case = server.case(PRESET, SMALL, speed_m_per_s=2)
+            job, sweep = server.submit(case), server.sweep(case, speed_m_per_s=[3, 4])
+            watched = []
+            threads = [threading.Thread(target=lambda: watched.extend(s.step for s in job.watch())),
+                       threading.Thread(target=sweep.wait)]
+            for thread in threads:
+                thread.start()
+            while server.get(job.name).state == "PENDING":
+                time.sleep(0.05)
+            daemon.kill()
+            daemon.wait()
+            time.sleep(0.5)
+            daemon = self.start(folder)
+            for thread in threads:
+                thread.join(200)
+            steps = list(server.get(job.name).samples()["step"])
+            self.assertEqual(watched, steps)
+            self.assertEqual(sweep.states, {"SUCCEEDED": 2})
+            server.close()
+            daemon.terminate()
+            daemon.wait()
+
+    def test_without_a_daemon_the_error_says_what_to_do(self):
+        with self.assertRaisesRegex(cc.NotConnected, "unix:/nowhere/s. Start cellcrushd"):
+            cc.connect("unix:/nowhere/s")
+        with self.assertRaisesRegex(ValueError, "HOST:PORT"):
+            cc.connect("nowhere")
+        token = pathlib.Path(__file__)
+        with self.assertRaisesRegex(ValueError, "plain text"):
+            cc.connect("crusher.example.org:50551", token_file=str(token))
+
+    def test_run_needs_no_daemon(self):
+        with contextlib.ExitStack() as stack:
+            import tempfile
+
+            folder = stack.enter_context(tempfile.TemporaryDirectory())
+            job = cc.run(PRESET, SMALL, output=f"{folder}/result.h5")
+            self.assertEqual(cc.open(f"{folder}/result.h5").summary.plateau_stress_impact_mpa,
+                             job.summary.plateau_stress_impact_mpa)
+        self.assertEqual(len(job.samples()), len(job.history()))
+        self.assertGreater(len(job.frames), 5)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
