@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "case_file/case_source.h"
+#include "columns/sweep_csv.h"
 #include "commands/commands.h"
 #include "connection/connection.h"
 #include "terminal/case_text.h"
@@ -76,18 +77,20 @@ void list_sweeps(Session& session, const ListOptions& options) {
 struct TableOptions {
   std::string name;
   bool csv = false;
+  bool decimal_comma = false;
   int digits = kTableDigits;
 };
 
 ExitCode run_table(Session& session, const TableOptions& options) {
   if (options.csv && session.json) refuse("table: give either --csv or --json");
+  if (options.decimal_comma && !options.csv) refuse("table: --decimal-comma applies to CSV only; add --csv");
   Connection& connection = session.connection();
   const std::string name = sweep_name(options.name);
   const auto table = fetch_table(connection, name);
   if (session.json) {
     print_json(table);
   } else if (options.csv) {
-    fmt::print("{}", sweep_table_csv(table));
+    fmt::print("{}", sweep_table_csv(table, decimal_of(options.decimal_comma)));
   } else {
     const auto sweep = fetch_sweep(connection, name);
     fmt::print("{}", sweep_table_text(table, sweep.words().theory_note(), options.digits));
@@ -134,6 +137,7 @@ void add_show_commands(CLI::App& app, Session& session) {
              "Significant digits of the results; varied values are printed in full (default: 3)")
       ->check(CLI::Range(1, 17));
   add_option(*table, kOutputOptions, "--csv", table_options->csv, "Print CSV with all digits");
+  add_option(*table, kOutputOptions, "--decimal-comma", table_options->decimal_comma, kDecimalCommaHelp);
   add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv"});
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "case_file/field_names.h"
-#include "help/field_rules.h"
+#include "columns/field_text.h"
 
 namespace cellcrush::client {
 

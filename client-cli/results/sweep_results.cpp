@@ -11,24 +11,6 @@ namespace cellcrush::client {
 
 namespace {
 
-std::optional<double> known(bool has, double value) { return has ? std::optional(value) : std::nullopt; }
-
-using Value = std::optional<double>;
-using Of = const v1::Summary&;
-
-Value plateau_stress_impact(Of s) { return known(s.has_plateau_stress_impact_mpa(), s.plateau_stress_impact_mpa()); }
-Value plateau_stress_support(Of s) { return known(s.has_plateau_stress_support_mpa(), s.plateau_stress_support_mpa()); }
-Value plateau_to_densification(Of s) {
-  return known(s.has_plateau_stress_to_densification_mpa(), s.plateau_stress_to_densification_mpa());
-}
-Value densification_strain(Of s) { return known(s.has_densification_strain(), s.densification_strain()); }
-Value absorbed_energy(Of s) { return known(s.step_count() > 0, s.absorbed_energy_mj()); }
-Value gibson_ashby(Of s) { return known(s.theory().shock_mpa() > 0.0, s.theory().gibson_ashby_mpa()); }
-Value shock_stress(Of s) { return known(s.theory().shock_mpa() > 0.0, s.theory().shock_mpa()); }
-Value front_shock(Of s) { return known(s.has_front(), s.front().shock_mpa()); }
-Value front_strain(Of s) { return known(s.has_front(), s.front().strain_behind()); }
-Value energy_error(Of s) { return known(s.step_count() > 0, s.energy_error_relative()); }
-
 std::string other_values_text(const v1::SweepTable& table, const v1::SweepTable::Row& row) {
   std::string text;
   for (int i = 1; i < table.fields_size(); ++i) {
@@ -39,24 +21,6 @@ std::string other_values_text(const v1::SweepTable& table, const v1::SweepTable:
 }
 
 }  // namespace
-
-const std::vector<ResultColumn>& result_columns() {
-  static const std::vector<ResultColumn> kColumns = {
-      {{"plateau", "impact", "plate"}, "MPa", "plateau_stress_impact_mpa", 1.0, plateau_stress_impact},
-      {{"plateau", "support", "plate"}, "MPa", "plateau_stress_support_mpa", 1.0, plateau_stress_support},
-      {{"plateau", "up to", "densif."}, "MPa", "plateau_stress_to_densification_mpa", 1.0, plateau_to_densification},
-      {{"densif.", "strain", ""}, "", "densification_strain", 1.0, densification_strain},
-      {{"absorbed", "energy", ""}, "J", "absorbed_energy_mj", 1e-3, absorbed_energy},
-      {{"quasi-", "static", "theory"}, "MPa", "gibson_ashby_mpa", 1.0, gibson_ashby},
-      {{"shock", "theory", "Eq. 51"}, "MPa", "shock_mpa", 1.0, shock_stress},
-      {{"shock", "theory", "Eq. 52"}, "MPa", "front_shock_mpa", 1.0, front_shock},
-      {{"strain", "behind", "front"}, "", "front_strain_behind", 1.0, front_strain},
-      {{"energy", "ledger", "error"}, "%", "energy_error_relative", 100.0, energy_error},
-  };
-  return kColumns;
-}
-
-std::string value_text(double value) { return fmt::format("{}", value); }
 
 std::vector<ResultSeries> split_series(const v1::SweepTable& table) {
   struct Point {

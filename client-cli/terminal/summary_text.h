@@ -12,9 +12,6 @@ namespace cellcrush::client {
 /// "3.41 MPa".
 std::string stress_text(double stress);
 
-/// "V" of CRUSH_MODE_V; empty if unknown.
-std::string crush_mode_code(v1::Summary::CrushMode mode);
-
 /// Summary of a job's run. For a crush: plateau stresses with theory, front, crush mode and, for a slow one, how
 /// quasi-static it was. For any run: energy ledger, contact and warnings.
 std::string summary_text(const v1::Job& job, int width = terminal_width());

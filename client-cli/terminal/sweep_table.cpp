@@ -138,24 +138,4 @@ std::string sweep_table_text(const v1::SweepTable& results, const std::string& t
   return text + fit_text(results, width) + failures_text(results, width);
 }
 
-std::string sweep_table_csv(const v1::SweepTable& results) {
-  std::string text;
-  for (const std::string& field : results.fields()) text += csv_cell(field) + ',';
-  text += "job,state";
-  for (const ResultColumn& column : result_columns()) text += fmt::format(",{}", column.field);
-  text += ",crush_mode\n";
-  for (const Row& row : results.rows()) {
-    for (int i = 0; i < results.fields_size(); ++i) {
-      text += (i < row.values_size() ? value_text(row.values(i)) : std::string()) + ',';
-    }
-    text += csv_cell(row.job()) + ',' + v1::Job::State_Name(row.result().state());
-    for (const ResultColumn& column : result_columns()) {
-      const auto value = column.value(row.result().summary());
-      text += ',' + (value ? fmt::format("{}", *value) : std::string());
-    }
-    text += ',' + crush_mode_code(row.result().summary().crush_mode()) + '\n';
-  }
-  return text;
-}
-
 }  // namespace cellcrush::client

@@ -14,7 +14,4 @@ inline constexpr int kTableDigits = 3;
 std::string sweep_table_text(const v1::SweepTable& table, const std::string& theory_note, int digits = kTableDigits,
                              int width = terminal_width());
 
-/// The same table as CSV with all digits; a missing result is an empty cell.
-std::string sweep_table_csv(const v1::SweepTable& table);
-
 }  // namespace cellcrush::client

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "columns/sweep_csv.h"
 #include "command_error.h"
 #include "expect_text.h"
 #include "plots/sweep_curves.h"
