@@ -36,7 +36,7 @@ std::vector<double> ResultReader::column(const std::string& path, hid_t type, hs
   return out;
 }
 
-bool ResultReader::has(const std::string& path) const { return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0; }
+bool ResultReader::has(const std::string& path) const { return has_link(file_.id(), path); }
 
 std::string ResultReader::text_attribute(const char* name) const { return read_text_attribute(file_.id(), name); }
 
