@@ -2,6 +2,7 @@
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sweep, SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { api, errorText, ifAny, isNotFound } from "../api/clients";
+import { get } from "../api/token";
 import { watch } from "../api/watch";
 import { Chart } from "../charts/chart";
 import { Later } from "../dom/calls";
@@ -55,7 +56,7 @@ export class SweepPage implements View {
       this.problem, h("section", { class: "card" }, this.chart.element, this.overlay.element), this.crushes.element,
       h("div", { class: "toolbar table-head" }, h("h2", {}, "Jobs"), h("span", { class: "spacer" }),
         h("span", { class: "take-away" }, saveButton("CSV", "Save the table as a CSV file", async () =>
-          download(this.table.csv(), `sweep-${idOf(name)}.csv`)))),
+          download(await (await get(`/sweeps/${idOf(name)}.csv`)).blob(), `sweep-${idOf(name)}.csv`)))),
       this.table.element);
     this.stops = [
       this.overlay.changes.add(() => {

@@ -1,12 +1,10 @@
-// The table of a sweep: one row per job, with links, and the same as CSV.
+// The table of a sweep: one row per job, with links.
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
-import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { idOf, pathOf } from "../dom/format";
 import { button, h, replaceChildren } from "../dom/element";
 import { kSummaryNumbers, summaryText } from "../job/results";
 import { setChip, stateChip } from "../jobs/states";
-import { csvBlob } from "../take_away/menus";
 import { axisName } from "./points";
 
 const kRowsAtFirst = 300;
@@ -43,13 +41,5 @@ export class SweepTableView {
     return h("tr", {}, ...row.values.map((value) => h("td", { class: "figure" }, Number(value.toPrecision(6)))),
       h("td", {}, h("a", { href: pathOf(row.job) }, `job ${idOf(row.job)}`)), h("td", {}, chip),
       ...kSummaryNumbers.map((column) => h("td", { class: "figure" }, summary && summaryText(column, summary))));
-  }
-
-  csv(): Blob {
-    const numbers = (summary: Summary | undefined): (number | undefined)[] =>
-      kSummaryNumbers.map(({ value }) => summary && value(summary));
-    return csvBlob([...this.fields, "job", "state", ...kSummaryNumbers.map(({ field }) => field)],
-      this.rows.map(({ values, job, result }) =>
-        [...values, job, result ? Job_State[result.state] : "", ...numbers(result?.summary)]));
   }
 }
