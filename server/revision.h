@@ -12,5 +12,7 @@ extern const char* const kSolverRevision;
 /// Everything besides case and processor that determines the bits of a run: version, and a hash of the solver's
 /// sources, the compiler and its flags. A run never continues a checkpoint of a different revision.
 extern const char* const kSolverIdentity;
+/// What to cite for a result: the message of CITATION.cff.
+extern const char* const kCitation;
 
 }  // namespace cellcrush

@@ -34,4 +34,9 @@ endforeach()
 string(SHA256 CORE_HASH "${hashes}")
 string(SUBSTRING ${CORE_HASH} 0 12 CORE_HASH)
 
+if(EXISTS ${SOURCE}/CITATION.cff)
+  file(STRINGS ${SOURCE}/CITATION.cff CITATION REGEX "^message:")
+  string(REGEX REPLACE "^message: \"(.*)\"$" "\\1" CITATION "${CITATION}")
+endif()
+
 configure_file(${CMAKE_CURRENT_LIST_DIR}/revision.cpp.in ${OUTPUT} @ONLY)

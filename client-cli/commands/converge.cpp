@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "case_file/case_source.h"
+#include "columns/result_columns.h"
 #include "commands/commands.h"
 #include "commands/sweep_axis.h"
 #include "commands/watch.h"
@@ -43,7 +44,7 @@ v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection&
   for (const int elements : options.meshes) meshes.mutable_list()->add_values(elements);
   if (options.seeds > 1) {
     v1::SweepAxis& seeds = *sweep.add_axes();
-    seeds.set_field("lattice.imperfection.seed");
+    seeds.set_field(std::string(kSeedField));
     seeds.set_seed_count(options.seeds);
   }
   return request;

@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <thread>
 
+#include "columns/history_csv.h"
 #include "commands/commands.h"
-#include "commands/history_csv.h"
 #include "connection/connection.h"
+#include "connection/frames.h"
 #include "terminal/case_text.h"
 #include "terminal/number_text.h"
 #include "terminal/output_file.h"
@@ -24,14 +25,22 @@ namespace fs = std::filesystem;
 // begin as HDF5 files.
 constexpr std::string_view kResultSeal = "CELLCRUSH RESULT ";
 constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
-constexpr std::initializer_list<std::string_view> kResultStarts = {kResultSeal, kHdf5Signature};
+
 constexpr std::string_view kCaseSignature = "# Case of jobs/";
-constexpr std::string_view kHistorySignature = "time_s,travel_mm,strain,";
+using Starts = std::initializer_list<std::string_view>;
+constexpr Starts kResultStarts = {kResultSeal, kHdf5Signature};
+const Starts kHistoryStarts = {"time_s,travel_mm,strain,", "time_s;travel_mm;strain;"};
+const Starts kNodesStarts = {"time_s,node,ux_mm,", "time_s;node;ux_mm;"};
+const Starts kRigidWallsStarts = {"time_s,wall,displacement_mm,", "time_s;wall;displacement_mm;"};
+const Starts kFrameStarts = {"element,x0_mm,y0_mm,", "element;x0_mm;y0_mm;"};
 
 struct FetchOptions {
   std::string name;
   std::string folder;
   std::vector<double> frame_times;
+  bool decimal_comma = false;
+  bool vtp = false;
+  bool vtu = false;
 };
 
 // Files that appear under their names once all are complete; until then the folder is unchanged.
@@ -112,10 +121,11 @@ std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string
   std::vector<fs::path> stale;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), {nodes_signature()});
-    const bool is_walls = name == "rigid_walls.csv" && begins_with_one_of(entry->path(), {rigid_walls_header()});
-    const bool is_frame = is_other_job && name.starts_with("frame_") && name.ends_with(".csv") &&
-                          begins_with_one_of(entry->path(), {frame_header()});
+    const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), kNodesStarts);
+    const bool is_walls = name == "rigid_walls.csv" && begins_with_one_of(entry->path(), kRigidWallsStarts);
+    const bool is_frame =
+        is_other_job && name.starts_with("frame_") &&
+        (begins_with_one_of(entry->path(), kFrameStarts) || begins_with_one_of(entry->path(), {kVtkStart}));
     const bool is_kept = std::ranges::find(written, entry->path()) != written.end();
     if ((is_nodes || is_walls || is_frame) && !is_kept) stale.push_back(entry->path());
   }
@@ -123,15 +133,33 @@ std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string
   return stale;
 }
 
-fs::path frame_path(const fs::path& folder, const MeshFrame& frame) {
-  return folder / fmt::format("frame_{:04}.csv", frame.frame.index());
+std::string frame_name(const MeshFrame& frame, const char* extension) {
+  return fmt::format("frame_{:04}.{}", frame.frame.index(), extension);
+}
+
+void add_vtk(Connection& connection, const std::string& job, const fs::path& folder, VtkKind kind,
+             FetchedFiles& files) {
+  const int last = fetch_frame(connection, job, -1).frame.index();
+  v1::FieldFrame undeformed;
+  std::vector<std::pair<double, std::string>> written;
+  for (int i = 0; i <= last; ++i) {
+    const MeshFrame frame = fetch_frame(connection, job, i);
+    if (i == 0) undeformed = frame.frame;
+    written.emplace_back(frame.frame.time_s(), frame_name(frame, extension_of(kind)));
+    OutputFile& file = files.add(folder / written.back().second, {kVtkStart});
+    file.write(vtk_frame(frame, undeformed, kind));
+    file.finish();  // lest all are open at once
+  }
+  files.add(folder / "crush.pvd", {kVtkStart}).write(vtk_collection(written));
 }
 
 ExitCode run_fetch(Session& session, const FetchOptions& options) {
   const std::string name = session.find_job(options.name);
   Connection& connection = session.connection();
   const auto job = fetch_job(connection, name);
-  const auto files = write_results(connection, job, options.folder, options.frame_times);
+  ResultForm form{options.frame_times, decimal_of(options.decimal_comma), {}};
+  if (options.vtp || options.vtu) form.vtk = options.vtu ? VtkKind::grid : VtkKind::lines;
+  const auto files = write_results(connection, job, options.folder, form);
   if (session.json) {
     print_json(job);
     return ExitCode::done;
@@ -147,32 +175,32 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
 
 void check_may_write_results(const fs::path& folder) {
   check_may_overwrite(folder / "result.h5", kResultStarts);
-  check_may_overwrite(folder / "history.csv", {kHistorySignature});
-  check_may_overwrite(folder / "nodes.csv", {nodes_signature()});
-  check_may_overwrite(folder / "rigid_walls.csv", {rigid_walls_header()});
+  check_may_overwrite(folder / "history.csv", kHistoryStarts);
+  check_may_overwrite(folder / "nodes.csv", kNodesStarts);
+  check_may_overwrite(folder / "rigid_walls.csv", kRigidWallsStarts);
   check_may_overwrite(folder / "case.txtpb", {kCaseSignature});
 }
 
-ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::path& folder,
-                          const std::vector<double>& frame_times) {
+ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::path& folder, const ResultForm& form) {
   make_folder(folder);
   FetchedFiles files;
   OutputFile& result = files.add(folder / "result.h5", kResultStarts);
   const std::string case_text = case_file_text(job.case_(), "Case of " + job.name());
   files.add(folder / "case.txtpb", {kCaseSignature}).write(case_text);
   const auto history = fetch_history(connection, job.name());
-  files.add(folder / "history.csv", {kHistorySignature}).write(history_csv(history.samples()));
-  if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) {
-    files.add(folder / "nodes.csv", {nodes_signature()}).write(nodes);
+  files.add(folder / "history.csv", kHistoryStarts).write(history_csv(history.samples(), form.decimal));
+  if (const std::string nodes = nodes_csv(history.samples(), form.decimal); !nodes.empty()) {
+    files.add(folder / "nodes.csv", kNodesStarts).write(nodes);
   }
-  if (const std::string walls = rigid_walls_csv(history.samples()); !walls.empty()) {
-    files.add(folder / "rigid_walls.csv", {rigid_walls_header()}).write(walls);
+  if (const std::string walls = rigid_walls_csv(history.samples(), form.decimal); !walls.empty()) {
+    files.add(folder / "rigid_walls.csv", kRigidWallsStarts).write(walls);
   }
-  for (const double time : frame_times) {
+  for (const double time : form.frame_times) {
     const MeshFrame frame =
         fetch_frame(connection, job.name(), [time](v1::GetFrameRequest& request) { request.set_time_s(time); });
-    files.add(frame_path(folder, frame), {frame_header()}).write(frame_csv(frame));
+    files.add(folder / frame_name(frame, "csv"), kFrameStarts).write(frame_csv(frame.mesh, frame.frame, form.decimal));
   }
+  if (form.vtk) add_vtk(connection, job.name(), folder, *form.vtk, files);
   download_result(connection, job.name(), result);
   files.finish();
   // Deleted while the old case still identifies them: if interrupted in between, fetch finds them again.
@@ -195,7 +223,13 @@ void add_fetch_command(CLI::App& app, Session& session) {
   add_option(*command, kOutputOptions, "--frame", options->frame_times,
              "Also write the frame nearest to this time, in s, as CSV (may be repeated; default: none)")
       ->allow_extra_args(false);
-  add_examples(*command, {"cellcrush fetch jobs/12 -o results", "cellcrush fetch jobs/12 -o results --frame 0.0005"});
+  add_option(*command, kOutputOptions, "--decimal-comma", options->decimal_comma, kDecimalCommaHelp);
+  auto* vtp = add_option(*command, kOutputOptions, "--vtk", options->vtp,
+                         "Also write all frames for ParaView, as crush.pvd and .vtp files");
+  add_option(*command, kOutputOptions, "--vtu", options->vtu, "The same as .vtu files, which meshio reads too")
+      ->excludes(vtp);
+  add_examples(*command, {"cellcrush fetch jobs/12 -o results", "cellcrush fetch jobs/12 -o results --frame 0.0005",
+                          "cellcrush fetch jobs/12 -o results --vtk"});
 }
 
 }  // namespace cellcrush::client

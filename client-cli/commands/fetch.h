@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "cellcrush/v1/job.pb.h"
+#include "columns/csv_text.h"
+#include "commands/vtk_files.h"
 #include "connection/connection.h"
 
 namespace cellcrush::client {
@@ -17,11 +20,18 @@ struct ResultFiles {
   std::vector<std::filesystem::path> removed;
 };
 
+/// What write_results writes beside its usual files, and how.
+struct ResultForm {
+  std::vector<double> frame_times;  ///< in s, of frames as CSV
+  Decimal decimal = Decimal::point;
+  std::optional<VtkKind> vtk;  ///< all frames
+};
+
 /// Writes into a folder, which it creates: case.txtpb, history.csv, nodes.csv if nodes are watched,
-/// rigid_walls.csv if there are any, the frames nearest to the times in s, and result.h5. No file appears before all of
+/// rigid_walls.csv if there are any, the frames that `form` asks for, and result.h5. No file appears before all of
 /// them are on the disk; result.h5 appears last. Deletes the nodes.csv, rigid_walls.csv and frames that it wrote for
 /// another job.
 ResultFiles write_results(Connection& connection, const v1::Job& job, const std::filesystem::path& folder,
-                          const std::vector<double>& frame_times = {});
+                          const ResultForm& form = {});
 
 }  // namespace cellcrush::client

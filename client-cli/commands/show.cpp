@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "case_file/case_source.h"
+#include "columns/sweep_csv.h"
 #include "commands/commands.h"
 #include "connection/connection.h"
 #include "results/sweep_results.h"
@@ -80,11 +81,13 @@ struct TableOptions {
   std::vector<std::string> names;
   bool csv = false;
   bool each = false;
+  bool decimal_comma = false;
   int digits = kTableDigits;
 };
 
 ExitCode run_table(Session& session, const TableOptions& options) {
   if (options.csv && session.json) refuse("table: give either --csv or --json");
+  if (options.decimal_comma && !options.csv) refuse("table: --decimal-comma applies to CSV only; add --csv");
   const bool of_files = std::ranges::any_of(options.names, names_file);
   if (!of_files && options.names.size() > 1) refuse("table: name one sweep, or any number of results");
   const std::string name = of_files ? "" : sweep_name(options.names.front());
@@ -92,7 +95,7 @@ ExitCode run_table(Session& session, const TableOptions& options) {
   if (session.json) {
     print_json(table);
   } else if (options.csv) {
-    fmt::print("{}", sweep_table_csv(shown_table(table, options.each)));
+    fmt::print("{}", sweep_table_csv(shown_table(table, options.each), decimal_of(options.decimal_comma)));
   } else {
     const std::string note = of_files ? "" : fetch_sweep(session.connection(), name).words().theory_note();
     fmt::print("{}", sweep_table_text(shown_table(table, options.each), note, options.digits));
@@ -147,6 +150,7 @@ void add_show_commands(CLI::App& app, Session& session) {
   add_option(*table, kOutputOptions, "--each", table_options->each, "One row per job instead of means over the seeds");
   add_option(*table, kOutputOptions, "--csv", table_options->csv,
              "Print CSV with all digits; means with columns of their 95 % intervals and numbers of jobs");
+  add_option(*table, kOutputOptions, "--decimal-comma", table_options->decimal_comma, kDecimalCommaHelp);
   add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --each --csv > table.csv",
                         "cellcrush table thin/result.h5 thick/result.h5"});
 }

@@ -12,6 +12,7 @@
 #include "cellcrush/v1/cases_service.grpc.pb.h"
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
+#include "columns/result_columns.h"
 #include "connection/credentials.h"
 #include "usage/suggestion.h"
 
@@ -200,7 +201,7 @@ v1::SweepTable fetch_table(Connection& connection, const std::string& sweep) {
   v1::GetSweepTableRequest request;
   request.set_name(sweep);
   auto table = call_for_pages(connection, connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
-  if (std::ranges::find(table.fields(), "lattice.imperfection.seed") == table.fields().end()) return table;
+  if (std::ranges::find(table.fields(), kSeedField) == table.fields().end()) return table;
   request.set_mean_over_seeds(true);
   auto means = call_for_pages(connection, connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
   table.mutable_means()->Swap(means.mutable_means());

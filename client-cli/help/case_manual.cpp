@@ -1,12 +1,12 @@
 #include "help/case_manual.h"
 
 #include <google/protobuf/descriptor.h>
-#include <google/protobuf/descriptor.pb.h>
 
 #include <sstream>
 #include <stdexcept>
 
 #include "case_file/field_names.h"
+#include "columns/field_text.h"
 #include "command_error.h"
 #include "help/field_rules.h"
 #include "usage/suggestion.h"
@@ -18,28 +18,7 @@ namespace {
 using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 
-// Generated descriptors lack comments; these are built from the embedded file and live as long as the program.
-const Descriptor& case_type() {
-  static const google::protobuf::DescriptorPool* const pool = [] {
-    google::protobuf::FileDescriptorSet files;
-    const std::string_view bytes = case_descriptor();
-    if (!files.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
-      throw std::runtime_error("the embedded manual of the case cannot be read");
-    }
-    auto* built = new google::protobuf::DescriptorPool();
-    for (const auto& file : files.file()) built->BuildFile(file);
-    return built;
-  }();
-  return *pool->FindMessageTypeByName("cellcrush.v1.Case");
-}
-
-// The comment above a declaration; an empty line ends a paragraph.
-template <typename Declaration>
-std::string comment_above(const Declaration& declaration) {
-  google::protobuf::SourceLocation location;
-  if (!declaration.GetSourceLocation(&location)) return {};
-  return join_comment(location.leading_comments);
-}
+const Descriptor& case_type() { return *commented_protos().FindMessageTypeByName("cellcrush.v1.Case"); }
 
 // The comment on a field, then that on its type, if any.
 std::string comment_of(const FieldDescriptor& field) {

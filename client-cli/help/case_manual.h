@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,8 +24,5 @@ FieldManual find_field_manual(const std::string& path);
 
 /// Paths of all fields, including messages, each before its own fields.
 std::vector<std::string> case_paths();
-
-/// case.proto with its comments, compiled by protoc at build time: a serialized google.protobuf.FileDescriptorSet.
-std::string_view case_descriptor();
 
 }  // namespace cellcrush::client

@@ -2,35 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cctype>
-#include <sstream>
-#include <utility>
 
 #include "cellcrush/v1/field.pb.h"
 
 namespace cellcrush::client {
 
 namespace {
-
-// Longer suffixes first.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {{
-    {"_mm_or_rad", "mm or rad"},
-    {"_kg_per_m3", "kg/m3"},
-    {"_n_or_n_mm", "N or N mm"},
-    {"_rad_per_s", "rad/s"},
-    {"_n_per_mm", "N/mm"},
-    {"_m_per_s2", "m/s2"},
-    {"_m_per_s", "m/s"},
-    {"_per_s", "1/s"},
-    {"_g_mm2", "g mm2"},
-    {"_n_mm", "N mm"},
-    {"_mpa", "MPa"},
-    {"_mm", "mm"},
-    {"_s", "s"},
-    {"_g", "g"},
-    {"_n", "N"},
-}};
 
 // "1e-6", not "1e-06".
 std::string number(double value) {
@@ -78,29 +56,5 @@ std::string first_sentence(const std::string& text) {
   }
   return text;
 }
-
-std::string join_comment(const std::string& lines) {
-  std::istringstream stream(lines);
-  std::string text;
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t begin = line.find_first_not_of(' ');
-    if (begin == std::string::npos) {
-      text += "\n\n";
-      continue;
-    }
-    if (!text.empty() && text.back() != '\n') text += ' ';
-    text += line.substr(begin);
-  }
-  return text;
-}
-
-FieldUnit find_unit(std::string_view field_name) {
-  for (const auto& [suffix, unit] : kUnits) {
-    if (field_name.ends_with(suffix) || field_name == suffix.substr(1)) return {suffix, unit};
-  }
-  return {};
-}
-
-std::string unit_of(std::string_view field_name) { return std::string(find_unit(field_name).unit); }
 
 }  // namespace cellcrush::client

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "case_file/field_names.h"
-#include "help/field_rules.h"
+#include "columns/field_text.h"
 #include "terminal/number_text.h"
 
 namespace cellcrush::client {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,32 +7,9 @@
 
 #include "cellcrush/v1/sweep.pb.h"
 #include "chart/smoothing.h"
+#include "columns/result_columns.h"
 
 namespace cellcrush::client {
-
-/// A result of a job, as a column of a sweep's table.
-struct ResultColumn {
-  std::array<const char*, 3> heading;                          ///< its lines, such as "plateau", "impact", "plate"
-  const char* unit;                                            ///< of the summary, as in unit_by_size()
-  const char* field;                                           ///< name with its unit, for CSV
-  const char* path;                                            ///< in Summary
-  const char* absent;                                          ///< instead of a value, beside a plateau
-  std::optional<double> (*value)(const v1::Summary& summary);  ///< in the summary's unit
-};
-
-/// The columns of a sweep's table, in their order.
-const std::vector<ResultColumn>& result_columns();
-
-/// The table with one row per job; or, unless `each`, with one row for each of its means, if it has any: without the
-/// seed among its fields, and with a job that has succeeded if any has, whose summary holds the means. Row and mean
-/// have the same index; a table with rows per job has no means.
-v1::SweepTable shown_table(const v1::SweepTable& table, bool each);
-
-/// The same for a chart: with one row per job also if it would else vary no field.
-v1::SweepTable charted_table(const v1::SweepTable& table, bool each);
-
-/// A mean by the path of its result; null if there is none.
-const v1::SweepTable::Mean* find_mean(const v1::SweepTable::SeedMeans& means, std::string_view path);
 
 /// Half of the 95 % confidence interval of a mean; nothing if it is unknown or within round-off.
 std::optional<double> find_interval(const v1::SweepTable::SeedMeans& means, std::string_view path);

@@ -135,12 +135,6 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
 
 }  // namespace
 
-std::string crush_mode_code(v1::Summary::CrushMode mode) {
-  constexpr std::string_view kPrefix = "CRUSH_MODE_";
-  const std::string& name = v1::Summary::CrushMode_Name(mode);
-  if (mode == v1::Summary::CRUSH_MODE_UNSPECIFIED || name.size() < kPrefix.size()) return {};
-  return name.substr(kPrefix.size());
-}
 
 std::string summary_text(const v1::Job& job, int width) {
   const v1::Summary& summary = job.summary();

@@ -9,8 +9,6 @@
 
 namespace cellcrush::client {
 
-/// "V" of CRUSH_MODE_V; empty if unknown.
-std::string crush_mode_code(v1::Summary::CrushMode mode);
 
 /// Summary of a job's run. For a crush: plateau stresses with theory, front, crush mode and, for a slow one, how
 /// quasi-static it was. For any run: energy ledger, contact and warnings.

@@ -49,13 +49,6 @@ std::string signed_term(double value, const char* factor) {
   return fmt::format(" {} {:.4g} {}", std::signbit(value) ? '-' : '+', std::abs(value), factor);
 }
 
-// The result of a row, or its mean.
-std::optional<double> result_of(const v1::SweepTable& results, int row, const ResultColumn& column) {
-  if (results.means().empty()) return column.value(results.rows(row).result().summary());
-  const auto* mean = find_mean(results.means(row), column.path);
-  return mean == nullptr ? std::nullopt : std::optional(mean->mean());
-}
-
 // The units of the results, by those of their fields: results in the same unit share one.
 std::map<std::string_view, ShownUnit> units_of(const v1::SweepTable& results) {
   std::map<std::string_view, double> largest;
@@ -223,49 +216,6 @@ std::string sweep_table_text(const v1::SweepTable& results, const std::string& t
   std::string text = table.text(0, width) + constants + means_text(results, width) + legend_text(results, width);
   if (!theory_note.empty()) text += '\n' + wrapped("Note: " + printable(theory_note), width);
   return text + fit_text(results, width) + failures_text(results, width);
-}
-
-std::string sweep_table_csv(const v1::SweepTable& results) {
-  const bool has_means = !results.means().empty();
-  std::string text;
-  for (const std::string& field : results.fields()) text += csv_cell(field) + ',';
-  text += has_means ? "jobs,succeeded,failed" : "job,state";
-  for (const ResultColumn& column : result_columns()) {
-    text += fmt::format(",{}", column.field);
-    if (has_means) text += fmt::format(",{0}_interval,{0}_count", column.field);
-  }
-  text += has_means ? ",crush_mode,crush_mode_count\n" : ",crush_mode\n";
-  const auto cell = [](const std::optional<double>& value) {
-    return value ? fmt::format("{}", *value) : std::string();
-  };
-  for (int i = 0; i < results.rows_size(); ++i) {
-    const Row& row = results.rows(i);
-    const v1::Summary& summary = row.result().summary();
-    for (int k = 0; k < results.fields_size(); ++k) {
-      text += (k < row.values_size() ? fmt::format("{}", row.values(k)) : std::string()) + ',';
-    }
-    if (has_means) {
-      const auto& means = results.means(i);
-      text += fmt::format("{},{},{}", means.job_count(), means.succeeded_count(), means.failed_count());
-    } else {
-      text += csv_cell(row.job()) + ',' + v1::Job::State_Name(row.result().state());
-    }
-    for (const ResultColumn& column : result_columns()) {
-      text += ',' + cell(result_of(results, i, column));
-      if (!has_means) continue;
-      const auto* mean = find_mean(results.means(i), column.path);
-      const bool has_interval = mean != nullptr && mean->has_interval();
-      text += ',' + cell(has_interval ? std::optional(mean->interval()) : std::nullopt);
-      text += fmt::format(",{}", mean == nullptr ? 0 : mean->job_count());
-    }
-    text += ',' + crush_mode_code(summary.crush_mode());
-    if (has_means) {
-      const auto& modes = results.means(i).crush_modes();
-      text += fmt::format(",{}", modes.empty() ? 0 : modes[0].job_count());
-    }
-    text += '\n';
-  }
-  return text;
 }
 
 }  // namespace cellcrush::client

@@ -14,8 +14,4 @@ inline constexpr int kTableDigits = 3;
 std::string sweep_table_text(const v1::SweepTable& table, const std::string& theory_note, int digits = kTableDigits,
                              int width = terminal_width());
 
-/// The same table as CSV with all digits, in the units of the columns' names; a missing result is an empty cell. A mean
-/// is followed by half of its 95 % confidence interval and the number of its jobs.
-std::string sweep_table_csv(const v1::SweepTable& table);
-
 }  // namespace cellcrush::client

@@ -185,14 +185,4 @@ std::string constants_text(const std::vector<std::string>& constants, int width)
   return '\n' + wrapped(text, width, "", "  ");
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char byte : text) {
-    if (byte == '"') quoted += '"';
-    quoted += byte;
-  }
-  return quoted + '"';
-}
-
 }  // namespace cellcrush::client

@@ -60,7 +60,4 @@ class Table {
 /// empty if there are none.
 std::string constants_text(const std::vector<std::string>& constants, int width);
 
-/// A text as a CSV cell: quoted if it contains a comma, a quote or a line break.
-std::string csv_cell(const std::string& text);
-
 }  // namespace cellcrush::client

@@ -65,6 +65,9 @@ rpc::MessageStream::Encode encode_for(const Encoding& encoding) {
   };
 }
 
+// A path that a download may have is one, whatever its parameters.
+bool is_download(std::string_view target) { return open_download(target.substr(0, target.find('?'))) != nullptr; }
+
 bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
   const auto name = request[encoding.stream ? "Connect-Content-Encoding" : "Content-Encoding"];
   const bool flagged = encoding.stream && !request.body().empty() &&
@@ -73,40 +76,6 @@ bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, con
 }
 
 }  // namespace
-
-Call::Call(const asio::any_io_executor& executor, std::shared_ptr<rpc::MessageStream> stream,
-           std::optional<std::chrono::milliseconds> timeout)
-    : executor_(executor), news_(executor), stream_(std::move(stream)) {
-  if (timeout) deadline_ = std::chrono::steady_clock::now() + *timeout;
-}
-
-asio::awaitable<rpc::MessageStream::Batch> Call::next() {
-  if (!batch_) {
-    // The executor counts as work, so that the io_context is there until the batch has come.
-    auto executor = asio::prefer(executor_, asio::execution::outstanding_work.tracked);
-    stream_->ask([self = shared_from_this(), executor](rpc::MessageStream::Batch batch) mutable {
-      asio::post(executor, [self = std::move(self), batch = std::move(batch)]() mutable {
-        if (!self->batch_) self->batch_ = std::move(batch);
-        self->news_.cancel();
-      });
-    });
-  }
-  while (!batch_) {
-    news_.expires_at(deadline_);
-    boost::system::error_code error;
-    co_await news_.async_wait(asio::redirect_error(asio::use_awaitable, error));
-    if (!error && !batch_) end({grpc::StatusCode::DEADLINE_EXCEEDED, "Deadline Exceeded"});
-  }
-  co_return *std::exchange(batch_, std::nullopt);
-}
-
-void Call::cancel() { end({grpc::StatusCode::CANCELLED, "The client cancelled the call."}); }
-
-void Call::end(const grpc::Status& status) {
-  stream_->cancel();
-  batch_ = rpc::MessageStream::Batch{{}, status};
-  news_.cancel();
-}
 
 asio::awaitable<void> Connection::serve() {
   const auto self = shared_from_this();
@@ -160,7 +129,11 @@ asio::awaitable<void> Connection::answer(const Request& request) {
   if (const auto refusal = refusal_of(request)) {
     co_await send_error(refusal->http_status, refusal->error);
   } else if (request.method() != bhttp::verb::post) {
-    co_await answer_file(request);
+    if (is_download({request.target().data(), request.target().size()})) {
+      co_await answer_download(request);
+    } else {
+      co_await answer_file(request);
+    }
   } else {
     const auto& method = *method_of(request);
     const Encoding encoding{*parse_content_type(request[Field::content_type])};
@@ -194,7 +167,8 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
   const auto* method = method_of(request);
   if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
     if (method != nullptr) return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls."}};
-    if (web::find_page_file(request.target()) == nullptr)
+    if (!is_download({request.target().data(), request.target().size()}) &&
+        web::find_page_file(request.target()) == nullptr)
       return Refusal{404, {StatusCode::NOT_FOUND, "There is no such file."}};
     return std::nullopt;
   }
@@ -230,6 +204,27 @@ std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::
   return call_;
 }
 
+std::shared_ptr<Call> Connection::begin_call(const Request& request, const std::shared_ptr<Download>& download,
+                                             grpc::Status& status) {
+  rpc::Incoming incoming;
+  status = parts_.gate.check_http_call(download->method, values_of(request, Field::authorization),
+                                       stream_.client_certificate(), incoming.caller);
+  if (!status.ok()) return nullptr;
+  status = cellcrush::answer([&] {
+    incoming.decode = [&](google::protobuf::Message& message) {
+      download->ask(message);
+      return true;
+    };
+    incoming.encode = [download](const google::protobuf::Message& message, std::string& to) {
+      download->write(message, to);
+    };
+    call_ = std::make_shared<Call>(stream_.get_executor(), parts_.methods.find(download->method)->open(incoming),
+                                   std::nullopt);
+  });
+  if (call_) watch_client();
+  return call_;
+}
+
 void Connection::end_call() {
   call_.reset();
   stream_.plain().socket().cancel();
@@ -253,7 +248,7 @@ asio::awaitable<void> Connection::answer_unary(std::shared_ptr<Call> call, const
 
 asio::awaitable<void> Connection::answer_stream(std::shared_ptr<Call> call, const Encoding& encoding,
                                                 grpc::Status status) {
-  co_await send_stream_head(encoding);
+  co_await send_stream_head(content_type_of(encoding));
   if (call) {
     while (true) {
       const auto batch = co_await call->next();
@@ -302,6 +297,36 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
   co_await bhttp::async_write(stream_, response, asio::use_awaitable);
 }
 
+asio::awaitable<void> Connection::answer_download(const Request& request) {
+  std::shared_ptr<Download> download;
+  auto status = cellcrush::answer([&] {
+    download = open_download({request.target().data(), request.target().size()});
+  });
+  const bool wants_body = request.method() == bhttp::verb::get;
+  bool has_begun = false;
+  while (status.ok()) {
+    auto call = begin_call(request, download, status);
+    for (bool ended = !call; !ended;) {
+      const auto batch = co_await call->next();
+      ended = batch.end.has_value();
+      if (ended) status = *batch.end;
+      if (!status.ok()) break;
+      if (!std::exchange(has_begun, true)) co_await send_stream_head(download->content_type, download->file_name);
+      if (!wants_body) break;
+      if (!batch.bytes.empty()) co_await send_chunk(batch.bytes);
+    }
+    if (call) end_call();
+    if (!wants_body || !download->has_more()) break;
+  }
+  if (!has_begun) {
+    co_await send(http_status(status.error_code()), "text/plain; charset=utf-8", status.error_message() + '\n');
+  } else if (!status.ok()) {
+    keep_alive_ = false;
+  } else if (wants_body) {
+    co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);
+  }
+}
+
 asio::awaitable<void> Connection::send(unsigned status, const std::string& type, std::string body) {
   auto response = new_response<bhttp::string_body>(status, keep_alive_, "no-store");
   response.set(Field::content_type, type);
@@ -317,9 +342,10 @@ asio::awaitable<void> Connection::send_error(unsigned status, const grpc::Status
   co_await send(status, "application/json", std::move(body));
 }
 
-asio::awaitable<void> Connection::send_stream_head(const Encoding& encoding) {
+asio::awaitable<void> Connection::send_stream_head(const std::string& content_type, const std::string& file_name) {
   auto response = new_response<bhttp::empty_body>(200, keep_alive_, "no-store");
-  response.set(Field::content_type, content_type_of(encoding));
+  response.set(Field::content_type, content_type);
+  if (!file_name.empty()) response.set(Field::content_disposition, "attachment; filename=\"" + file_name + "\"");
   response.chunked(true);
   bhttp::response_serializer<bhttp::empty_body> serializer(response);
   stream_.plain().expires_after(parts_.limits.idle);

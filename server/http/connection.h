@@ -2,46 +2,19 @@
 
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "access/gate.h"
+#include "http/call.h"
 #include "http/connect_protocol.h"
+#include "http/download.h"
 #include "http/stream.h"
 #include "net/connection_limits.h"
 #include "rpc/method_table.h"
 
 namespace cellcrush::http {
-
-/// A call of a client, unary or a stream, on one io_context with one thread, which runs until the last batch that was
-/// asked for has come. The next batch is made only when it is asked for, so that a slow client costs no more memory
-/// than one.
-class Call final : public std::enable_shared_from_this<Call> {
- public:
-  /// `timeout`: after which the call ends with DEADLINE_EXCEEDED; nothing: never.
-  Call(const boost::asio::any_io_executor& executor, std::shared_ptr<rpc::MessageStream> stream,
-       std::optional<std::chrono::milliseconds> timeout);
-  ~Call() { stream_->cancel(); }
-  Call(const Call&) = delete;
-  Call& operator=(const Call&) = delete;
-
-  /// The next batch; the last one has its `end`.
-  boost::asio::awaitable<rpc::MessageStream::Batch> next();
-
-  /// Ends the call at once; safe to repeat.
-  void cancel();
-
- private:
-  void end(const grpc::Status& status);
-
-  boost::asio::any_io_executor executor_;
-  boost::asio::steady_timer news_;  ///< expires at the deadline; cancelled on news
-  std::shared_ptr<rpc::MessageStream> stream_;
-  std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();
-  std::optional<rpc::MessageStream::Batch> batch_;  ///< delivered
-};
 
 /// What all connections of a gateway share; outlives them.
 struct GatewayParts {
@@ -84,16 +57,21 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Null if there is none.
   [[nodiscard]] const rpc::MethodTable::Method* method_of(const Request& request) const;
   boost::asio::awaitable<void> answer_file(const Request& request);
+  /// A file made by calls, with errors as text. One that comes once the file has begun cuts it off.
+  boost::asio::awaitable<void> answer_download(const Request& request);
   /// The call of this request if it may be made; else null, and the status says why.
   std::shared_ptr<Call> begin_call(const Request& request, const rpc::MethodTable::Method& method,
                                    const Encoding& encoding, grpc::Status& status);
+  std::shared_ptr<Call> begin_call(const Request& request, const std::shared_ptr<Download>& download,
+                                   grpc::Status& status);
   void end_call();
   /// Answer the call, or at once with a status that is not OK if it is null.
   boost::asio::awaitable<void> answer_unary(std::shared_ptr<Call> call, const Encoding& encoding, grpc::Status status);
   boost::asio::awaitable<void> answer_stream(std::shared_ptr<Call> call, const Encoding& encoding, grpc::Status status);
   boost::asio::awaitable<void> send(unsigned status, const std::string& type, std::string body);
   boost::asio::awaitable<void> send_error(unsigned status, const grpc::Status& error);
-  boost::asio::awaitable<void> send_stream_head(const Encoding& encoding);
+  /// `file_name`: under which the client saves the body; empty: not as a file.
+  boost::asio::awaitable<void> send_stream_head(const std::string& content_type, const std::string& file_name = {});
   boost::asio::awaitable<void> send_chunk(const std::string& data);
   /// Cancels the call as soon as the client closes its side.
   void watch_client();

@@ -150,6 +150,10 @@ worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   worker::Order order;
   order.set_job(store::name_of(stored.number));
   *order.mutable_case_() = stored.job.case_();
+  auto& described = *order.mutable_described_job();
+  described = stored.job;
+  described.clear_case_();
+  described.clear_worker_pid();
   order.set_threads(1);
   order.set_checkpoint_interval_s(std::chrono::duration<double>(parts_.checkpoint_interval).count());
   // The daemon's limit may have changed since the job was accepted.

@@ -1,5 +1,7 @@
 #include "store/hdf5.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <string_view>
 #include <system_error>
@@ -160,12 +162,44 @@ void append_rows(hid_t dataset, hid_t type, hsize_t rows, const void* data) {
   check_hdf5(H5Dwrite(dataset, type, in_memory.id(), in_file.id(), H5P_DEFAULT, data), "Writing rows");
 }
 
-void write_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& shape, const void* data) {
+Hdf5Handle write_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& shape,
+                         const void* data) {
   const std::string what = std::string("Writing the dataset ") + name;
   const Hdf5Handle space = dataspace(shape, shape);
-  const Hdf5Handle dataset(H5Dcreate2(folder, name, type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                           what);
+  Hdf5Handle dataset(H5Dcreate2(folder, name, type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, what);
   check_hdf5(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), what);
+  return dataset;
+}
+
+void describe(hid_t dataset, const std::string& unit, const std::string& description) {
+  write_attribute(dataset, "units", unit.empty() ? "1" : unit);
+  write_attribute(dataset, "description", description);
+}
+
+void make_scale(hid_t dataset, const std::string& name) {
+  check_hdf5(H5DSset_scale(dataset, name.c_str()), "Making the scale " + name);
+}
+
+Hdf5Handle make_dimension(hid_t folder, const std::string& name, hsize_t extent, const std::string& description) {
+  const std::string what = "Making the dimension " + name;
+  const Hdf5Handle space = dataspace({extent}, {extent});
+  Hdf5Handle out(H5Dcreate2(folder, name.c_str(), H5T_IEEE_F32LE, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                 H5Dclose, what);
+  // The name by which netCDF's programs know that there are no numbers.
+  describe(out.id(), "", description);
+  make_scale(out.id(), fmt::format("This is a netCDF dimension but not a netCDF variable.{:10}", extent));
+  return out;
+}
+
+void attach_scales(hid_t dataset, const std::vector<hid_t>& scales) {
+  for (unsigned i = 0; i < scales.size(); ++i) check_hdf5(H5DSattach_scale(dataset, scales[i], i), "Attaching a scale");
+}
+
+bool has_link(hid_t folder, const std::string& path) { return H5Lexists(folder, path.c_str(), H5P_DEFAULT) > 0; }
+
+void make_link(hid_t folder, const std::string& dataset, const std::string& path) {
+  check_hdf5(H5Lcreate_hard(folder, dataset.c_str(), folder, path.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+             "Linking " + path);
 }
 
 std::vector<hsize_t> shape_of(hid_t dataset) {

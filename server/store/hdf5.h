@@ -1,6 +1,7 @@
 #pragma once
 
 #include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <cstdint>
 #include <string>
@@ -52,7 +53,26 @@ Hdf5Handle make_growing_dataset(hid_t folder, const std::string& path, hid_t typ
 void append_rows(hid_t dataset, hid_t type, hsize_t rows, const void* data);
 
 /// Writes a dataset of fixed shape at once.
-void write_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& shape, const void* data);
+Hdf5Handle write_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& shape,
+                         const void* data);
+
+/// What the numbers of a dataset are. `unit`: empty for a number without one, which then has the unit "1".
+void describe(hid_t dataset, const std::string& unit, const std::string& description);
+
+/// Makes a dataset the scale of a dimension of this name.
+void make_scale(hid_t dataset, const std::string& name);
+
+/// A dimension without numbers of its own, as netCDF has it: a scale that takes no room.
+Hdf5Handle make_dimension(hid_t folder, const std::string& name, hsize_t extent, const std::string& description);
+
+/// Scales of the first dimensions of a dataset, in their order.
+void attach_scales(hid_t dataset, const std::vector<hid_t>& scales);
+
+/// Whether there is something at a path in an existing group.
+bool has_link(hid_t folder, const std::string& path);
+
+/// A second path to a dataset.
+void make_link(hid_t folder, const std::string& dataset, const std::string& path);
 
 /// Extents of a dataset.
 std::vector<hsize_t> shape_of(hid_t dataset);

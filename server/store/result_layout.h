@@ -30,6 +30,8 @@ struct HistoryColumn {
   const google::protobuf::FieldDescriptor* owner = nullptr;  ///< field of Sample that holds its message; null: itself
   int part = 0;                                              ///< which one, if the owner is repeated
 
+  /// "history", "nodes/ID".
+  [[nodiscard]] std::string group() const { return path.substr(0, path.rfind('/')); }
   [[nodiscard]] hid_t type() const;
   /// NaN if the sample has no front.
   [[nodiscard]] double get(const v1::Sample& sample) const;

@@ -48,7 +48,7 @@ std::vector<double> ResultReader::column(const std::string& path, hid_t type, hs
   return out;
 }
 
-bool ResultReader::has(const std::string& path) const { return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0; }
+bool ResultReader::has(const std::string& path) const { return has_link(file_.id(), path); }
 
 v1::Job ResultReader::job() const { return read_job_of_result(file_.id()); }
 

@@ -1,21 +1,26 @@
 #include "store/result_writer.h"
 
 #include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "columns/field_text.h"
 #include "store/case_hash.h"
 #include "store/result_seal.h"
 
 namespace cellcrush::store {
 namespace {
 
-std::string case_as_json(const v1::Case& submitted) {
+// Columns with scales: HDF5 lists in the scale of the time where it is used, and has room for four thousand entries.
+constexpr std::size_t kMostScaled = 1000;
+
+std::string as_json(const google::protobuf::Message& message) {
   google::protobuf::util::JsonPrintOptions options;
   options.preserve_proto_field_names = true;
   std::string json;
-  (void)google::protobuf::util::MessageToJsonString(submitted, &json, options);
+  (void)google::protobuf::util::MessageToJsonString(message, &json, options);
   return json;
 }
 
@@ -38,19 +43,44 @@ ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& me
   file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, what);
   write_mesh(mesh);
   make_columns({});
+  make_frames();
+}
+
+void ResultWriter::make_frames() {
   frame_time_ = make_growing_dataset(file_.id(), "frames/time_s", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
   frame_strain_ = make_growing_dataset(file_.id(), "frames/strain", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
   frame_position_ = make_growing_dataset(file_.id(), "frames/position_mm", H5T_IEEE_F32LE, {particle_count_, 2},
                                          {1, std::min<hsize_t>(particle_count_, kFrameChunkItems), 2});
   frame_plastic_ = make_growing_dataset(file_.id(), "frames/plastic_fraction", H5T_IEEE_F32LE, {element_count_},
                                         {1, std::min<hsize_t>(element_count_, kFrameChunkItems)});
+  make_scale(frame_time_.id(), "time_s");
+  attach_scales(frame_strain_.id(), {frame_time_.id()});
+  attach_scales(frame_position_.id(), {frame_time_.id(), particles_.id(), axes_.id()});
+  attach_scales(frame_plastic_.id(), {frame_time_.id(), elements_.id()});
+  describe(frame_time_.id(), "s", "simulated time of the frame; frame 0 is the undeformed lattice");
+  describe(frame_strain_.id(), "", "nominal strain of the frame");
+  describe(frame_position_.id(), "mm", "positions of the particles");
+  describe(frame_plastic_.id(), "", "share of each element's section that has yielded");
+  for (auto* field : {&frame_position_, &frame_plastic_}) write_attribute(field->id(), "coordinates", "strain");
 }
 
 void ResultWriter::write_mesh(const v1::Mesh& mesh) {
   mesh_ = Hdf5Handle(H5Gcreate2(file_.id(), "mesh", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
                      "Creating the group mesh");
-  write_dataset(mesh_.id(), "beam_nodes", H5T_NATIVE_INT32, {element_count_, 2}, mesh.element_nodes().data());
-  write_dataset(mesh_.id(), "thickness_mm", H5T_NATIVE_FLOAT, {element_count_}, mesh.thickness_mm().data());
+  particles_ = make_dimension(file_.id(), "particle", particle_count_, "dimension without numbers");
+  elements_ = make_dimension(file_.id(), "element", element_count_, "dimension without numbers");
+  const Hdf5Handle ends = make_dimension(file_.id(), "end", 2, "dimension without numbers: start and end");
+  axes_ = write_dataset(file_.id(), "axis", H5T_C_S1, {2}, "xy");
+  make_scale(axes_.id(), "axis");
+  describe(axes_.id(), "", "axis of a position: x or y");
+  const auto nodes =
+      write_dataset(mesh_.id(), "beam_nodes", H5T_NATIVE_INT32, {element_count_, 2}, mesh.element_nodes().data());
+  attach_scales(nodes.id(), {elements_.id(), ends.id()});
+  describe(nodes.id(), "", "numbers of the particles at the start and the end of each element");
+  const auto thickness =
+      write_dataset(mesh_.id(), "thickness_mm", H5T_NATIVE_FLOAT, {element_count_}, mesh.thickness_mm().data());
+  attach_scales(thickness.id(), {elements_.id()});
+  describe(thickness.id(), "mm", "thickness of each element");
   write_attribute(mesh_.id(), "length_mm", mesh.length_mm());
   write_attribute(mesh_.id(), "width_mm", mesh.width_mm());
   write_attribute(mesh_.id(), "impact_plate_mm", mesh.impact_plate_mm());
@@ -61,8 +91,21 @@ void ResultWriter::write_mesh(const v1::Mesh& mesh) {
 void ResultWriter::make_columns(const v1::Sample& sample) {
   const auto columns = history_columns(sample);
   for (std::size_t i = columns_.size(); i < columns.size(); ++i) {
-    columns_.emplace_back(
-        columns[i], make_growing_dataset(file_.id(), columns[i].path, columns[i].type(), {}, {kHistoryChunkRows}));
+    const HistoryColumn& column = columns[i];
+    auto dataset = make_growing_dataset(file_.id(), column.path, column.type(), {}, {kHistoryChunkRows});
+    describe(dataset.id(), client::unit_of(column.field->name()), client::meaning_of(*column.field));
+    if (i == 0) {
+      make_scale(dataset.id(), "time_s");
+    } else if (i < kMostScaled) {
+      attach_scales(dataset.id(), {columns_.front().second.id()});
+      if (column.path.starts_with("history/")) {
+        if (column.path != "history/strain") write_attribute(dataset.id(), "coordinates", "strain");
+      } else if (const std::string time = column.group() + "/time_s"; !has_link(file_.id(), time)) {
+        // netCDF looks for a dimension in the group of its variable and in those above.
+        make_link(file_.id(), "history/time_s", time);
+      }
+    }
+    columns_.emplace_back(column, std::move(dataset));
   }
 }
 
@@ -89,25 +132,45 @@ void ResultWriter::add_frame(const v1::FieldFrame& frame) {
   append_rows(frame_strain_.id(), H5T_NATIVE_DOUBLE, 1, &strain);
   append_rows(frame_position_.id(), H5T_NATIVE_FLOAT, 1, frame.position_mm().data());
   append_rows(frame_plastic_.id(), H5T_NATIVE_FLOAT, 1, frame.plastic_fraction().data());
-  if (!std::exchange(has_positions_, true))
-    write_dataset(mesh_.id(), "position_mm", H5T_NATIVE_FLOAT, {particle_count_, 2}, frame.position_mm().data());
+  if (!std::exchange(has_positions_, true)) write_positions(frame);
 }
 
-void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary) {
+void ResultWriter::write_positions(const v1::FieldFrame& frame) {
+  const auto positions =
+      write_dataset(mesh_.id(), "position_mm", H5T_NATIVE_FLOAT, {particle_count_, 2}, frame.position_mm().data());
+  attach_scales(positions.id(), {particles_.id(), axes_.id()});
+  describe(positions.id(), "mm", "undeformed positions of the particles");
+}
+
+void ResultWriter::write_identity(const ResultHeader& header) {
+  const v1::Job& job = header.job;
+  write_attribute(file_.id(), "title", job.case_().title());
+  write_attribute(file_.id(), "name", job.name());
+  write_attribute(file_.id(), "owner", job.owner());
+  write_attribute(file_.id(), "create_time", google::protobuf::util::TimeUtil::ToString(job.create_time()));
+  write_attribute(file_.id(), "citation", header.citation);
+  write_attribute(file_.id(), "job", as_json(job));
+  write_attribute(file_.id(), "case", as_json(job.case_()));
+  write_attribute(file_.id(), "case_hash", hash_of(job.case_()));
+}
+
+void ResultWriter::finish(const ResultHeader& header) {
   write_gathered();
-  write_attribute(file_.id(), "case", case_as_json(header.submitted_case));
-  write_attribute(file_.id(), "case_hash", hash_of(header.submitted_case));
+  write_identity(header);
   write_attribute(file_.id(), "modelled", as_lines(header.modelled));
   write_attribute(file_.id(), "solver_revision", header.solver_revision);
   write_attribute(file_.id(), "simd_target", header.simd_target);
   write_attribute(file_.id(), "threads", static_cast<std::int64_t>(header.threads));
   write_attribute(file_.id(), "time_step_s", header.time_step_s);
-  write_attribute(file_.id(), "complete", static_cast<std::int64_t>(header.complete));
-  if (!header.failure.empty()) write_attribute(file_.id(), "failure", header.failure);
-  write_summary_attributes(file_.id(), summary);
+  write_attribute(file_.id(), "complete", static_cast<std::int64_t>(header.job.state() == v1::Job::SUCCEEDED));
+  if (!header.job.cause_message().empty()) write_attribute(file_.id(), "failure", header.job.cause_message());
+  write_summary_attributes(file_.id(), header.job.summary());
   const std::string what = "Closing the result";
   for (auto& column : columns_) column.second.close(what);
-  for (auto* part : {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &mesh_}) part->close(what);
+  for (auto* part :
+       {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &mesh_, &particles_, &elements_, &axes_}) {
+    part->close(what);
+  }
   check_hdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), what);
   file_.close(what);
   seal_result(path_);

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cellcrush/v1/case.pb.h"
+#include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "store/hdf5.h"
 #include "store/result_layout.h"
@@ -15,14 +15,13 @@ namespace cellcrush::store {
 
 /// Metadata of a result.
 struct ResultHeader {
-  v1::Case submitted_case;
+  v1::Job job;  ///< as it ended, with its case, its summary and its words
   std::string solver_revision;
   std::string simd_target;
   int threads = 1;
   double time_step_s = 0.0;
   std::vector<std::string> modelled;
-  bool complete = true;   ///< whether the run reached its end
-  std::string failure{};  ///< why the run failed; empty if it did not
+  std::string citation{};
 };
 
 /// Writes one result.h5 (result_format.md). Not thread-safe. Failures throw ServiceError: storage_full or internal.
@@ -35,19 +34,25 @@ class ResultWriter {
   /// Frame 0 comes first; its positions are those of the mesh.
   void add_frame(const v1::FieldFrame& frame);
   /// Writes the buffered rows and the attributes, closes the file and seals it (result_seal.h). Must be the last call.
-  void finish(const ResultHeader& header, const v1::Summary& summary);
+  void finish(const ResultHeader& header);
 
  private:
   void write_mesh(const v1::Mesh& mesh);
+  void make_frames();
   /// Makes those of this sample that are not there yet.
   void make_columns(const v1::Sample& sample);
   void write_gathered();
+  void write_positions(const v1::FieldFrame& frame);
+  void write_identity(const ResultHeader& header);
 
   std::filesystem::path path_;
   hsize_t particle_count_;
   hsize_t element_count_;
   Hdf5Handle file_;
   Hdf5Handle mesh_;
+  Hdf5Handle particles_;  ///< a dimension, as the next two
+  Hdf5Handle elements_;
+  Hdf5Handle axes_;
   std::vector<std::pair<HistoryColumn, Hdf5Handle>> columns_;  ///< in the order of history_columns
   Hdf5Handle frame_time_;
   Hdf5Handle frame_strain_;

@@ -53,8 +53,7 @@ Final give_up(const store::JobFolder& folder, const Order& order, store::ReportL
       }
       output.take(report);
     }
-    if (output.frame_count() > 0)
-      *loss.mutable_summary() = output.finish(false, loss.message(), known_time(folder, origin));
+    if (output.frame_count() > 0) *loss.mutable_summary() = output.finish(loss, known_time(folder, origin));
   } catch (const std::exception& error) {
     const Trouble trouble = trouble_of(error);
     if (trouble.shortage != Shortage::none && trouble.shortage != Shortage::memory && !loss.cancelled()) {

@@ -223,7 +223,7 @@ class Run {
         out = out_of_time();
       }
     }
-    *out.mutable_summary() = output_->finish(whole, out.message(), {seconds_used(), stage_timer_.seconds()});
+    *out.mutable_summary() = output_->finish(out, {seconds_used(), stage_timer_.seconds()});
     return out;
   }
 

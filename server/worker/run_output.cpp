@@ -1,5 +1,7 @@
 #include "worker/run_output.h"
 
+#include <google/protobuf/util/time_util.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -8,6 +10,7 @@
 #include "cellcrush/simd.h"
 #include "revision.h"
 #include "store/durable_file.h"
+#include "translate/case_words.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -135,11 +138,25 @@ void RunOutput::put_progress(std::int64_t step, double strain, ProgressMeter::Cl
   }
 }
 
-v1::Summary RunOutput::finish(bool whole, const std::string& failure, const translate::RunTime& time) {
+// As GetJob will return it, but for the time of the end, which the daemon notes a moment later.
+v1::Job RunOutput::ended_job(const Final& end, v1::Summary summary) const {
+  v1::Job out = order_.described_job();
+  *out.mutable_case_() = order_.case_();
+  *out.mutable_summary() = std::move(summary);
+  *out.mutable_end_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  const bool has_failed = end.cause() != v1::Job::JOB_CAUSE_UNSPECIFIED;
+  out.set_state(has_failed ? v1::Job::FAILED : end.cancelled() ? v1::Job::CANCELLED : v1::Job::SUCCEEDED);
+  out.set_cause(end.cause());
+  out.set_cause_message(end.message());
+  out.set_remedy(end.remedy());
+  translate::add_words(out);
+  return out;
+}
+
+v1::Summary RunOutput::finish(const Final& end, const translate::RunTime& time) {
   auto summary = translate::to_proto(summarize(*scene_, samples_), samples_.empty() ? Sample{} : samples_.back(), time);
-  writer_.finish({order_.case_(), kSolverRevision, simd_target(), order_.threads(), facts_.time_step, facts_.modelled,
-                  whole, failure},
-                 summary);
+  writer_.finish({ended_job(end, summary), kSolverRevision, simd_target(), order_.threads(), facts_.time_step,
+                  facts_.modelled, kCitation});
   store::publish_file(folder_.partial_result(), folder_.result());
   return summary;
 }

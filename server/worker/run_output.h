@@ -62,8 +62,8 @@ class RunOutput {
   /// Only if enough time has passed since the last one.
   void put_progress(std::int64_t step, double strain, ProgressMeter::Clock::time_point now);
 
-  /// Makes the result durable and renames it. `failure`: why the run did not reach its end, if it failed.
-  v1::Summary finish(bool whole, const std::string& failure, const translate::RunTime& time);
+  /// Makes the result durable and renames it. `end`: how the run ended.
+  v1::Summary finish(const Final& end, const translate::RunTime& time);
 
   [[nodiscard]] int sample_count() const { return static_cast<int>(samples_.size()); }
   [[nodiscard]] std::int64_t last_sampled_step() const { return samples_.empty() ? 0 : samples_.back().step; }
@@ -71,6 +71,7 @@ class RunOutput {
   [[nodiscard]] double last_frame_time() const { return last_frame_time_; }  ///< s
 
  private:
+  [[nodiscard]] v1::Job ended_job(const Final& end, v1::Summary summary) const;
   v1::Sample record(Sample sample);
   void record(const v1::FieldFrame& frame);
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
 
+#include "columns/field_text.h"
 #include "help/case_manual.h"
 #include "help/field_rules.h"
 #include "program.h"

@@ -4,7 +4,7 @@
 #include <google/protobuf/unknown_field_set.h>
 #include <gtest/gtest.h>
 
-#include "commands/history_csv.h"
+#include "columns/history_csv.h"
 #include "expect_text.h"
 #include "plots/job_curves.h"
 #include "programs/text_proto.h"

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "columns/sweep_csv.h"
 #include "command_error.h"
 #include "expect_text.h"
 #include "plots/job_picture.h"

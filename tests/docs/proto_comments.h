@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "help/field_rules.h"
+#include "columns/field_text.h"
 
 namespace cellcrush::docs {
 

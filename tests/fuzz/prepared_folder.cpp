@@ -93,7 +93,7 @@ void write_result(const std::filesystem::path& path) {
     for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(0.5F);
     writer.add_frame(frame);
   }
-  writer.finish({testing::small_case(), "1.0", "scalar", 1, 1e-6, {"Walls are beams."}}, v1::Summary());
+  writer.finish({job_of(testing::small_case()), "1.0", "scalar", 1, 1e-6, {"Walls are beams."}});
 }
 
 void write_file(const std::filesystem::path& path, const std::string& bytes) {

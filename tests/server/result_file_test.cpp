@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -75,8 +76,10 @@ class ResultFileTest : public ::testing::Test {
     const auto summary = testing::from_text<v1::Summary>(R"(
       plateau_stress_impact_mpa: 3.25 step_count: 12345 energy_error_relative: 0.01 crush_mode: CRUSH_MODE_V
       front { shock_mpa: 3.3 } ledger { contact_damping_mj: 7.5 } stage_times { find_contacts_s: 0.25 })");
-    writer.finish({testing::small_case(), "1.2.3+abc", "scalar", 3, 2e-7, {"Walls are beams.", "No friction."}},
-                  summary);
+    v1::Job job = testing::from_text<v1::Job>(R"(name: "jobs/7" state: SUCCEEDED owner: "ann" attempt: 1)");
+    *job.mutable_case_() = testing::small_case();
+    *job.mutable_summary() = summary;
+    writer.finish({job, "1.2.3+abc", "scalar", 3, 2e-7, {"Walls are beams.", "No friction."}, "Cite it."});
     file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
   }
 
@@ -87,22 +90,28 @@ class ResultFileTest : public ::testing::Test {
 
 TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
   const std::map<std::string, hsize_t> extents = {{"S", kSamples}, {"N", 3}, {"E", 2}, {"F", 4}, {"2", 2}};
-  const std::map<std::string, hid_t> types = {
-      {"float64", H5T_IEEE_F64LE}, {"float32", H5T_IEEE_F32LE}, {"int64", H5T_STD_I64LE}, {"int32", H5T_STD_I32LE}};
+  const std::map<std::string, hid_t> types = {{"float64", H5T_IEEE_F64LE},
+                                              {"float32", H5T_IEEE_F32LE},
+                                              {"int64", H5T_STD_I64LE},
+                                              {"int32", H5T_STD_I32LE},
+                                              {"text", H5T_C_S1}};
   std::ifstream file(RESULT_FORMAT);
   std::set<std::string> found;
   for (std::string line; std::getline(file, line);) {
     std::smatch row;
-    if (!std::regex_match(line, row, std::regex(R"(\| `(/[a-z_/]+)` \| ([SNEF2, ]+) \| (\w+) \| .*)"))) continue;
+    if (!std::regex_match(line, row, std::regex(R"(\| `(/[a-z_/]+)` \| ([SNEF2, ]+) \| (\w+) \| (.*) \|)"))) continue;
     found.insert(row[1]);
     std::vector<hsize_t> wanted;
     std::istringstream words(row[2]);
     for (std::string word; std::getline(words >> std::ws, word, ',');) wanted.push_back(extents.at(word));
     EXPECT_EQ(shape(file_.id(), row[1]), wanted) << row[1];
     EXPECT_TRUE(is_type(file_.id(), row[1], types.at(row[3]))) << row[1];
+    const Hdf5Handle dataset(H5Dopen2(file_.id(), row.str(1).c_str(), H5P_DEFAULT), H5Dclose, row[1]);
+    EXPECT_EQ(read_text_attribute(dataset.id(), "description"), row[4]) << row[1];
+    EXPECT_FALSE(read_text_attribute(dataset.id(), "units").empty()) << row[1];
   }
   for (const HistoryColumn& column : history_columns()) EXPECT_TRUE(found.contains("/" + column.path));
-  EXPECT_EQ(found.size(), 34U) << "Names never change.";
+  EXPECT_EQ(found.size(), 38U) << "Names never change.";
 }
 
 TEST_F(ResultFileTest, TheHistoryIsExtendibleAndCompressed) {
@@ -123,6 +132,13 @@ TEST_F(ResultFileTest, SaysWhatItIsAndWhatCameOut) {
   EXPECT_EQ(reader.text_attribute("case_hash").size(), 64U);
   EXPECT_EQ(reader.text_attribute("solver_revision"), "1.2.3+abc");
   EXPECT_EQ(reader.text_attribute("simd_target"), "scalar");
+  EXPECT_EQ(reader.text_attribute("name"), "jobs/7");
+  EXPECT_EQ(reader.text_attribute("owner"), "ann");
+  EXPECT_EQ(reader.text_attribute("citation"), "Cite it.");
+  const auto job = nlohmann::json::parse(reader.text_attribute("job"));
+  EXPECT_EQ(job["state"], "SUCCEEDED");
+  EXPECT_EQ(job["summary"]["plateau_stress_impact_mpa"], 3.25);
+  EXPECT_EQ(job["case"]["lattice"], nlohmann::json::parse(reader.text_attribute("case"))["lattice"]);
   EXPECT_EQ(reader.text_attribute("modelled"), "Walls are beams.\nNo friction.");
   EXPECT_EQ(number_attribute(file_.id(), "threads"), 3.0);
   EXPECT_EQ(number_attribute(file_.id(), "step_count"), 12345.0);
@@ -175,7 +191,9 @@ TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
     wall.set_normal_force_n(1.0 / static_cast<double>(i + 1));
     writer.add_sample(samples[i]);
   }
-  writer.finish({submitted, "1.2.3+abc", "scalar", 1, 2e-7, {}}, {});
+  v1::Job job;
+  *job.mutable_case_() = submitted;
+  writer.finish({job, "1.2.3+abc", "scalar", 1, 2e-7, {}});
   const auto read = ResultReader(path_).history(250, 300);
   ASSERT_EQ(read.size(), 300U);
   for (std::size_t i = 0; i < read.size(); ++i)

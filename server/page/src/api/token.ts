@@ -54,6 +54,14 @@ async function* watchRefusals<T>(messages: AsyncIterable<T>): AsyncIterable<T> {
   }
 }
 
+/** What a GET of the daemon answers, with the token. Throws its error. */
+export async function get(path: string): Promise<Response> {
+  const token = storedToken();
+  const response = await fetch(path, { headers: token ? { authorization: `Bearer ${token}` } : {} });
+  if (!response.ok) throw new Error(await response.text());
+  return response;
+}
+
 /** Adds the token to every call, and asks for one where the daemon refuses the call without it. */
 export const withToken: Interceptor = (next) => async (request) => {
   const token = storedToken();

@@ -1,6 +1,7 @@
 // The page of a sweep: plateau stresses against the varied field, filling in as jobs end.
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import { api, errorText, isNotFound } from "../api/clients";
+import { get } from "../api/token";
 import { watch } from "../api/watch";
 import { Chart } from "../charts/chart";
 import { ask } from "../dom/dialog";
@@ -58,7 +59,7 @@ export class SweepPage implements View {
       this.map.element, this.crushes.element,
       h("div", { class: "toolbar table-head" }, h("h2", {}, "Jobs"), h("span", { class: "spacer" }), this.table.menu,
         h("span", { class: "take-away" }, saveButton("CSV", "Save the table as a CSV file", async () =>
-          download(this.table.csv(), `sweep-${idOf(name)}.csv`)))),
+          download(await (await get(`/sweeps/${idOf(name)}.csv`)).blob(), `sweep-${idOf(name)}.csv`)))),
       this.table.element);
     this.stops = [
       this.overlay.changes.add(() => {

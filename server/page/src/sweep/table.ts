@@ -1,4 +1,4 @@
-// The table of a sweep: one row per job, with links, and the same as CSV.
+// The table of a sweep: one row per job; with links.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { SweepTable_Row, SweepTable_SeedMeans } from "../../gen/cellcrush/v1/sweep_pb";
 import { clock, fullTime, given, idOf, milliseconds, number, pathOf, type Unit } from "../dom/format";
@@ -8,7 +8,6 @@ import { TableView, type CellColumn } from "../dom/table_view";
 import { kFirstMeasures, kMeasures, measureText, titleOfMeasure, unitFor, type Measure } from "../job/measures";
 import { progressBar } from "../jobs/progress_bar";
 import { hasEnded, setChip, stateChip, tookText } from "../jobs/states";
-import { csvBlob } from "../take_away/menus";
 import { axisName } from "./points";
 import { meanColumns } from "./seed_means";
 import type { LoadedSweep } from "./sweep_data";
@@ -92,14 +91,5 @@ export class SweepTableView {
     this.jobs.element.hidden = this.jobs.menu.hidden = areMeans;
     if (areMeans) this.means.update(means, meanColumns(this.data));
     else this.jobs.update(rows, columnsOf(rows, fields));
-  }
-
-  csv(): Blob {
-    const measures = kMeasures.filter(({ field }) => kFirstMeasures.includes(field));
-    const { rows, fields } = this.data;
-    return csvBlob([...fields, "job", "state", ...measures.map(({ field }) => field)],
-      rows.map(({ values, job, result }) =>
-        [...values, job, result ? Job_State[result.state] : "",
-         ...measures.map(({ value }) => result?.summary && value(result.summary))]));
   }
 }

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <google/protobuf/message.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace cellcrush::http {
+
+/// A file that a GET of its path makes from the answers of one method, called once or page by page. Not thread-safe.
+class Download {
+ public:
+  virtual ~Download() = default;
+
+  std::string method;        ///< "/cellcrush.v1.Jobs/GetHistory"
+  std::string content_type;  ///< of the file
+  std::string file_name;     ///< under which a browser saves it
+
+  /// Fills the request of the next call.
+  virtual void ask(google::protobuf::Message& request) const = 0;
+  /// Appends the part of the file that the answer brings.
+  virtual void write(const google::protobuf::Message& answer, std::string& to) = 0;
+  /// Whether another call must follow.
+  [[nodiscard]] virtual bool has_more() const { return false; }
+};
+
+/// The file of the path "/jobs/7/history.csv", "/jobs/7/result.h5" or "/sweeps/3.csv", perhaps with "?decimal=comma";
+/// null for another path. Throws ServiceError (invalid) for other parameters.
+std::shared_ptr<Download> open_download(std::string_view target);
+
+}  // namespace cellcrush::http
