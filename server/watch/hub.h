@@ -25,8 +25,8 @@ namespace cellcrush::watch {
 /// Whether the job restarts from step 0 with this event.
 bool begins_again(const v1::JobEvent& event);
 
-/// The latest events of the jobs that are watched. Each is read once, by the first watcher that asks for it, and shared.
-/// Memory is bounded: at most kMostJobs times kMostBytes. Thread-safe.
+/// The latest events of the jobs that are watched. Each is read once, by the first watcher that asks for it, and is
+/// shared. Memory is bounded: at most kMostJobs times kMostBytes. Thread-safe.
 class RecentEvents {
  public:
   using Event = std::shared_ptr<const v1::JobEvent>;

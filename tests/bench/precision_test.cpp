@@ -53,10 +53,10 @@ TEST(Precision, IsTheDistanceOfMeansWithTheIntervalOfBoth) {
   ASSERT_EQ(found.size(), 3u);
   EXPECT_NEAR(scatter, 0.01 * std::sqrt(2.0), 1e-9);
   EXPECT_EQ(found[0].error, 0.0);
-  EXPECT_NEAR(found[0].uncertainty, 12.71 * 0.01, 1e-9);
+  EXPECT_NEAR(found[0].uncertainty, 12.7062 * 0.01, 1e-9);
   EXPECT_NEAR(found[1].error, 0.5, 1e-9);
   EXPECT_NEAR(found[1].seconds, 1.0, 1e-9);
-  EXPECT_NEAR(found[1].uncertainty, 4.30 * 0.01 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(found[1].uncertainty, 4.30265 * 0.01 * std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(found[1].scatter, 0.01 * std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(found[2].error, 0.005, 1e-9);
 }

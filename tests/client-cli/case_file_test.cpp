@@ -146,26 +146,26 @@ TEST(SetField, SaysWhatIsWrongAndWhatIsExpected) {
 
 TEST(SweepAxis, IsAListARangeOrSeeds) {
   const std::pair<const char*, const char*> axes[] = {
-      {"a=50,1e2,-3", "list { values: 50 values: 100 values: -3 }"},
-      {"a=10:200:8", "linear { first: 10 last: 200 count: 8 }"},
-      {"a=0.1:10:3:log", "logarithmic { first: 0.1 last: 10 count: 3 }"},
-      {"a=seeds:20", "seed_count: 20"}};
+      {"depth_mm=50,1e2,-3", "list { values: 50 values: 100 values: -3 }"},
+      {"depth_mm=10:200:8", "linear { first: 10 last: 200 count: 8 }"},
+      {"depth_mm=0.1:10:3:log", "logarithmic { first: 0.1 last: 10 count: 3 }"},
+      {"depth_mm=seeds:20", "seed_count: 20"}};
   v1::Sweep sweep;
   for (const auto& [text, shown] : axes) {
     *sweep.add_axes() = parse_axis(text);
-    EXPECT_EQ(parse_axis(text).ShortDebugString(), std::string("field: \"a\" ") + shown);
+    EXPECT_EQ(parse_axis(text).ShortDebugString(), std::string("field: \"depth_mm\" ") + shown);
   }
   EXPECT_EQ(count_points(sweep), 3.0 * 8.0 * 3.0 * 20.0);
-  const std::pair<const char*, const char*> refused[] = {{"a", "FIRST:LAST:COUNT"},
+  const std::pair<const char*, const char*> refused[] = {{"depth_mm", "FIRST:LAST:COUNT"},
                                                          {"=1", "FIRST:LAST:COUNT"},
-                                                         {"a=1:2", "FIRST:LAST:COUNT"},
-                                                         {"a=1:2:3:4", "FIRST:LAST:COUNT"},
-                                                         {"a=1:2:3:log:5", "FIRST:LAST:COUNT"},
-                                                         {"a=", "\"\" is not a number"},
-                                                         {"a=1,,2", "\"\" is not a number"},
-                                                         {"a=1:2:2.5", "\"2.5\" is not an integer"},
-                                                         {"a=seeds:x", "\"x\" is not an integer"},
-                                                         {"a=seeds:99999999999", "is not an integer"}};
+                                                         {"depth_mm=1:2", "FIRST:LAST:COUNT"},
+                                                         {"depth_mm=1:2:3:4", "FIRST:LAST:COUNT"},
+                                                         {"depth_mm=1:2:3:log:5", "FIRST:LAST:COUNT"},
+                                                         {"depth_mm=", "\"\" is not a number"},
+                                                         {"depth_mm=1,,2", "\"\" is not a number"},
+                                                         {"depth_mm=1:2:2.5", "\"2.5\" is not an integer"},
+                                                         {"depth_mm=seeds:x", "\"x\" is not an integer"},
+                                                         {"depth_mm=seeds:99999999999", "is not an integer"}};
   for (const auto& [text, answer] : refused)
     EXPECT_THAT(refusal([axis = text] { parse_axis(axis); }), HasSubstr(answer)) << text;
 }

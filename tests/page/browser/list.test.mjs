@@ -22,6 +22,7 @@ const column = async (place) => (await inside().locator(`tbody td:nth-child(${pl
 
 test('a sweep unfolds its jobs, whose running ones show progress and the plateau so far', async () => {
   await page.getByRole('button', { name: 'Jobs of sweep 1' }).click();
+  await inside().locator('tbody tr').nth(speeds.length - 1).waitFor();
   assert.deepEqual(await column(1), speeds);
   assert.equal(await page.getByRole('link', { name: 'Three speeds' }).count(), 1, 'its jobs are not in the list');
   await inside().locator('progress').first().waitFor();
