@@ -1,9 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
-import { SampleSchema } from "../gen/cellcrush/v1/sample_pb";
+import { SampleSchema, SummarySchema, Warning_Kind } from "../gen/cellcrush/v1/sample_pb";
 import { runningMean, strainAxis, thin } from "../src/charts/curves";
 import { energyChart } from "../src/charts/energy";
+import { stressChart } from "../src/charts/stress";
 import { duration, number } from "../src/dom/format";
 
 test("the moving mean of a line is the line, away from its ends", () => {
@@ -27,9 +28,16 @@ test("the areas of the ledger add up to the work without the residual", () => {
     energyContactMj: 4, energyDampingMj: 5, energyContactDampingMj: 5, energyResidualMj: 1,
   });
   const chart = energyChart([sample], strainAxis(0.8));
-  assert.ok(Math.abs(chart.columns[1][0] - 99) < 1e-9); // J: the highest area comes first
+  assert.ok(Math.abs(chart.columns[1][0] - 99) < 1e-9); // mJ: the highest area comes first
   assert.deepEqual(chart.series.map(({ label }) => label),
                    ["contact damping", "contact", "elastic", "kinetic", "plastic", "work of the plates"]);
+});
+
+test("a chart of stresses marks densification and where it is in doubt", () => {
+  const warnings = [{ kind: Warning_Kind.BORDERS_NEAR, strain: 0.1 }, { kind: Warning_Kind.WALLS_NECK, strain: 0.3 }];
+  const summary = create(SummarySchema, { densificationStrain: 0.6, warnings });
+  assert.deepEqual(stressChart([], strainAxis(0.8), summary, undefined, "").marks,
+                   [{ at: 0.6, label: "densification" }, { at: 0.3, label: "in doubt: walls neck" }]);
 });
 
 test("numbers have three significant digits, times a unit", () => {

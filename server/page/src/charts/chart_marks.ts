@@ -51,11 +51,11 @@ export function markShapes(data: ChartData, { left, top, width, height, unit, x,
     const bar = `M${x(at) - half},${y(low)}h${2 * half}m${-half},0V${y(high)}m${-half},0h${2 * half}`;
     shapes.push({ path: bar, colour, width: 1.5 });
   }
-  for (const mark of data.marks ?? []) {
+  for (const [i, mark] of (data.marks ?? []).entries()) {
     const at = x(mark.at);
     const isRight = at > left + 0.7 * width;
     shapes.push({ path: `M${at},${top}v${height}`, colour: "ink-3", dash: [2, 3] },
-                { text: mark.label, x: at + (isRight ? -5 : 5) * unit, y: top + 28 * unit,
+                { text: mark.label, x: at + (isRight ? -5 : 5) * unit, y: top + (28 + 15 * i) * unit,
                   anchor: isRight ? "end" : "start", colour: "ink-3" });
   }
   return shapes;

@@ -1,5 +1,5 @@
 // Stress at both plates against strain, beside theory; without plates, forces of the rigid walls.
-import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
+import { Warning_Kind, type Sample, type Summary, type Theory } from "../../gen/cellcrush/v1/sample_pb";
 import { given, number, unitBySize, type Unit } from "../dom/format";
 import type { Band, ChartData, Level, Mark, Series } from "./chart_data";
 import { finite, quantile, runningMean, thin, type Axis } from "./curves";
@@ -53,6 +53,17 @@ function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top:
   return levels;
 }
 
+/** Densification, and where warnings put the result in doubt. */
+function marksOf(summary: Summary | undefined): Mark[] {
+  const densification = summary?.densificationStrain;
+  const marks: Mark[] = densification === undefined ? [] : [{ at: densification, label: "densification" }];
+  for (const { kind, strain } of summary?.warnings ?? []) {
+    if (kind === Warning_Kind.BORDERS_NEAR || strain <= 0) continue; // costs time only
+    marks.push({ at: strain, label: `in doubt: ${Warning_Kind[kind].toLowerCase().replaceAll("_", " ")}` });
+  }
+  return marks;
+}
+
 /** `note` says when not to compare with theory. */
 export function stressChart(samples: Sample[], axis: Axis, summary: Summary | undefined, theory: Theory | undefined,
                             note: string): ChartData {
@@ -67,8 +78,6 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
   const columns = curves.map((column) => places.map((place) => column[place]));
   const peak = kept.reduce((most, s) => Math.max(most, s.stressImpactMpa, s.stressSupportMpa), 0);
   const bands: Band[] = [{ from: 0.2, to: 0.4, label: "plateau window" }];
-  const densification = summary?.densificationStrain;
-  const marks: Mark[] = densification === undefined ? [] : [{ at: densification, label: "densification" }];
   const beyond = peak > 1.001 * top
     ? `; single samples reach ${number(peak * unit.factor, 2)} ${unit.name}, off the chart` : "";
   return {
@@ -79,7 +88,7 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
       { label: "support plate", colour: "support", width: 2 },
     ],
     columns, xLabel: axis.label, yLabel: `nominal stress (${unit.name})`, xEnd: axis.end,
-    yTop: top * unit.factor, levels: levelsOf(summary, theory, top, unit), bands, marks,
+    yTop: top * unit.factor, levels: levelsOf(summary, theory, top, unit), bands, marks: marksOf(summary),
     note: `moving mean over ${100 * kSmoothing} % strain; thin: every sample${beyond}${note ? `. ${note}` : ""}`,
   };
 }
