@@ -127,7 +127,7 @@ TEST_F(DaemonTest, AKeyOfTheConfigFileThatIsNoOptionIsRefusedWithTheNearest) {
   EXPECT_THAT(start_with("colour = \"red\"\n"), HasSubstr("\"colour\", which is not an option"));
 }
 
-TEST_F(DaemonTest, AnUnknownOptionIsRefusedWithTheNearest) {
+TEST_F(DaemonTest, AnOptionThatIsUnknownOrHasABadValueIsRefusedWithTheRemedy) {
   const auto errors_of = [](const std::vector<std::string>& arguments) {
     DaemonProcess daemon(arguments);
     EXPECT_EQ(daemon.wait(), 2);
@@ -138,6 +138,8 @@ TEST_F(DaemonTest, AnUnknownOptionIsRefusedWithTheNearest) {
   EXPECT_THAT(errors_of({"token", "anna", "--scope", "read", "--scopes=admin"}),
               HasSubstr("did you mean \"--scope\"?"));
   EXPECT_THAT(errors_of({"--colour=red"}), HasSubstr("unknown option \"--colour\"\nSee `cellcrushd --help`"));
+  for (const char* origin : {"https://a.example/grafana", "a.example", "https://", "*", "https://A.example; img-src *"})
+    EXPECT_THAT(errors_of({"--allow-framing", origin}), HasSubstr("is not an origin. Write it as https://HOST"));
 }
 
 constexpr const char* kForgery = "x\n[2030-01-01 00:00:00.000] [cellcrushd] [info] jobs/9 deleted by root";
