@@ -13,7 +13,7 @@ namespace cellcrush::client {
 enum class Decimal { point, comma };
 constexpr Decimal decimal_of(bool comma) { return comma ? Decimal::comma : Decimal::point; }
 inline constexpr const char* kDecimalCommaHelp =
-    "Write CSV with decimal commas between semicolons, as spreadsheets of many languages expect";
+    "Write CSV with decimal commas, and semicolons between columns, as spreadsheets in many languages expect";
 
 /// The text of a CSV file, cell by cell. Numbers read back to the same bits.
 class CsvText {

@@ -74,7 +74,7 @@ void add_export_command(CLI::App& app, Session& session) {
   const auto [command, options] =
       add_command<ExportOptions>(app, session, kResultCommands, "export",
                                  "Save an ended job as one HTML file that opens without a daemon", run_export);
-  command->add_option("NAME", options->name, "Name of a job, or a result.h5 or its folder")->required();
+  command->add_option("NAME", options->name, "Name of a job, or a result.h5 file or its folder")->required();
   add_option(*command, kOutputOptions, "-o,--output", options->file, "HTML file, such as FILE.html")->required();
   add_option(*command, kOutputOptions, "--max-size", options->megabytes,
              "Approximate size of the file, in MB; limits the number of frames (default: 20)")

@@ -218,7 +218,7 @@ void add_fetch_command(CLI::App& app, Session& session) {
   const auto [command, options] = add_command<FetchOptions>(
       app, session, kResultCommands, "fetch",
       "Download a job's result.h5, history.csv, nodes.csv, rigid_walls.csv and case.txtpb", run_fetch);
-  command->add_option("NAME", options->name, "Name of a job, or a result.h5 or its folder")->required();
+  command->add_option("NAME", options->name, "Name of a job, or a result.h5 file or its folder")->required();
   add_option(*command, kOutputOptions, "-o,--output", options->folder, "Output folder, created if missing")->required();
   add_option(*command, kOutputOptions, "--frame", options->frame_times,
              "Also write the frame nearest to this time, in s, as CSV (may be repeated; default: none)")
@@ -226,7 +226,7 @@ void add_fetch_command(CLI::App& app, Session& session) {
   add_option(*command, kOutputOptions, "--decimal-comma", options->decimal_comma, kDecimalCommaHelp);
   auto* vtp = add_option(*command, kOutputOptions, "--vtk", options->vtp,
                          "Also write all frames for ParaView, as crush.pvd and .vtp files");
-  add_option(*command, kOutputOptions, "--vtu", options->vtu, "The same as .vtu files, which meshio reads too")
+  add_option(*command, kOutputOptions, "--vtu", options->vtu, "Like --vtk, but as .vtu files, which meshio reads too")
       ->excludes(vtp);
   add_examples(*command, {"cellcrush fetch jobs/12 -o results", "cellcrush fetch jobs/12 -o results --frame 0.0005",
                           "cellcrush fetch jobs/12 -o results --vtk"});

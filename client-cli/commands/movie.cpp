@@ -141,7 +141,7 @@ ExitCode run_movie(Session& session, const MovieOptions& options) {
 void add_movie_command(CLI::App& app, Session& session) {
   const auto [command, options] = add_command<MovieOptions>(
       app, session, kResultCommands, "movie", "Render the frames of a job as a movie; requires ffmpeg", run_movie);
-  command->add_option("NAME", options->name, "Name of a job, or a result.h5 or its folder")->required();
+  command->add_option("NAME", options->name, "Name of a job, or a result.h5 file or its folder")->required();
   add_option(*command, kOutputOptions, "-o,--output", options->file,
              "Movie file: FILE.mp4, FILE.webm or FILE.gif (default: none; required without --frames)");
   add_option(*command, kOutputOptions, "--frames", options->folder,

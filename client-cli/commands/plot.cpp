@@ -135,9 +135,9 @@ void add_plot_command(CLI::App& app, Session& session) {
       app, session, kResultCommands, "plot",
       "Plot a job's frames and stress-strain curve, compare several jobs, or plot sweeps", run_plot);
   command
-      ->add_option(
-          "NAME", options->names,
-          "Names of jobs, results of `run` or `fetch` (result.h5 or its folder), or sweeps over the same field")
+      ->add_option("NAME", options->names,
+                   "Names of jobs, results of `run` or `fetch` (result.h5 files or their folders), or sweeps over the "
+                   "same field")
       ->required();
   add_option(*command, kOutputOptions, "-o,--output", options->file, "Picture file: FILE.svg, FILE.pdf or FILE.png")
       ->required();
@@ -156,13 +156,13 @@ void add_plot_command(CLI::App& app, Session& session) {
              "Draw a sweep over two fields as curves instead of a map");
   const std::map<std::string, double> lengths = {{"mm", 1.0}, {"cm", 10.0}, {"in", 25.4}};
   add_option(*command, kOutputOptions, "--width", options->print.width_mm,
-             "Width in print, such as 85mm, 8.5cm or 3.3in, for .svg and .pdf; such a figure has no title (default: a "
-             "picture for the screen)")
+             "Width in print, such as 85mm, 8.5cm or 3.3in; only for .svg and .pdf, and leaves out the title (default: "
+             "the size for the screen)")
       ->type_name("LENGTH")
       ->transform(CLI::AsNumberWithUnit(lengths, CLI::AsNumberWithUnit::UNIT_REQUIRED).description(""))
       ->check(CLI::Range(20.0, 2000.0).description("20 to 2000 mm"));
   add_option(*command, kOutputOptions, "--font", options->print.font_pt,
-             "Size of the text at the axes in print, such as 8pt; lines and marks follow it (default: 9pt)")
+             "Size of the text at the axes in print, such as 8pt; lines and markers scale with it (default: 9pt)")
       ->type_name("SIZE")
       ->transform(
           CLI::AsNumberWithUnit(std::map<std::string, double>{{"pt", 1.0}}, CLI::AsNumberWithUnit::UNIT_REQUIRED)

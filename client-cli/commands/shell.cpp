@@ -44,7 +44,8 @@ void add_shell_commands(CLI::App& app, Session& session) {
         *shell == "names" ? print_names(session.connection()) : fmt::print("{}", completion_script(app, *shell));
         return ExitCode::done;
       });
-  completion->add_option("SHELL", *shell, "bash, zsh or fish; names: the jobs and sweeps that those scripts offer")
+  completion
+      ->add_option("SHELL", *shell, "bash, zsh or fish; names lists the jobs and sweeps that these scripts complete")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish", "names"}));
   const auto markdown = std::make_shared<bool>(false);

@@ -117,7 +117,7 @@ void add_show_commands(CLI::App& app, Session& session) {
                     }
                     return ExitCode::done;
                   });
-  command->add_option("NAME", *name, "preset:NAME, the name of a job or a sweep, or a result.h5 or its folder")
+  command->add_option("NAME", *name, "preset:NAME, name of a job or a sweep, or a result.h5 file or its folder")
       ->required();
   add_examples(*command, {"cellcrush show preset:type-i > my.txtpb", "cellcrush show jobs/12"});
   const auto list_options = std::make_shared<ListOptions>();
@@ -136,20 +136,20 @@ void add_show_commands(CLI::App& app, Session& session) {
   add_option(*list, kSelectionOptions, "--sweeps", list_options->sweeps, "List sweeps instead of jobs");
   add_examples(*list, {"cellcrush list --limit 10", "cellcrush list --filter 'state = RUNNING'",
                        "cellcrush list --sweeps --json"});
-  const auto [table, table_options] =
-      add_command<TableOptions>(app, session, kResultCommands, "table",
-                                "Print the results of a sweep, averaged over the seeds if it varies them, or of files",
-                                run_table);
+  const auto [table, table_options] = add_command<TableOptions>(
+      app, session, kResultCommands, "table",
+      "Print the results of a sweep, as means over its seeds if it varies them, or of files", run_table);
   table
       ->add_option("NAME", table_options->names,
-                   "Name of a sweep, or results of `run` or `fetch` (result.h5 or its folder)")
+                   "Name of a sweep, or results of `run` or `fetch` (result.h5 files or their folders)")
       ->required();
-  add_option(*table, kOutputOptions, "--digits", table_options->digits,
-             "Significant digits of the results; varied values have up to 6, whole ones all (default: 3)")
+  add_option(
+      *table, kOutputOptions, "--digits", table_options->digits,
+      "Significant digits of the results; varied values have up to 6, but integers are printed in full (default: 3)")
       ->check(CLI::Range(1, 17));
   add_option(*table, kOutputOptions, "--each", table_options->each, "One row per job instead of means over the seeds");
   add_option(*table, kOutputOptions, "--csv", table_options->csv,
-             "Print CSV with all digits; means with columns of their 95 % intervals and numbers of jobs");
+             "Print CSV with all digits; means with the half-widths of their 95 % intervals and numbers of jobs");
   add_option(*table, kOutputOptions, "--decimal-comma", table_options->decimal_comma, kDecimalCommaHelp);
   add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --each --csv > table.csv",
                         "cellcrush table thin/result.h5 thick/result.h5"});

@@ -56,7 +56,7 @@ export class PointLinks {
     replaceChildren(this.element,
       h("div", {}, h("span", {}, isOne ? `job ${idOf(point.jobs[0])}` : point.label), h("b", {}, number(point.y, 4))),
       h("div", { class: "point-jobs" }, ...(this.isPinned && !isOne ? links
-        : [h("span", {}, isOne ? "click opens it" : `mean of ${links.length} jobs: click lists them`)])));
+        : [h("span", {}, isOne ? "click to open" : `mean of ${links.length} jobs: click to list them`)])));
     this.element.classList.toggle("pinned", this.isPinned);
     const { offsetWidth, offsetHeight } = this.element;
     const isRight = point.left + offsetWidth + 14 > plot.over.clientWidth;

@@ -31,7 +31,7 @@ export class OrderInput {
     for (const input of [this.note, this.labels, this.priority]) input.addEventListener("input", changed);
     this.element = h("details", { class: "order" }, h("summary", {}, "Note, labels and priority"),
       h("div", { class: "fields" }, labelled("Note", this.note, h("div", { class: "limits" },
-        "shown beside the title; a label of its own")), labelled("Labels", this.labels, this.labelsHint),
+        "shown beside the title; stored as the label “note”")), labelled("Labels", this.labels, this.labelsHint),
         labelled("Priority", this.priority, this.priorityHint)));
     this.read();
   }

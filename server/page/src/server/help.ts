@@ -5,31 +5,31 @@ import type { View } from "../router";
 const kParts: [string, [string, string][]][] = [
   ["Jobs and sweeps", [
     ["Unfold a sweep", "The arrow before its title. Its rows show varied fields, progress and the plateau so far."],
-    ["Sort", "Click the head of a column: up, down, back to the order of the list."],
-    ["Columns", "The menu over a table. The browser keeps the choice."],
+    ["Sort", "Click a column heading: ascending, descending, then the original order."],
+    ["Columns", "The menu above a table chooses them. The browser remembers the choice."],
     ["Filter", "Part of a title; or state = FAILED, owner = \"NAME\", label.KEY = \"VALUE\", joined by AND."],
     ["Compare", "Select two to six jobs. The table lists what differs in cases and results."],
-    ["Note", "“Note, labels and priority” of a new case: a sentence that stands beside the job’s title."],
+    ["Note", "A sentence shown beside the job’s title. Enter it under “Note, labels and priority” of a new case."],
   ]],
   ["Charts", [
-    ["Zoom", "Drag a box, or turn the wheel. + and - zoom at the keyboard."],
-    ["Show all", "Double click, the button, or 0."],
+    ["Zoom", "Drag a box, turn the wheel, or press + and -."],
+    ["Show all", "Double-click, press the button, or press 0."],
     ["Playhead", "Click, or drag the line. Picture and charts move together."],
-    ["Scales and measures", "The lists over a chart: linear or logarithmic axes, and any number of the results."],
-    ["A point of a sweep", "A click opens its job; for a mean, it lists the jobs."],
-    ["The map of two fields", "A cell opens its job; with several seeds, it compares them."],
+    ["Scales and measures", "The menus above a chart choose linear or logarithmic axes, and the quantity to plot."],
+    ["A point of a sweep", "Click it to open its job; for a mean, to list its jobs."],
+    ["The map of two fields", "Click a cell to open its job; with several seeds, to compare them."],
   ]],
   ["Picture", [
     ["Play", "Space plays and pauses; the arrow keys step through frames; Home and End go to the ends."],
-    ["Zoom", "Wheel, pinch, + and -. Double click shows the whole crush."],
-    ["Numbers of a wall", "Point at it, or tap it."],
+    ["Zoom", "Turn the wheel, pinch, or press + and -. Double-click to show the whole crush."],
+    ["Values of a wall", "Point at it, or tap it."],
   ]],
   ["Words and numbers", [
     ["Plateau stress", "Mean stress at a plate from 20 to 40 % strain."],
-    ["Shock theory (Eq. 51)", "Gibson-Ashby stress plus the density times the square of the speed over the " +
-      "densification strain."],
-    ["Units", "Stresses below 0.1 MPa are in kPa; energies are in mJ, J or kJ by their size."],
-    ["Fields of a case", "The form of a new case explains each field while it has the focus."],
+    ["Shock theory (Eq. 51)", "Gibson-Ashby stress plus the density of the honeycomb times the speed " +
+      "squared, divided by the densification strain."],
+    ["Units", "Stresses below 0.1 MPa are in kPa; energies are in mJ, J or kJ, depending on their size."],
+    ["Fields of a case", "In the form of a new case, select a field to read what it means."],
   ]],
 ];
 

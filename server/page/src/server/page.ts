@@ -68,13 +68,13 @@ export class ServerPage implements View {
         return row(whereText(name), `${busy} of ${plural(jobLimit, "job")} `, meter,
                    executors.length > 1 && name === defaultExecutor && h("span", { class: "faint" }, " default"));
       }),
-      row("version", version), row("accepts jobs", draining ? "no: it drains" : "yes")));
+      row("version", version), row("accepts jobs", draining ? "no, draining" : "yes")));
     replaceChildren(this.resources, h("h2", {}, "Disk and memory"), ...(queue.holds.length ? queue.holds.map((hold) =>
       h("div", { class: "banner warning" }, h("strong", {}, `${hold.cause.replaceAll("_", " ")}. `),
         `${hold.reason} ${hold.remedy}`, hold.since && h("span", { class: "faint" }, ` Since ${clock(hold.since)}.`)))
-      : [h("p", {}, "No shortage holds the queue.")]));
+      : [h("p", {}, "No shortage holds up the queue.")]));
     replaceChildren(this.running, h("h2", {}, `Running: ${running.length}`), running.length > 0 &&
-      table(["Job", "Progress", "Left", "Steps per second", "Plateau so far", "Where", "Process", "Owner"],
+      table(["Job", "Progress", "Time left", "Steps per second", "Plateau so far", "Where", "Process", "Owner"],
         running.slice(0, kListed).map((job) => [
           link(job.name, `${idOf(job.name)}: ${titleOf(job)}`), progressBar(job), duration(job.progress?.secondsLeft),
           job.progress && count(Math.round(job.progress.stepsPerSecond)),
