@@ -29,7 +29,7 @@ std::string with_prefix(const std::string& name, const char* prefix) {
 
 [[noreturn]] void refuse_beside_file(const std::string& name, const std::string& file) {
   refuse(
-      fmt::format("{} is of a server and {} a file, which one command cannot read together. Save the job first, "
+      fmt::format("{} is a job on a server and {} a file; one command cannot read both. Save the job first, "
                   "`cellcrush fetch {} -o FOLDER`, and name that folder.",
                   name, file, name));
 }

@@ -120,9 +120,13 @@ bool names_sweep(const std::string& name);
 /// path. jobs/12 and 12 are a job even so.
 bool names_file(const std::string& name);
 
+struct ResultTable {
+  v1::SweepTable table;
+  std::string note;  ///< in what else the cases differ; empty if in nothing
+};
 /// A table as of a sweep with a row for each result, under the name given, and the numbers in which their cases differ.
 /// Throws the errors of Session::find_jobs.
-v1::SweepTable tabulate_results(Session& session, const std::vector<std::string>& files);
+ResultTable tabulate_results(Session& session, const std::vector<std::string>& files);
 
 /// A job's full name: "jobs/NAME" for a NAME without a slash. Throws CommandError (refused) for a sweep's name.
 std::string job_name(const std::string& name);

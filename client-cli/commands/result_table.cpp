@@ -20,16 +20,22 @@ std::optional<double> number_at(const v1::Case& scene, const std::string& field)
 
 }  // namespace
 
-v1::SweepTable tabulate_results(Session& session, const std::vector<std::string>& files) {
+ResultTable tabulate_results(Session& session, const std::vector<std::string>& files) {
   std::vector<v1::Job> jobs;
   for (const std::string& name : session.find_jobs(files)) jobs.push_back(fetch_job(session.connection(), name));
   std::vector<const v1::Case*> cases;
   for (const v1::Job& job : jobs) cases.push_back(&job.case_());
-  v1::SweepTable table;
+  ResultTable out;
+  v1::SweepTable& table = out.table;
   for (const std::string& field : find_differences(cases)) {
     const auto is_number = [&](const v1::Case* scene) { return number_at(*scene, field).has_value(); };
-    if (std::ranges::all_of(cases, is_number)) table.add_fields(field);
+    if (std::ranges::all_of(cases, is_number)) {
+      table.add_fields(field);
+    } else {
+      out.note += (out.note.empty() ? "The cases also differ in " : ", ") + field;
+    }
   }
+  if (!out.note.empty()) out.note += '.';
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     v1::SweepTable::Row& row = *table.add_rows();
     row.set_job(files[i]);
@@ -37,7 +43,7 @@ v1::SweepTable tabulate_results(Session& session, const std::vector<std::string>
     *row.mutable_result() = jobs[i];
     row.mutable_result()->clear_case_();
   }
-  return table;
+  return out;
 }
 
 }  // namespace cellcrush::client

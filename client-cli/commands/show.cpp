@@ -91,13 +91,14 @@ ExitCode run_table(Session& session, const TableOptions& options) {
   const bool of_files = std::ranges::any_of(options.names, names_file);
   if (!of_files && options.names.size() > 1) refuse("table: name one sweep, or any number of results");
   const std::string name = of_files ? "" : sweep_name(options.names.front());
-  const auto table = of_files ? tabulate_results(session, options.names) : fetch_table(session.connection(), name);
+  const auto [table, of_cases] =
+      of_files ? tabulate_results(session, options.names) : ResultTable{fetch_table(session.connection(), name), {}};
   if (session.json) {
     print_json(table);
   } else if (options.csv) {
     fmt::print("{}", sweep_table_csv(shown_table(table, options.each), decimal_of(options.decimal_comma)));
   } else {
-    const std::string note = of_files ? "" : fetch_sweep(session.connection(), name).words().theory_note();
+    const std::string note = of_files ? of_cases : fetch_sweep(session.connection(), name).words().theory_note();
     fmt::print("{}", sweep_table_text(shown_table(table, options.each), note, options.digits));
   }
   return ExitCode::done;

@@ -299,7 +299,8 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
   double peak = 0.0;
   for (std::size_t i = 0; i < histories.size(); ++i) {
     const v1::Job& job = histories[i].job;
-    const PlateCurves smooth = smoothed(curves_of(histories[i]));
+    const PlateCurves raw = curves_of(histories[i]);
+    const PlateCurves smooth = smoothed(raw);
     const Colour colour = kSeriesColours[i % kSeriesColours.size()];
     std::string name = picture_name(job);
     if (uses[name] > 1) name += " (" + job.name() + ")";
@@ -309,7 +310,7 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
     curves.push_back({smooth.strain, smooth.support, dashed, ""});
     strain = std::max(strain, last_strain(smooth));
     top = std::max(top, find_top(histories[i], smooth));
-    peak = std::max(peak, highest(smooth));
+    peak = std::max(peak, highest(raw));
   }
   Chart chart = empty_chart(strain, top, peak);
   for (const Curve& curve : curves) add_overshoot(chart, curve.x, curve.y, curve.style.colour);

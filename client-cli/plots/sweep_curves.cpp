@@ -300,7 +300,8 @@ Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const Logarithm
     for (std::size_t i = 0; i < all.size(); ++i)
       add_series(chart, all[i], speed, false, kSeriesColours[i % kSeriesColours.size()], unit);
     chart.note = "discs: impact plate; squares: support plate; ";
-    if (speed) chart.note += "solid: quadratic fit; ";
+    const auto has_fit = [](const ResultSeries& series) { return find_plateau_fit(series).has_value(); };
+    if (speed && std::ranges::any_of(all, has_fit)) chart.note += "solid: quadratic fit; ";
     chart.note += "dashed: Eq. 51; crosses: Eq. 52; dotted: Gibson-Ashby";
   }
   scale_y(chart, unit.factor);

@@ -218,6 +218,10 @@ std::optional<SweepMap> build_sweep_map(const v1::SweepTable& table, const Logar
     map.modes.assign(size, {});
   }
   if (!table.means().empty()) map.note = "means over the seeds; " + map.note;
+  int warned = 0;
+  for (const auto& row : table.rows()) warned += row.result().summary().warnings_size() > 0 ? 1 : 0;
+  for (const auto& means : table.means()) warned += means.warned_count();
+  if (warned > 0) map.note += fmt::format("; {} run{} with warnings", warned, warned == 1 ? "" : "s");
   if (known < table.rows_size()) map.note += fmt::format("; {} of {} have no plateau", table.rows_size() - known, size);
   return map;
 }

@@ -1,12 +1,14 @@
 #include "terminal/sweep_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -153,8 +155,28 @@ std::string job_count_text(const v1::SweepTable::SeedMeans& means) {
              : fmt::format("{} of {}", means.succeeded_count(), means.job_count());
 }
 
+// " (1 of 3)": if a result is the mean of fewer jobs than have succeeded.
+std::string fewer_jobs_text(const v1::SweepTable::SeedMeans& means, const ResultColumn& column) {
+  const int jobs = find_mean(means, column.path)->job_count();
+  return jobs == means.succeeded_count() ? "" : fmt::format(" ({} of {})", jobs, means.succeeded_count());
+}
+
+// The rows with warnings, and which: a number that the model may not bear out.
+std::string warnings_text(const v1::SweepTable& results, int width) {
+  std::string text;
+  for (const Row& row : results.rows()) {
+    std::set<std::string> kinds;
+    for (const v1::Warning& warning : row.result().summary().warnings()) {
+      if (warning.kind() != v1::Warning::BORDERS_NEAR) kinds.insert(v1::Warning::Kind_Name(warning.kind()));
+    }
+    if (kinds.empty()) continue;
+    text += wrapped(fmt::format("{}: {}", printable(row.job()), fmt::join(kinds, ", ")), width, "  ", "    ");
+  }
+  return text.empty() ? text : "\nWith warnings (`cellcrush show` prints them):\n" + text;
+}
+
 std::string means_text(const v1::SweepTable& results, int width) {
-  if (results.means().empty()) return {};
+  if (results.means().empty()) return warnings_text(results, width);
   int failed = 0;
   int warned = 0;
   for (const auto& means : results.means()) {
@@ -168,7 +190,7 @@ std::string means_text(const v1::SweepTable& results, int width) {
                  width, "", "  ");
   if (failed > 0) text += wrapped(fmt::format("{} FAILED; --each says why.", run_count_text(failed)), width);
   if (warned > 0) {
-    text += wrapped(fmt::format("{} with warnings; `cellcrush show JOB` prints them.", run_count_text(warned)), width);
+    text += wrapped(fmt::format("{} with warnings; --each says which.", run_count_text(warned)), width);
   }
   return text;
 }
@@ -205,6 +227,7 @@ std::string sweep_table_text(const v1::SweepTable& results, const std::string& t
       const auto value = result_of(results, i, column);
       const char* absent = summary.has_plateau_stress_impact_mpa() ? column.absent : "-";
       cells.push_back(value ? result_text(factor * *value, interval, digits) : absent);
+      if (value && has_means) cells.back() += fewer_jobs_text(results.means(i), column);
     }
     const std::string& mode = summary.crush_mode_words();
     cells.push_back(mode.empty() ? "-" : mode);

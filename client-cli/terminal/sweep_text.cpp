@@ -139,7 +139,7 @@ std::string verdict_text(const v1::Convergence& convergence) {
         wanted);
   }
   return fmt::format(
-      "With no mesh are error and interval of both plateau stresses within {}. If the error is the larger part, add a "
+      "No mesh has the error and interval of both plateau stresses within {}. If the error is the larger part, add a "
       "finer mesh; if the interval is, use more seeds.",
       wanted);
 }

@@ -10,11 +10,14 @@
 #include <cmath>
 #include <future>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "error_table.h"
 #include "jobs/case_field.h"
+#include "jobs/seed_means.h"
 #include "jobs/sweep_points.h"
 #include "translate/case_checker.h"
 
@@ -219,6 +222,20 @@ class PointChecker {
   std::vector<translate::CaseChecker> checkers_;
 };
 
+// A seed places the imperfections; without any, all seeds give the same result.
+std::optional<v1::Problem> idle_seed_note(const v1::Sweep& sweep, const std::vector<std::string>& fields) {
+  const auto varies = [&fields](std::string_view field) { return std::ranges::find(fields, field) != fields.end(); };
+  const auto& imperfection = sweep.case_().lattice().imperfection();
+  const bool has_some = imperfection.amplitude_mm() > 0.0 || imperfection.bow_mm() > 0.0 ||
+                        varies("lattice.imperfection.amplitude_mm") || varies("lattice.imperfection.bow_mm");
+  if (has_some || !varies(kSeedField)) return std::nullopt;
+  auto note =
+      invalid_problem(kSeedField, "has no effect: the case has no imperfections, so all seeds give the same result.",
+                      "Set lattice.imperfection.amplitude_mm or bow_mm above 0.");
+  note.set_kind(v1::Problem::IMPLAUSIBLE);
+  return note;
+}
+
 }  // namespace
 
 SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
@@ -242,8 +259,12 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
   }
   malloc_trim(0);  // otherwise each thread's heap keeps the memory of its largest mesh
   out.problems = problems.merged();
-  if (out.problems.empty()) out.notes = notes.merged();
-  if (!out.problems.empty()) out.most_memory_bytes = 0;
+  if (!out.problems.empty()) {
+    out.most_memory_bytes = 0;
+    return out;
+  }
+  out.notes = notes.merged();
+  if (auto note = idle_seed_note(sweep, points.fields)) *out.notes.Add() = *std::move(note);
   return out;
 }
 

@@ -26,9 +26,12 @@ ServiceError not_a_result(const std::string& why) { return {ServiceError::Kind::
 fs::path result_at(const fs::path& given) {
   std::error_code error;
   const auto status = fs::status(given, error);
+  if (!fs::is_directory(status) && fs::exists(status)) return given;
+  const bool has_result = fs::is_directory(status) && fs::exists(given / kName, error);
+  if (has_result) return given / kName;
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw not_a_result(error.message() + ". Name a result.h5, or a folder with one, that you may read.");
   if (!fs::exists(status)) throw not_a_result("no such file or folder. Name a result.h5 or its folder.");
-  if (!fs::is_directory(status)) return given;
-  if (fs::exists(given / kName, error)) return given / kName;
   throw not_a_result(
       "this folder has no result.h5. Name one of `cellcrush run` or `cellcrush fetch`; complete an unfinished run with "
       "`cellcrush run --resume`.");

@@ -44,8 +44,8 @@ std::vector<RecentEvents::Event> RecentEvents::after(store::JournalReader& journ
     return read(journal, job, after);
   }
   if (after < window->last) {
-    const auto first = std::ranges::partition_point(
-        window->events, [after](const Event& event) { return event->sequence() <= after; });
+    const auto first = std::ranges::partition_point(window->events,
+                                                    [after](const Event& event) { return event->sequence() <= after; });
     return {first, first + std::min<std::ptrdiff_t>(kAtOnce, window->events.end() - first)};
   }
   const auto begin_behind = [&window](std::int64_t event) CELLCRUSH_REQUIRES(window->mutex) {

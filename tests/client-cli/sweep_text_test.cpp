@@ -180,6 +180,7 @@ v1::SweepTable make_averaged_table() {
             crush_modes { mode: CRUSH_MODE_V words: 'V-shaped band (V)' job_count: 2 } crush_modes { job_count: 1 }
             results { field: "plateau_stress_impact_mpa" job_count: 3 mean: 0.0341 deviation: 0.002 interval: 0.0049 }
             results { field: "plateau_stress_support_mpa" job_count: 3 mean: 0.025 deviation: 1e-18 interval: 2e-18 }
+            results { field: "densification_strain" job_count: 1 mean: 0.658 }
             results { field: "theory.shock_mpa" job_count: 3 mean: 0.03 } })");
   *table.add_means() = table.means(0);
   auto& second = *table.mutable_means(1);
@@ -196,9 +197,18 @@ TEST(SweepTable, ShowsMeansOverTheSeedsWithTheirIntervalsUnlessEachJobIsWanted) 
   // Stresses below 0.1 MPa are in kPa, values in six digits, and an interval of round-off is none.
   expect_parts_in(
       text, {"  0.3       3  34.1 ± 4.9  V-shaped band (V), 2 of 3\n", "    2  2 of 3  99.1 ± 4.9  V-shaped band (V)\n",
-             "support plate 25.0 kPa", "95 % confidence interval", "1 run FAILED", "2 runs with warnings"});
+             "support plate 25.0 kPa", "0.658 (1 of 3)", "0.658 (1 of 2)", "--each says which",
+             "95 % confidence interval", "1 run FAILED", "2 runs with warnings"});
   EXPECT_THAT(text, Not(HasSubstr("seed ")));
   EXPECT_THAT(sweep_table_text(shown_table(table, true), ""), HasSubstr("jobs/1"));
+}
+
+TEST(SweepTable, NamesTheJobsWithWarnings) {
+  auto table = make_averaged_table();
+  auto& summary = *table.mutable_rows(0)->mutable_result()->mutable_summary();
+  for (const auto kind : {v1::Warning::BORDERS_NEAR, v1::Warning::WALLS_NECK, v1::Warning::WALLS_NECK})
+    summary.add_warnings()->set_kind(kind);
+  EXPECT_THAT(sweep_table_text(shown_table(table, true), ""), HasSubstr("prints them):\n  jobs/1: WALLS_NECK\n"));
 }
 
 TEST(SweepTable, AsCsvOfMeansHasIntervalsAndCounts) {

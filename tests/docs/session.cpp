@@ -69,7 +69,7 @@ class Ports {
 constexpr const char* kWrapper = R"(#!/bin/bash
 case "$1" in [a-z]*|--version) exec DAEMON "$@" ;; esac
 more=()
-case " $* " in *" --listen unix:/tmp/cellcrush-"*) exec DAEMON "$@" ;; esac  # a private one
+case " $* " in *"/socket --http none ") exec DAEMON "$@" ;; esac  # a private one of Python
 case " $* " in *" --config "*) exec DAEMON "$@" --http 127.0.0.1:8080 ;; esac
 case " $* " in
   *" --listen "*) ;;

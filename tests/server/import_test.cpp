@@ -95,6 +95,7 @@ TEST_F(ImportTest, WhatIsNoResultIsNamedWithTheRemedyAndNothingIsMade) {
                          HasSubstr("short.h5: the file is damaged or incomplete"), HasSubstr("absent: no such file")));
   EXPECT_FALSE(fs::exists(other()));
   EXPECT_THAT(refusal({folder_.path() / "data"}), HasSubstr("data: this folder has no result.h5"));
+  EXPECT_THAT(refusal({folder_.path() / std::string(300, 'x')}), HasSubstr("File name too long"));
   const auto used = e2e::run({CELLCRUSHD_PROGRAM, "import", "--data", data_folder().string(), file().string()},
                              std::chrono::seconds(30));
   EXPECT_EQ(used.exit_code, 1);

@@ -78,6 +78,17 @@ TEST_F(SweepsServiceTest, ABadPointLeavesNoJobAndIsNamed) {
   EXPECT_EQ(answer_of(*client().sweeps, &v1::Sweeps::Stub::ListSweeps, {}).sweeps_size(), 0);
 }
 
+TEST_F(SweepsServiceTest, SeedsOfACaseWithoutImperfectionsAreNoted) {
+  auto submitted = small_case();
+  submitted.mutable_lattice()->clear_imperfection();
+  auto client = this->client();
+  const auto sweep = create(client, sweep_of(submitted, "lattice.imperfection.seed", {1.0, 2.0}));
+  ASSERT_EQ(sweep.notes_size(), 1);
+  EXPECT_THAT(sweep.notes(0).message(), HasSubstr("has no effect"));
+  submitted.mutable_lattice()->mutable_imperfection()->set_bow_mm(0.01);
+  EXPECT_EQ(create(client, sweep_of(submitted, "lattice.imperfection.seed", {1.0, 2.0})).notes_size(), 0);
+}
+
 TEST_F(SweepsServiceTest, ImplausibleValuesOfTheCaseAreNotedOnce) {
   auto submitted = small_case();
   submitted.mutable_material()->set_density_kg_per_m3(2.7);
