@@ -69,6 +69,21 @@ class Sweeps(WithServer):
         self.assertEqual(file.summary.plateau_stress_impact_mpa, self.job.summary.plateau_stress_impact_mpa)
         self.assertEqual(file.case, self.job.case)
 
+    def test_only_a_whole_result_file_is_read(self):
+        whole = self.job.download(self.folder / "result.h5").read_bytes()
+        flipped = bytearray(whole)
+        flipped[len(whole) // 2] ^= 1
+        other = self.folder / "other.h5"
+        for content, wrong in ((bytes(flipped), "damaged.* Download it again"), (whole[:-1], "damaged"),
+                               (whole[:300], "damaged"), (whole[512:], "without the checksum"),
+                               (b"strain,stress", "not a result"), (b"", "not a result")):
+            other.write_bytes(content)
+            with self.assertRaisesRegex(cc.FileError, f"other.h5: .*{wrong}"):
+                cc.open(other)
+        for missing in (self.folder / "nothing.h5", self.folder):
+            with self.assertRaisesRegex(cc.FileError, f"{missing}: cannot be read.*Name a result.h5"):
+                cc.open(str(missing))
+
     def test_figures_fit_a_column(self):
         live = self.server.submit(PRESET, SMALL).live_plot()
         for ax in (self.job.plot(), self.sweep.plot(), self.job.plot_frame(0.4), live):
