@@ -14,6 +14,7 @@ from cellcrush.results import PathLike, Results
 from cellcrush.v1 import event_pb2, job_pb2, jobs_service_pb2
 from cellcrush.v1.case_pb2 import Case
 from cellcrush.v1.sample_pb2 import Sample
+from cellcrush.whole_file import whole_file
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -249,11 +250,11 @@ class Job(Results):
         return frames
 
     def download(self, path: PathLike = "result.h5") -> pathlib.Path:
-        """Saves the result file."""
+        """Saves the result file, whole: until then a file of this name stays as it is."""
         target = pathlib.Path(path)
         request = jobs_service_pb2.DownloadResultRequest(name=self.name)
         size = -1
-        with target.open("wb") as file:
+        with whole_file(target) as file:
             for chunk in self._connection.follow(self._connection.jobs.DownloadResult, lambda: request,
                                                  lambda: request.offset == size):
                 file.write(chunk.data)

@@ -2,6 +2,7 @@
 import asyncio
 import contextlib
 import io
+import itertools
 import os
 import pathlib
 import signal
@@ -10,6 +11,7 @@ import sys
 import threading
 import time
 import unittest
+from unittest import mock
 
 import cellcrush as cc
 import cellcrush.aio
@@ -61,6 +63,31 @@ class Jobs(WithServer):
         job.delete()
         with self.assertRaises(cc.NotFound):
             self.server.get(job.name)
+
+    def test_a_download_appears_whole_or_not_at_all(self):
+        file = self.folder / "result.h5"
+        file.write_text("of before")
+        job = self.server.submit(PRESET, SLOW).suspend()
+        with self.assertRaisesRegex(cc.CrushError, "no result"):
+            job.download(file)
+        job.cancel()
+        job = self.crush()
+        follow = job._connection.follow
+        with mock.patch.object(job._connection, "follow", lambda *of: itertools.chain(
+                itertools.islice(follow(*of), 1), self.lost())), self.assertRaises(cc.NotConnected):
+            job.download(file)
+        self.assertEqual([(path.name, path.read_text()) for path in self.folder.iterdir()], [(file.name, "of before")])
+        (self.folder / "link.h5").symlink_to(file)
+        job.download(self.folder / "link.h5")
+        self.assertEqual(cc.open(file).title, job.title)
+        for wrong, remedy in (("nofolder/x.h5", "Create it"), (".", "such as .*result.h5")):
+            with self.assertRaisesRegex(cc.FileError, remedy):
+                job.download(self.folder / wrong)
+
+    @staticmethod
+    def lost():
+        raise cc.NotConnected("lost the connection")
+        yield
 
     def test_a_request_id_names_one_job(self):
         jobs = [self.server.submit(PRESET, SMALL, request_id="once") for _ in range(2)]
