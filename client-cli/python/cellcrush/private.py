@@ -14,6 +14,7 @@ from cellcrush.errors import NotConnected
 from cellcrush.job import Job
 from cellcrush.results import PathLike
 from cellcrush.server import Server, connect
+from cellcrush.whole_file import require_place
 
 
 def _program() -> str:
@@ -58,6 +59,8 @@ def run(case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *, output: O
     """Crushes one case and returns its job, with all results in memory; `output` also saves the result file.
 
     Raises JobFailed if the job did not succeed, unless `check` is False."""
+    if output is not None:
+        require_place(pathlib.Path(output))
     with private_server() as server:
         job = server.submit(case, fields, **more).wait(progress, check)
         if job.summary.step_count:

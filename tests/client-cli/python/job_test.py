@@ -185,6 +185,12 @@ class Interruptions(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "plain text"):
             cc.connect("crusher.example.org:50551", token_file=str(token))
 
+    def test_run_refuses_an_impossible_output_before_the_crush(self):
+        with mock.patch("cellcrush.private.private_server") as started, self.assertRaisesRegex(
+                cc.FileError, "nofolder/x.h5: the folder .*nofolder does not exist. Create it"):
+            cc.run(PRESET, SMALL, output="nofolder/x.h5")
+        started.assert_not_called()
+
     def test_run_needs_no_daemon(self):
         with contextlib.ExitStack() as stack:
             import tempfile
