@@ -5,6 +5,8 @@ import warnings
 import cellcrush as cc
 import meshio
 import numpy as np
+import pandas
+from cellcrush.means import mean_table
 from support import PRESET, SMALL, WithServer
 
 
@@ -21,6 +23,7 @@ class Sweeps(WithServer):
         self.assertEqual(list(table["speed_m_per_s"]), [50] * 3 + [100] * 3 + [200] * 3)
         self.assertEqual(list(table["seed"]), [1, 2, 3] * 3)
         self.assertEqual(list(table["job"]), [job.name for job in self.sweep])
+        self.assertEqual(list(table["warnings"]), [len(job.summary.warnings) for job in self.sweep])
         self.assertEqual(len(self.sweep), 9)
         self.assertEqual(table.attrs["units"]["absorbed_energy_mj"], "mJ")
 
@@ -35,6 +38,30 @@ class Sweeps(WithServer):
         self.assertEqual(len(self.sweep.table(mean_over=["seed", "speed_m_per_s"])), 1)
         with self.assertRaisesRegex(ValueError, "varies speed_m_per_s, seed"):
             self.sweep.table(mean_over="rows")
+
+    def test_points_without_results_stay(self):
+        sweep = self.server.sweep(PRESET, SMALL, speed_m_per_s=[50, 100], seeds=2, amplitude_mm=0.02,
+                                  max_parallel=1).cancel().wait()
+        table = sweep.table(mean_over="seed")
+        self.assertEqual((list(table["speed_m_per_s"]), list(table["count"])), ([50, 100], [0, 0]))
+        self.assertTrue(table["plateau_stress_impact_mpa"].isna().all())
+        marks = [line for line in sweep.plot().get_lines() if line.get_label() == "no job succeeded"]
+        self.assertEqual(list(marks[0].get_xdata()), [50, 100])
+
+    def test_means_tell_how_many_jobs_they_have(self):
+        nan = float("nan")
+        table = pandas.DataFrame({
+            "speed": [1, 1, 1, 2, 2, 3], "seed": [1, 2, 3, 1, 2, 1], "warnings": [0, 2, 1, 0, 0, 5],
+            "state": ["SUCCEEDED", "SUCCEEDED", "FAILED", "SUCCEEDED", "SUCCEEDED", "FAILED"],
+            "plateau": [1.0, 3.0, 9.0, 5.0, 5.0, 9.0], "densification": [0.5, nan, 0.9, nan, nan, nan],
+            "front": [nan] * 6})
+        table.attrs["units"] = {}
+        means = mean_table(table, ["speed", "seed"], ["plateau", "densification", "front"], "seed")
+        self.assertEqual([list(means[name]) for name in ("speed", "count", "warned", "densification_count")],
+                         [[1, 2, 3], [2, 2, 0], [1, 0, 0], [1, 0, 0]])
+        np.testing.assert_array_equal(means["plateau"], [2.0, 5.0, nan])
+        self.assertFalse({"plateau_count", "front_count"} & set(means))
+        self.assertEqual(list(mean_table(table, ["speed", "seed"], ["plateau"], ["speed", "seed"])["count"]), [4])
 
     def test_seeds_without_an_imperfection_warn(self):
         with warnings.catch_warnings(record=True) as caught:
