@@ -109,8 +109,8 @@ class Job(Results):
 
     @property
     def progress(self) -> Any:
-        """Strain, fraction, seconds_left and more while it runs."""
-        return Values(self._message.progress)
+        """Strain, fraction, seconds_left and more while it runs, else None."""
+        return Values(self._message.progress, self._message.HasField("progress"))
 
     @property
     def summary(self) -> Any:

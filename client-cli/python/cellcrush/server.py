@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import uuid
 import warnings
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -32,6 +32,10 @@ class Check(Values):
     @property
     def notes(self) -> List[Problem]:
         return [problem_from(note) for note in self._message.notes]
+
+    def _rows(self) -> List[Tuple[str, str]]:
+        return [*(("problem", str(problem)) for problem in self.problems), *super()._rows(),
+                *(("note", str(note)) for note in self.notes)]
 
 
 class Server:

@@ -127,14 +127,12 @@ class Sweep:
         names = short_names(self.fields)
         records = []
         for row in self._rows():
-            summary = Job(self._connection, row.result).summary
-            known = row.result.HasField("summary")
-            values = summary.as_dict() if known else {}
+            values = Job(self._connection, row.result).summary.as_dict()
             record: Dict[str, Any] = dict(zip(names, row.values))
             record.update(job=row.job, state=job_pb2.Job.State.Name(row.result.state),
                           warnings=len(row.result.summary.warnings))
-            record.update({_column(path): values.get(path) for path in _RESULTS})
-            record["crush_mode"] = summary.crush_mode_words if known else ""
+            record.update({_column(path): values[path] for path in _RESULTS})
+            record["crush_mode"] = values["crush_mode_words"]
             records.append(record)
         columns = [_column(path) for path in _RESULTS]
         table = pandas.DataFrame(records, columns=[*names, "job", "state", "warnings", *columns, "crush_mode"])

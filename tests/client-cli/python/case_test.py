@@ -53,6 +53,12 @@ class Cases(WithServer):
         self.assertEqual(fields, [problem.field for problem in self.server.check(
             {"lattice.hexagon.columns": 1, "end_strain": 2}).problems])
 
+    def test_a_check_of_a_wrong_case_has_problems_and_no_numbers(self):
+        check = self.server.check({"lattice.hexagon.columns": 1, "end_strain": 2})
+        self.assertEqual((check.predicted_seconds, check.step_count, check.mass_g, check.theory.shock_mpa), (None,) * 4)
+        self.assertRegex(repr(check), "problem: lattice.hexagon.columns")
+        self.assertIn("depth_mm", check._repr_html_())
+
     def test_what_cannot_be_read_is_refused(self):
         for source in ("nothing.txtpb", "depth_mm: x", '{"depth": 4}'):
             with self.assertRaises(cc.CaseError, msg=source):

@@ -50,6 +50,24 @@ class Jobs(WithServer):
             "depth_mm": 1, "youngs_modulus_mpa": 70000, "yield_stress_mpa": 100, "density_kg_per_m3": 2700}
         job = self.server.submit(frame, sample_count=20).wait()
         self.assertGreater(job.samples()["nodes.b.uy_mm"][-1], 0.0)
+        check = self.server.check(frame)
+        self.assertEqual((check.relative_density, check.length_mm), (None, None))
+        for theory in (job.summary.theory, check.theory):
+            self.assertEqual((theory.shock_mpa, theory.gibson_ashby_mpa), (None, None))
+
+    def test_what_a_job_has_not_got_is_none(self):
+        job = self.server.submit(PRESET, SLOW)
+        summary = job.summary
+        for value in (summary.absorbed_energy_mj, summary.energy_error_relative, summary.theory.shock_mpa,
+                      summary.front.shock_mpa, summary.quasi_static.kinetic_share, job.suspend().progress.fraction):
+            self.assertIsNone(value)
+        self.assertFalse(summary.front)
+        self.assertNotIn(" 0", repr(summary))
+        job.cancel()
+        crush = self.crush(speed_m_per_s=1)
+        self.assertIsNone(crush.summary.front.shock_mpa)
+        self.assertGreater(crush.summary.absorbed_energy_mj, 0.0)
+        self.assertGreater(crush.summary.theory.shock_mpa, 0.0)
 
     def test_commands_change_the_state(self):
         job = self.server.submit(PRESET, SLOW, labels={"study": "walls"})
