@@ -23,12 +23,13 @@ ENDED = (job_pb2.Job.SUCCEEDED, job_pb2.Job.FAILED, job_pb2.Job.CANCELLED)
 
 
 @contextmanager
-def leaves_running(name: str) -> Iterator[None]:
-    """Ctrl-C ends the wait, not what is waited for."""
+def leaves_running(name: str, connection: Connection) -> Iterator[None]:
+    """Ctrl-C ends the wait, not what is waited for, unless the daemon ends with this script."""
     try:
         yield
     except KeyboardInterrupt:
-        print(f"\n{name} keeps running; get({name!r}) of the server finds it again", file=sys.stderr)
+        if not connection.is_private:
+            print(f"\n{name} keeps running; get({name!r}) of the server finds it again", file=sys.stderr)
         raise
 
 
@@ -141,7 +142,7 @@ class Job(Results):
         """The kind of each event (snapshot, state, sample, progress ...) with all that came so far, up to the end."""
         watch = JobWatch(self._message)
         stream = self._connection.follow(self._connection.jobs.WatchJob, lambda: watch.request, watch.has_ended)
-        with leaves_running(self.name):
+        with leaves_running(self.name, self._connection):
             for event in stream:
                 kind = watch.take(event)
                 if kind in ("snapshot", "state"):
@@ -159,7 +160,8 @@ class Job(Results):
     def wait(self, progress: "bool | None" = None, check: bool = True) -> "Job":
         """Waits for the end of the job. A bar shows on terminals and in notebooks, always or never with `progress`.
 
-        Raises JobFailed if it did not succeed, unless `check` is False. Ctrl-C leaves the job running."""
+        Raises JobFailed if it did not succeed, unless `check` is False. Ctrl-C leaves the job running,
+        but stops a private server."""
         bar = Bar(self.name, progress)
         for kind, watch in self.events():
             if kind in ("progress", "snapshot"):

@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 from contextlib import contextmanager
 from typing import Any, Iterator, Mapping, Optional
@@ -43,7 +44,12 @@ def private_server(data: Optional[PathLike] = None) -> Iterator[Server]:
                 lines = log.read_text().splitlines() or ["it ended at once"]
                 raise NotConnected(f"{command[0]} does not start: {lines[-1]}")
             with connect(address, patience_s=10.0) as server:
+                server._connection.is_private = True
                 yield server
+        except KeyboardInterrupt:
+            kept = f"; a daemon with the data folder {data} continues them" if data else ""
+            print(f"\nthe private server stops, and its jobs with it{kept}", file=sys.stderr)
+            raise
         finally:
             daemon.terminate()
             try:

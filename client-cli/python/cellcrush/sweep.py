@@ -107,7 +107,7 @@ class Sweep:
     def wait(self, progress: "bool | None" = None) -> "Sweep":
         """Waits until all jobs have ended, however: `states` counts how. Ctrl-C leaves them running."""
         bar, watch = Bar(self.name, progress), SweepWatch(self.name)
-        with leaves_running(self.name):
+        with leaves_running(self.name, self._connection):
             for message in self._connection.follow(self._connection.sweeps.WatchSweep, lambda: watch.request,
                                                    watch.has_ended):
                 watch.take(message)

@@ -148,9 +148,9 @@ class Jobs(WithServer):
         self.assertRegex(shown.getvalue(), "100%  SUCCEEDED")
 
     def test_ctrl_c_leaves_the_job_running(self):
-        job = self.server.submit(PRESET, SLOW)
-        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
+        server = self.enterContext(cc.connect(self.server.address))
+        job = server.submit(PRESET, SLOW)
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
         with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt):
             job.wait()
         self.assertIn(f"{job.name} keeps running", said.getvalue())
@@ -159,6 +159,15 @@ class Jobs(WithServer):
 
 
 class Interruptions(unittest.TestCase):
+    def test_ctrl_c_stops_a_private_server(self):
+        for wait in (lambda server: server.submit(PRESET, SLOW).wait(),
+                     lambda server: server.sweep(PRESET, SLOW, speed_m_per_s=[0.5, 1]).wait()):
+            threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+            with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt):
+                with cc.private_server() as server:
+                    wait(server)
+            self.assertEqual(said.getvalue(), "\nthe private server stops, and its jobs with it\n")
+
     def start(self, folder):
         daemon = subprocess.Popen([os.environ["CELLCRUSHD"], "--data", f"{folder}/data", "--listen",
                                    f"unix:{folder}/s", "--http", "none"], stdout=subprocess.PIPE, text=True)
