@@ -67,7 +67,7 @@ class Sweeps(WithServer):
     def test_seeds_without_an_imperfection_warn(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            sweep = self.server.sweep(PRESET, SMALL, seeds=2).cancel()
+            sweep = self.server.sweep(PRESET, SLOW, seeds=2).cancel()
         self.assertRegex(str(caught[0].message), "amplitude_mm=0.01")
         sweep.retry().wait()  # no job failed, so none runs again
         self.assertEqual(sweep.states, {"CANCELLED": 2})
