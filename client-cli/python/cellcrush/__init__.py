@@ -16,4 +16,5 @@ from cellcrush.sweep import Sweep
 from cellcrush.v1.case_pb2 import Case
 
 __all__ = ["Case", "CaseError", "Check", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
-           "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "Sweep", "connect", "open", "private_server", "run"]
+           "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "Sweep", "connect", "open", "private_server",
+           "run"]
