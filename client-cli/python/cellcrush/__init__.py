@@ -7,7 +7,7 @@
 2.4
 """
 from cellcrush.arrays import Frames, Mesh
-from cellcrush.errors import CaseError, CrushError, JobFailed, NotConnected, NotFound, Problem
+from cellcrush.errors import CaseError, CrushError, FileError, JobFailed, NotConnected, NotFound, Problem
 from cellcrush.job import Job
 from cellcrush.private import private_server, run
 from cellcrush.result_file import ResultFile, open
@@ -15,5 +15,6 @@ from cellcrush.server import Check, Server, connect
 from cellcrush.sweep import Sweep
 from cellcrush.v1.case_pb2 import Case
 
-__all__ = ["Case", "CaseError", "Check", "CrushError", "Frames", "Job", "JobFailed", "Mesh", "NotConnected", "NotFound",
-           "Problem", "ResultFile", "Server", "Sweep", "connect", "open", "private_server", "run"]
+__all__ = ["Case", "CaseError", "Check", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
+           "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "Sweep", "connect", "open", "private_server",
+           "run"]

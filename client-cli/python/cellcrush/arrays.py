@@ -96,17 +96,34 @@ def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:
                   np.array([p.reshape(-1, 2) for p in positions]), np.array(plastic))
 
 
+_NUMBERS = (FieldDescriptor.TYPE_DOUBLE, FieldDescriptor.TYPE_INT64)
+# By message or field, the number that is above 0 where it is known. A frame has no relative density.
+_KNOWN_BY = {"Summary": "step_count", "CheckCaseResponse": "step_count", "Theory": "shock_mpa",
+             **dict.fromkeys(("length_mm", "width_mm", "relative_density"), "relative_density")}
+
+
 class Values:
-    """The numbers of a summary by name; None where the run does not give one.
+    """The numbers of a summary by name; None where the run does not give one. A group without values is false.
 
     >>> from cellcrush.v1.sample_pb2 import Summary
     >>> values = Values(Summary(densification_strain=0.5))
-    >>> values.densification_strain, values.plateau_stress_impact_mpa
-    (0.5, None)
+    >>> values.densification_strain, values.absorbed_energy_mj, values.front.shock_mpa, bool(values.front)
+    (0.5, None, None, False)
     """
 
-    def __init__(self, message: Message) -> None:
+    def __init__(self, message: Message, is_present: bool = True) -> None:
         self._message: Any = message
+        self._is_present = is_present
+
+    def __bool__(self) -> bool:
+        return self._is_present
+
+    def _has(self, field: FieldDescriptor) -> bool:
+        if field.has_presence:
+            return bool(self._message.HasField(field.name))
+        known_by = _KNOWN_BY.get(field.name, _KNOWN_BY.get(self._message.DESCRIPTOR.name))
+        is_known = known_by is None or field.type not in _NUMBERS or getattr(self._message, known_by) > 0
+        return self._is_present and is_known
 
     def __getattr__(self, name: str) -> Any:
         field = self._message.DESCRIPTOR.fields_by_name.get(name)
@@ -114,11 +131,11 @@ class Values:
             raise AttributeError(name)
         if field.label == FieldDescriptor.LABEL_REPEATED:
             return list(getattr(self._message, name))
-        if field.has_presence and not self._message.HasField(name):
-            return None
-        value = getattr(self._message, name)
+        value, has = getattr(self._message, name), self._has(field)
         if field.message_type is not None:
-            return Values(value)
+            return Values(value, has)
+        if not has:
+            return None
         return field.enum_type.values_by_number[value].name if field.enum_type else value
 
     def __dir__(self) -> List[str]:

@@ -3,10 +3,11 @@ from __future__ import annotations
 
 import difflib
 import functools
+import operator
 import os
 import pathlib
 import re
-from typing import Any, Callable, Iterator, Mapping, Optional, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Union
 
 from google.protobuf import json_format, text_format
 from google.protobuf.descriptor import Descriptor, FieldDescriptor
@@ -18,8 +19,10 @@ from cellcrush.v1.case_pb2 import Case
 CaseLike = Union[Case, Mapping[str, Any], str, "os.PathLike[str]"]
 
 _PRESET = "preset:"
+_FORMS = "Give a file, preset:NAME, text or a dict."
 _WHOLE = (FieldDescriptor.TYPE_INT32, FieldDescriptor.TYPE_INT64, FieldDescriptor.TYPE_UINT32,
           FieldDescriptor.TYPE_UINT64)
+_MAX_SEEDS = 100000
 
 
 def _refuse(field: str, value: object, message: str, remedy: str) -> CaseError:
@@ -91,7 +94,7 @@ def _scalar(field: FieldDescriptor, value: Any, path: str) -> Any:
             return field.enum_type.values_by_name[value.upper()].number
         if isinstance(value, int) and value in field.enum_type.values_by_number:
             return value
-        raise _refuse(path, value, "is not valid.", "Give one of " + ", ".join(names) + ".")
+        raise _refuse(path, str(value), "is not valid.", "Give one of " + ", ".join(names) + ".")
     try:
         if field.type == FieldDescriptor.TYPE_STRING:
             return str(value)
@@ -109,7 +112,38 @@ def _scalar(field: FieldDescriptor, value: Any, path: str) -> Any:
     except (TypeError, ValueError, OverflowError):
         kind = {FieldDescriptor.TYPE_BOOL: "True or False", FieldDescriptor.TYPE_STRING: "a text"}.get(
             field.type, "a whole number" if field.type in _WHOLE else "a number")
-        raise _refuse(path, value, "is not valid.", f"Give {kind}.") from None
+        raise _refuse(path, str(value), "is not valid.", f"Give {kind}.") from None
+
+
+def swept_values(path: str, values: Iterable[Any]) -> list[float]:
+    """The values of an axis of a sweep.
+
+    >>> swept_values("depth_mm", range(2, 4))
+    [2.0, 3.0]
+    """
+    numbers = []
+    for value in values:
+        try:
+            numbers.append(float(value))
+        except (TypeError, ValueError):
+            raise _refuse(path, str(value), "takes only numbers in a sweep.",
+                          "Give numbers, or submit a sweep for each value.") from None
+    return numbers
+
+
+def seed_count(value: Any) -> int:
+    """How many seeds a sweep has; 0 for none.
+
+    >>> seed_count(3)
+    3
+    """
+    try:
+        count = operator.index(value)
+    except TypeError:
+        count = -1
+    if not 0 <= count <= _MAX_SEEDS:
+        raise _refuse("seeds", str(value), "is not valid.", f"Give a whole number from 1 to {_MAX_SEEDS}.")
+    return count
 
 
 def _fill(message: Message, values: Mapping[str, Any], prefix: str) -> None:
@@ -205,13 +239,14 @@ def build_case(source: CaseLike, fields: Mapping[str, Any], preset: Callable[[st
         case.CopyFrom(preset(source[len(_PRESET):]))
     elif isinstance(source, str) and re.search(r"[{\n]|:\s", source):
         case = parse_case(source)
+    elif not isinstance(source, (str, os.PathLike)):
+        raise _refuse("case", repr(source), "cannot be read.", _FORMS)
     else:
         try:
             text = pathlib.Path(source).read_text()
         except (OSError, UnicodeDecodeError) as error:
             reason = error.strerror if isinstance(error, OSError) else "not a text file"
-            raise _refuse("case", None, f"cannot be read: {source}: {reason}.",
-                          "Give a file, preset:NAME, text or a dict.") from None
+            raise _refuse("case", None, f"cannot be read: {source}: {reason}.", _FORMS) from None
         case = parse_case(text, str(source))
     for word, value in fields.items():
         set_field(case, find_path(word, case), value)

@@ -59,6 +59,7 @@ class Connection:
                  key: Optional[str], patience_s: float) -> None:
         self.address = find_address(address)
         self.patience_s = patience_s
+        self.is_private = False  # whether the daemon ends with this script
         self.metadata: Tuple[Tuple[str, str], ...] = ()
         self.credentials: Optional[grpc.ChannelCredentials] = None
         if not self.address.startswith("unix:"):

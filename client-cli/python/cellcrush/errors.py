@@ -22,6 +22,10 @@ class NotFound(CrushError, LookupError):
     """No job, sweep or preset has this name."""
 
 
+class FileError(CrushError, OSError):
+    """A file cannot be read or written, or is no whole result."""
+
+
 @dataclass(frozen=True)
 class Problem:
     """What is wrong with one field of a case, and how to correct it."""

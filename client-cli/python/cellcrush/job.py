@@ -14,6 +14,7 @@ from cellcrush.results import PathLike, Results
 from cellcrush.v1 import event_pb2, job_pb2, jobs_service_pb2
 from cellcrush.v1.case_pb2 import Case
 from cellcrush.v1.sample_pb2 import Sample
+from cellcrush.whole_file import whole_file
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -22,12 +23,13 @@ ENDED = (job_pb2.Job.SUCCEEDED, job_pb2.Job.FAILED, job_pb2.Job.CANCELLED)
 
 
 @contextmanager
-def leaves_running(name: str) -> Iterator[None]:
-    """Ctrl-C ends the wait, not what is waited for."""
+def leaves_running(name: str, connection: Connection) -> Iterator[None]:
+    """Ctrl-C ends the wait, not what is waited for, unless the daemon ends with this script."""
     try:
         yield
     except KeyboardInterrupt:
-        print(f"\n{name} keeps running; get({name!r}) of the server finds it again", file=sys.stderr)
+        if not connection.is_private:
+            print(f"\n{name} keeps running; get({name!r}) of the server finds it again", file=sys.stderr)
         raise
 
 
@@ -108,8 +110,8 @@ class Job(Results):
 
     @property
     def progress(self) -> Any:
-        """Strain, fraction, seconds_left and more while it runs."""
-        return Values(self._message.progress)
+        """Strain, fraction, seconds_left and more while it runs, else None."""
+        return Values(self._message.progress, self._message.HasField("progress"))
 
     @property
     def summary(self) -> Any:
@@ -140,7 +142,7 @@ class Job(Results):
         """The kind of each event (snapshot, state, sample, progress ...) with all that came so far, up to the end."""
         watch = JobWatch(self._message)
         stream = self._connection.follow(self._connection.jobs.WatchJob, lambda: watch.request, watch.has_ended)
-        with leaves_running(self.name):
+        with leaves_running(self.name, self._connection):
             for event in stream:
                 kind = watch.take(event)
                 if kind in ("snapshot", "state"):
@@ -158,7 +160,8 @@ class Job(Results):
     def wait(self, progress: "bool | None" = None, check: bool = True) -> "Job":
         """Waits for the end of the job. A bar shows on terminals and in notebooks, always or never with `progress`.
 
-        Raises JobFailed if it did not succeed, unless `check` is False. Ctrl-C leaves the job running."""
+        Raises JobFailed if it did not succeed, unless `check` is False. Ctrl-C leaves the job running,
+        but stops a private server."""
         bar = Bar(self.name, progress)
         for kind, watch in self.events():
             if kind in ("progress", "snapshot"):
@@ -249,11 +252,11 @@ class Job(Results):
         return frames
 
     def download(self, path: PathLike = "result.h5") -> pathlib.Path:
-        """Saves the result file."""
+        """Saves the result file, whole: until then a file of this name stays as it is."""
         target = pathlib.Path(path)
         request = jobs_service_pb2.DownloadResultRequest(name=self.name)
         size = -1
-        with target.open("wb") as file:
+        with whole_file(target) as file:
             for chunk in self._connection.follow(self._connection.jobs.DownloadResult, lambda: request,
                                                  lambda: request.offset == size):
                 file.write(chunk.data)

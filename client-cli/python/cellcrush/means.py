@@ -47,18 +47,22 @@ def half_width(values: "pandas.Series[Any]") -> float:
 
 def mean_table(table: "pandas.DataFrame", fields: List[str], results: List[str],
                over: Union[str, Sequence[str]]) -> "pandas.DataFrame":
-    """The rows that succeeded, averaged over some of the varied fields."""
+    """The results of the rows that succeeded, averaged over some of the varied fields. A point where none did stays."""
     averaged = [over] if isinstance(over, str) else list(over)
     unknown = [name for name in averaged if name not in fields]
     if unknown:
         raise ValueError(f"mean_over {unknown[0]!r} is not varied; the sweep varies {', '.join(fields)}")
     kept = [name for name in fields if name not in averaged]
-    done = table[table["state"] == "SUCCEEDED"]
-    groups = done.groupby(kept, sort=False) if kept else done.groupby(lambda _: 0)
-    means, widths = groups[results].mean(), groups[results].agg(half_width)
-    out = groups.size().to_frame("count")
+    done = table["state"] == "SUCCEEDED"
+    points = [table[name] for name in kept] if kept else (lambda _: 0)
+    groups = table[results].where(done).groupby(points, sort=False)
+    means, widths, counts = groups.mean(), groups.agg(half_width), groups.count()
+    out = done.groupby(points, sort=False).sum().to_frame("count")
+    out["warned"] = (done & (table["warnings"] > 0)).groupby(points, sort=False).sum()
     for name in results:
         out[name] = means[name]
+        if (counts[name] % out["count"]).any():  # neither none nor all
+            out[name + "_count"] = counts[name]
         if name not in THEORY:
             out[name + "_ci95"] = widths[name]
     out = out.reset_index(drop=not kept)

@@ -108,9 +108,12 @@ def plot_sweep(sweep: "Sweep", ax: "Optional[matplotlib.axes.Axes]" = None, widt
                                 markersize=3, linewidth=0.8, capsize=2, elinewidth=0.6, color=colour, linestyle=line,
                                 label=(group if plate == "impact" else None) if group else f"{plate} plate")
             colour = drawn[0].get_color() if group else None
+    missing = table[first][table["count"] == 0]
+    if len(missing):
+        ax.plot(missing, [0.0] * len(missing), "x", color=_GREY, markersize=4, clip_on=False, label="no job succeeded")
     if others:
         ax.plot([], [], color=_GREY, linewidth=0.8, linestyle="--", marker="s", markersize=3, label="support")
-    theory = table["shock_mpa"].notna() & (table["shock_mpa"] > 0)
+    theory = table["shock_mpa"].notna()
     if first == "speed_m_per_s" and not others and theory.sum() > 1:
         slope, constant = np.polyfit(table[first][theory] ** 2, table["shock_mpa"][theory], 1)
         speeds = np.linspace(table[first].min(), table[first].max(), 200)

@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 from contextlib import contextmanager
 from typing import Any, Iterator, Mapping, Optional
@@ -14,6 +15,7 @@ from cellcrush.errors import NotConnected
 from cellcrush.job import Job
 from cellcrush.results import PathLike
 from cellcrush.server import Server, connect
+from cellcrush.whole_file import require_place
 
 
 def _program() -> str:
@@ -42,7 +44,12 @@ def private_server(data: Optional[PathLike] = None) -> Iterator[Server]:
                 lines = log.read_text().splitlines() or ["it ended at once"]
                 raise NotConnected(f"{command[0]} does not start: {lines[-1]}")
             with connect(address, patience_s=10.0) as server:
+                server._connection.is_private = True
                 yield server
+        except KeyboardInterrupt:
+            kept = f"; a daemon with the data folder {data} continues them" if data else ""
+            print(f"\nthe private server stops, and its jobs with it{kept}", file=sys.stderr)
+            raise
         finally:
             daemon.terminate()
             try:
@@ -58,6 +65,8 @@ def run(case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *, output: O
     """Crushes one case and returns its job, with all results in memory; `output` also saves the result file.
 
     Raises JobFailed if the job did not succeed, unless `check` is False."""
+    if output is not None:
+        require_place(pathlib.Path(output))
     with private_server() as server:
         job = server.submit(case, fields, **more).wait(progress, check)
         if job.summary.step_count:

@@ -1,15 +1,39 @@
 """Result files (result.h5), read by h5py."""
 from __future__ import annotations
 
+import pathlib
+import zlib
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
 from cellcrush.arrays import Array, Frames, Mesh
-from cellcrush.errors import need
+from cellcrush.errors import FileError, need
 from cellcrush.results import PathLike, Results
 from cellcrush.case import parse_case
+
+_SEAL_BYTES = 512
+
+
+def _check_seal(path: pathlib.Path) -> None:
+    """Compares a file with the checksum in its first block."""
+    crc = size = 0
+    try:
+        with path.open("rb") as file:
+            found = file.read(_SEAL_BYTES)
+            while part := file.read(1 << 20):
+                crc, size = zlib.crc32(part, crc), size + len(part)
+    except OSError as error:
+        raise FileError(f"{path}: cannot be read: {error.strerror}. Name a result.h5.") from None
+    if found.startswith(b"\x89HDF"):
+        raise FileError(f"{path}: an HDF5 file without the checksum of cellcrush: another program or an early version "
+                        "wrote it. Run its case again, or read it with h5py.")
+    if not found.startswith(b"CELLCRUSH RESULT"):
+        raise FileError(f"{path}: not a result of cellcrush. Name a result.h5.")
+    if found != f"CELLCRUSH RESULT 1 {crc} {size}\n".encode().ljust(_SEAL_BYTES, b"\0"):
+        raise FileError(f"{path}: damaged or incomplete: its contents do not match its checksum. Download it again, or "
+                        "run its case again.")
 
 
 class ResultFile(Results):
@@ -17,6 +41,7 @@ class ResultFile(Results):
 
     def __init__(self, path: PathLike) -> None:
         h5py = need("h5py", "python3-h5py")
+        _check_seal(pathlib.Path(path))
         with h5py.File(path, "r") as file:
             self.attributes: dict[str, Any] = dict(file.attrs)
             history = {name: column[()] for name, column in file["history"].items()}
@@ -50,5 +75,7 @@ class ResultFile(Results):
 
 
 def open(path: PathLike) -> ResultFile:  # noqa: A001
-    """Reads a result file: history, frames, mesh, plots and datasets as from a job."""
+    """Reads a result file: history, frames, mesh, plots and datasets as from a job.
+
+    Raises FileError if the file is missing, damaged or no result."""
     return ResultFile(path)

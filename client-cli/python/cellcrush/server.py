@@ -3,12 +3,12 @@ from __future__ import annotations
 
 import uuid
 import warnings
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from cellcrush.arrays import Values
-from cellcrush.case import CaseLike, build_case, find_path, set_field
+from cellcrush.case import CaseLike, build_case, find_path, seed_count, set_field, swept_values
 from cellcrush.connection import Connection
 from cellcrush.errors import Problem, problem_from
 from cellcrush.explain import explain
@@ -32,6 +32,10 @@ class Check(Values):
     @property
     def notes(self) -> List[Problem]:
         return [problem_from(note) for note in self._message.notes]
+
+    def _rows(self) -> List[Tuple[str, str]]:
+        return [*(("problem", str(problem)) for problem in self.problems), *super()._rows(),
+                *(("note", str(note)) for note in self.notes)]
 
 
 class Server:
@@ -88,12 +92,12 @@ class Server:
         for word, value in {**(fields or {}), **more}.items():
             path = find_path(word, base)
             if isinstance(value, SEVERAL):
-                values = sweep_pb2.SweepAxis.List(values=[float(number) for number in value])
+                values = sweep_pb2.SweepAxis.List(values=swept_values(path, value))
                 axes.append(sweep_pb2.SweepAxis(field=path, list=values))
             else:
                 set_field(base, path, value)
-        if seeds:
-            axes.append(sweep_pb2.SweepAxis(field=SEED, seed_count=seeds))
+        if count := seed_count(seeds):
+            axes.append(sweep_pb2.SweepAxis(field=SEED, seed_count=count))
             self._warn_of_equal_seeds(base, [axis.field for axis in axes])
         request = sweeps_service_pb2.CreateSweepRequest(request_id=request_id or str(uuid.uuid4()))
         request.sweep.MergeFrom(sweep_pb2.Sweep(

@@ -107,7 +107,7 @@ class Sweep:
     def wait(self, progress: "bool | None" = None) -> "Sweep":
         """Waits until all jobs have ended, however: `states` counts how. Ctrl-C leaves them running."""
         bar, watch = Bar(self.name, progress), SweepWatch(self.name)
-        with leaves_running(self.name):
+        with leaves_running(self.name, self._connection):
             for message in self._connection.follow(self._connection.sweeps.WatchSweep, lambda: watch.request,
                                                    watch.has_ended):
                 watch.take(message)
@@ -117,24 +117,25 @@ class Sweep:
         return self
 
     def table(self, mean_over: Union[str, Sequence[str], None] = None) -> "pandas.DataFrame":
-        """The results, a row for each job; `attrs["units"]` has the units.
+        """The results, a row for each job with the number of its `warnings`; `attrs["units"]` has the units.
 
-        With `mean_over`, such as "seed", a row for all jobs that differ in these fields alone: the mean of each result
-        over those that succeeded, the half-width of its 95 % confidence interval (`..._ci95`) and their `count`."""
+        With `mean_over`, such as "seed", a row for all jobs that differ in these fields alone: the `count` of those
+        that succeeded, how many of these are `warned`, the mean of each result over them (NaN where there are none)
+        and the half-width of its 95 % confidence interval (`..._ci95`). A result that only some of them have also
+        has their number (`..._count`)."""
         pandas = need("pandas", "python3-pandas")
         names = short_names(self.fields)
         records = []
         for row in self._rows():
-            summary = Job(self._connection, row.result).summary
-            known = row.result.HasField("summary")
-            values = summary.as_dict() if known else {}
+            values = Job(self._connection, row.result).summary.as_dict()
             record: Dict[str, Any] = dict(zip(names, row.values))
-            record.update(job=row.job, state=job_pb2.Job.State.Name(row.result.state))
-            record.update({_column(path): values.get(path) for path in _RESULTS})
-            record["crush_mode"] = summary.crush_mode_words if known else ""
+            record.update(job=row.job, state=job_pb2.Job.State.Name(row.result.state),
+                          warnings=len(row.result.summary.warnings))
+            record.update({_column(path): values[path] for path in _RESULTS})
+            record["crush_mode"] = values["crush_mode_words"]
             records.append(record)
         columns = [_column(path) for path in _RESULTS]
-        table = pandas.DataFrame(records, columns=[*names, "job", "state", *columns, "crush_mode"])
+        table = pandas.DataFrame(records, columns=[*names, "job", "state", "warnings", *columns, "crush_mode"])
         table[columns] = table[columns].astype(float)
         table.attrs.update(title=self.case.title, units=units_of(table.columns))
         return mean_table(table, names, columns, mean_over) if mean_over is not None else table

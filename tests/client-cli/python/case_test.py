@@ -2,6 +2,7 @@
 import unittest
 
 import cellcrush as cc
+import numpy as np
 from support import PRESET, SMALL, WithServer
 
 
@@ -43,6 +44,17 @@ class Cases(WithServer):
             self.assertEqual(problem.field, field)
             self.assertIn(remedy, problem.remedy)
 
+    def test_wrong_values_of_a_sweep_are_named(self):
+        for fields, field, value in (({"direction": ["X", "Y"]}, "loading.direction", "X"),
+                                     ({"speed_m_per_s": [40, "50 m/s"]}, "loading.speed_m_per_s", "50 m/s"),
+                                     ({"columns": [None]}, "lattice.hexagon.columns", "None"),
+                                     ({"depth_mm": np.ones((2, 2))}, "depth_mm", r"\[1. 1.\]"),
+                                     ({"depth_mm": [3], "speed_m_per_s": None}, "loading.speed_m_per_s", "None"),
+                                     ({"seeds": "3"}, "seeds", "3"), ({"seeds": 2.5}, "seeds", "2.5"),
+                                     ({"seeds": -1}, "seeds", "-1"), ({"seeds": 10**12}, "seeds", "1000000000000")):
+            with self.assertRaisesRegex(cc.CaseError, rf"^{field} .*\(found {value}\) Give", msg=fields):
+                self.server.sweep(PRESET, **fields)
+
     def test_the_daemon_lists_all_problems(self):
         with self.assertRaises(cc.CaseError) as raised:
             self.server.submit({"lattice.hexagon.columns": 1, "end_strain": 2})
@@ -53,9 +65,18 @@ class Cases(WithServer):
         self.assertEqual(fields, [problem.field for problem in self.server.check(
             {"lattice.hexagon.columns": 1, "end_strain": 2}).problems])
 
+    def test_a_check_of_a_wrong_case_has_problems_and_no_numbers(self):
+        check = self.server.check({"lattice.hexagon.columns": 1, "end_strain": 2})
+        self.assertEqual((check.predicted_seconds, check.step_count, check.mass_g, check.theory.shock_mpa), (None,) * 4)
+        self.assertRegex(repr(check), "problem: lattice.hexagon.columns")
+        self.assertIn("depth_mm", check._repr_html_())
+
     def test_what_cannot_be_read_is_refused(self):
         for source in ("nothing.txtpb", "depth_mm: x", '{"depth": 4}'):
             with self.assertRaises(cc.CaseError, msg=source):
+                self.server.submit(source)
+        for source in (None, 7, [PRESET]):
+            with self.assertRaisesRegex(cc.CaseError, "case cannot be read.*found .*Give a file, preset:NAME"):
                 self.server.submit(source)
         with self.assertRaisesRegex(cc.NotFound, "hexagon-small"):
             self.server.submit("preset:hexagon-smal")

@@ -2,6 +2,7 @@
 import asyncio
 import contextlib
 import io
+import itertools
 import os
 import pathlib
 import signal
@@ -10,6 +11,7 @@ import sys
 import threading
 import time
 import unittest
+from unittest import mock
 
 import cellcrush as cc
 import cellcrush.aio
@@ -48,6 +50,24 @@ class Jobs(WithServer):
             "depth_mm": 1, "youngs_modulus_mpa": 70000, "yield_stress_mpa": 100, "density_kg_per_m3": 2700}
         job = self.server.submit(frame, sample_count=20).wait()
         self.assertGreater(job.samples()["nodes.b.uy_mm"][-1], 0.0)
+        check = self.server.check(frame)
+        self.assertEqual((check.relative_density, check.length_mm), (None, None))
+        for theory in (job.summary.theory, check.theory):
+            self.assertEqual((theory.shock_mpa, theory.gibson_ashby_mpa), (None, None))
+
+    def test_what_a_job_has_not_got_is_none(self):
+        job = self.server.submit(PRESET, SLOW)
+        summary = job.summary
+        for value in (summary.absorbed_energy_mj, summary.energy_error_relative, summary.theory.shock_mpa,
+                      summary.front.shock_mpa, summary.quasi_static.kinetic_share, job.suspend().progress.fraction):
+            self.assertIsNone(value)
+        self.assertFalse(summary.front)
+        self.assertNotIn(" 0", repr(summary))
+        job.cancel()
+        crush = self.crush(speed_m_per_s=1)
+        self.assertIsNone(crush.summary.front.shock_mpa)
+        self.assertGreater(crush.summary.absorbed_energy_mj, 0.0)
+        self.assertGreater(crush.summary.theory.shock_mpa, 0.0)
 
     def test_commands_change_the_state(self):
         job = self.server.submit(PRESET, SLOW, labels={"study": "walls"})
@@ -61,6 +81,31 @@ class Jobs(WithServer):
         job.delete()
         with self.assertRaises(cc.NotFound):
             self.server.get(job.name)
+
+    def test_a_download_appears_whole_or_not_at_all(self):
+        file = self.folder / "result.h5"
+        file.write_text("of before")
+        job = self.server.submit(PRESET, SLOW).suspend()
+        with self.assertRaisesRegex(cc.CrushError, "no result"):
+            job.download(file)
+        job.cancel()
+        job = self.crush()
+        follow = job._connection.follow
+        with mock.patch.object(job._connection, "follow", lambda *of: itertools.chain(
+                itertools.islice(follow(*of), 1), self.lost())), self.assertRaises(cc.NotConnected):
+            job.download(file)
+        self.assertEqual([(path.name, path.read_text()) for path in self.folder.iterdir()], [(file.name, "of before")])
+        (self.folder / "link.h5").symlink_to(file)
+        job.download(self.folder / "link.h5")
+        self.assertEqual(cc.open(file).title, job.title)
+        for wrong, remedy in (("nofolder/x.h5", "Create it"), (".", "such as .*result.h5")):
+            with self.assertRaisesRegex(cc.FileError, remedy):
+                job.download(self.folder / wrong)
+
+    @staticmethod
+    def lost():
+        raise cc.NotConnected("lost the connection")
+        yield
 
     def test_a_request_id_names_one_job(self):
         jobs = [self.server.submit(PRESET, SMALL, request_id="once") for _ in range(2)]
@@ -103,9 +148,9 @@ class Jobs(WithServer):
         self.assertRegex(shown.getvalue(), "100%  SUCCEEDED")
 
     def test_ctrl_c_leaves_the_job_running(self):
-        job = self.server.submit(PRESET, SLOW)
-        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
+        server = self.enterContext(cc.connect(self.server.address))
+        job = server.submit(PRESET, SLOW)
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
         with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt):
             job.wait()
         self.assertIn(f"{job.name} keeps running", said.getvalue())
@@ -114,6 +159,15 @@ class Jobs(WithServer):
 
 
 class Interruptions(unittest.TestCase):
+    def test_ctrl_c_stops_a_private_server(self):
+        for wait in (lambda server: server.submit(PRESET, SLOW).wait(),
+                     lambda server: server.sweep(PRESET, SLOW, speed_m_per_s=[0.5, 1]).wait()):
+            threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+            with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt):
+                with cc.private_server() as server:
+                    wait(server)
+            self.assertEqual(said.getvalue(), "\nthe private server stops, and its jobs with it\n")
+
     def start(self, folder):
         daemon = subprocess.Popen([os.environ["CELLCRUSHD"], "--data", f"{folder}/data", "--listen",
                                    f"unix:{folder}/s", "--http", "none"], stdout=subprocess.PIPE, text=True)
@@ -157,6 +211,12 @@ class Interruptions(unittest.TestCase):
         token = pathlib.Path(__file__)
         with self.assertRaisesRegex(ValueError, "plain text"):
             cc.connect("crusher.example.org:50551", token_file=str(token))
+
+    def test_run_refuses_an_impossible_output_before_the_crush(self):
+        with mock.patch("cellcrush.private.private_server") as started, self.assertRaisesRegex(
+                cc.FileError, "nofolder/x.h5: the folder .*nofolder does not exist. Create it"):
+            cc.run(PRESET, SMALL, output="nofolder/x.h5")
+        started.assert_not_called()
 
     def test_run_needs_no_daemon(self):
         with contextlib.ExitStack() as stack:

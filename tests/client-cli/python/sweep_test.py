@@ -5,7 +5,9 @@ import warnings
 import cellcrush as cc
 import meshio
 import numpy as np
-from support import PRESET, SMALL, WithServer
+import pandas
+from cellcrush.means import mean_table
+from support import PRESET, SLOW, SMALL, WithServer
 
 
 class Sweeps(WithServer):
@@ -21,6 +23,7 @@ class Sweeps(WithServer):
         self.assertEqual(list(table["speed_m_per_s"]), [50] * 3 + [100] * 3 + [200] * 3)
         self.assertEqual(list(table["seed"]), [1, 2, 3] * 3)
         self.assertEqual(list(table["job"]), [job.name for job in self.sweep])
+        self.assertEqual(list(table["warnings"]), [len(job.summary.warnings) for job in self.sweep])
         self.assertEqual(len(self.sweep), 9)
         self.assertEqual(table.attrs["units"]["absorbed_energy_mj"], "mJ")
 
@@ -36,10 +39,35 @@ class Sweeps(WithServer):
         with self.assertRaisesRegex(ValueError, "varies speed_m_per_s, seed"):
             self.sweep.table(mean_over="rows")
 
+    def test_points_without_results_stay(self):
+        sweep = self.server.sweep(PRESET, {**SLOW, "speed_m_per_s": [1, 0.5]}, seeds=2, amplitude_mm=0.02,
+                                  max_parallel=1).cancel().wait()
+        table = sweep.table(mean_over="seed")
+        self.assertEqual((list(table["speed_m_per_s"]), list(table["count"])), ([1, 0.5], [0, 0]))
+        self.assertTrue(table["plateau_stress_impact_mpa"].isna().all())
+        self.assertTrue(sweep.table()["absorbed_energy_mj"][:2].isna().all())  # the longest jobs start first
+        marks = [line for line in sweep.plot().get_lines() if line.get_label() == "no job succeeded"]
+        self.assertEqual(list(marks[0].get_xdata()), [1, 0.5])
+
+    def test_means_tell_how_many_jobs_they_have(self):
+        nan = float("nan")
+        table = pandas.DataFrame({
+            "speed": [1, 1, 1, 2, 2, 3], "seed": [1, 2, 3, 1, 2, 1], "warnings": [0, 2, 1, 0, 0, 5],
+            "state": ["SUCCEEDED", "SUCCEEDED", "FAILED", "SUCCEEDED", "SUCCEEDED", "FAILED"],
+            "plateau": [1.0, 3.0, 9.0, 5.0, 5.0, 9.0], "densification": [0.5, nan, 0.9, nan, nan, nan],
+            "front": [nan] * 6})
+        table.attrs["units"] = {}
+        means = mean_table(table, ["speed", "seed"], ["plateau", "densification", "front"], "seed")
+        self.assertEqual([list(means[name]) for name in ("speed", "count", "warned", "densification_count")],
+                         [[1, 2, 3], [2, 2, 0], [1, 0, 0], [1, 0, 0]])
+        np.testing.assert_array_equal(means["plateau"], [2.0, 5.0, nan])
+        self.assertFalse({"plateau_count", "front_count"} & set(means))
+        self.assertEqual(list(mean_table(table, ["speed", "seed"], ["plateau"], ["speed", "seed"])["count"]), [4])
+
     def test_seeds_without_an_imperfection_warn(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            sweep = self.server.sweep(PRESET, SMALL, seeds=2).cancel()
+            sweep = self.server.sweep(PRESET, SLOW, seeds=2).cancel()
         self.assertRegex(str(caught[0].message), "amplitude_mm=0.01")
         sweep.retry().wait()  # no job failed, so none runs again
         self.assertEqual(sweep.states, {"CANCELLED": 2})
@@ -68,6 +96,21 @@ class Sweeps(WithServer):
         self.assertEqual(file.mesh.length_mm, self.job.mesh.length_mm)
         self.assertEqual(file.summary.plateau_stress_impact_mpa, self.job.summary.plateau_stress_impact_mpa)
         self.assertEqual(file.case, self.job.case)
+
+    def test_only_a_whole_result_file_is_read(self):
+        whole = self.job.download(self.folder / "result.h5").read_bytes()
+        flipped = bytearray(whole)
+        flipped[len(whole) // 2] ^= 1
+        other = self.folder / "other.h5"
+        for content, wrong in ((bytes(flipped), "damaged.* Download it again"), (whole[:-1], "damaged"),
+                               (whole[:300], "damaged"), (whole[512:], "without the checksum"),
+                               (b"strain,stress", "not a result"), (b"", "not a result")):
+            other.write_bytes(content)
+            with self.assertRaisesRegex(cc.FileError, f"other.h5: .*{wrong}"):
+                cc.open(other)
+        for missing in (self.folder / "nothing.h5", self.folder):
+            with self.assertRaisesRegex(cc.FileError, f"{missing}: cannot be read.*Name a result.h5"):
+                cc.open(str(missing))
 
     def test_figures_fit_a_column(self):
         live = self.server.submit(PRESET, SMALL).live_plot()
