@@ -187,6 +187,7 @@ v1::SweepTable make_averaged_table() {
   second.set_values(0, 2.0);
   second.set_succeeded_count(2);
   second.set_failed_count(1);
+  for (auto& result : *second.mutable_results()) result.set_job_count(std::min(result.job_count(), 2));
   second.mutable_results(0)->set_mean(0.0991);
   return table;
 }
