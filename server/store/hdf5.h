@@ -62,7 +62,7 @@ void describe(hid_t dataset, const std::string& unit, const std::string& descrip
 /// Makes a dataset the scale of a dimension of this name.
 void make_scale(hid_t dataset, const std::string& name);
 
-/// A dimension without numbers of its own, as netCDF has it: a scale that takes no room.
+/// A dimension scale without values of its own, as netCDF has it: a scale that takes no room.
 Hdf5Handle make_dimension(hid_t folder, const std::string& name, hsize_t extent, const std::string& description);
 
 /// Scales of the first dimensions of a dataset, in their order.

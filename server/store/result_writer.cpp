@@ -60,23 +60,24 @@ void ResultWriter::make_frames() {
   describe(frame_time_.id(), "s", "simulated time of the frame; frame 0 is the undeformed lattice");
   describe(frame_strain_.id(), "", "nominal strain of the frame");
   describe(frame_position_.id(), "mm", "positions of the particles");
-  describe(frame_plastic_.id(), "", "share of each element's section that has yielded");
+  describe(frame_plastic_.id(), "", "fraction of each element's section that has yielded");
   for (auto* field : {&frame_position_, &frame_plastic_}) write_attribute(field->id(), "coordinates", "strain");
 }
 
 void ResultWriter::write_mesh(const v1::Mesh& mesh) {
   mesh_ = Hdf5Handle(H5Gcreate2(file_.id(), "mesh", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
                      "Creating the group mesh");
-  particles_ = make_dimension(file_.id(), "particle", particle_count_, "dimension without numbers");
-  elements_ = make_dimension(file_.id(), "element", element_count_, "dimension without numbers");
-  const Hdf5Handle ends = make_dimension(file_.id(), "end", 2, "dimension without numbers: start and end");
+  particles_ = make_dimension(file_.id(), "particle", particle_count_, "dimension scale without values");
+  elements_ = make_dimension(file_.id(), "element", element_count_, "dimension scale without values");
+  const Hdf5Handle ends =
+      make_dimension(file_.id(), "end", 2, "dimension scale without values: start and end of an element");
   axes_ = write_dataset(file_.id(), "axis", H5T_C_S1, {2}, "xy");
   make_scale(axes_.id(), "axis");
   describe(axes_.id(), "", "axis of a position: x or y");
   const auto nodes =
       write_dataset(mesh_.id(), "beam_nodes", H5T_NATIVE_INT32, {element_count_, 2}, mesh.element_nodes().data());
   attach_scales(nodes.id(), {elements_.id(), ends.id()});
-  describe(nodes.id(), "", "numbers of the particles at the start and the end of each element");
+  describe(nodes.id(), "", "indices, from 0, of the particles at the start and the end of each element");
   const auto thickness =
       write_dataset(mesh_.id(), "thickness_mm", H5T_NATIVE_FLOAT, {element_count_}, mesh.thickness_mm().data());
   attach_scales(thickness.id(), {elements_.id()});

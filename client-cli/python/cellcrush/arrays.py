@@ -68,7 +68,7 @@ class Frames:
     time_s: Array  # (F)
     strain: Array  # (F)
     position_mm: Array  # (F, N, 2), float32
-    plastic_fraction: Array  # (F, E), float32: share of each element's section that has yielded
+    plastic_fraction: Array  # (F, E), float32: fraction of each element's section that has yielded
 
     def __len__(self) -> int:
         return len(self.time_s)
