@@ -44,6 +44,7 @@ const std::map<std::string, Circumstances> kCircumstances = {
       {"cellcrushd --workers 4 > cellcrushd.log 2>&1 &", "cellcrush show preset:hexagon-small > my.txtpb",
        "for i in 1 2 3 4; do cellcrush sweep my.txtpb --over loading.speed_m_per_s=50,100 --watch; done > log",
        "for i in 9 10 11 12 13; do cellcrush submit my.txtpb --watch; done > log",
+       "for o in thin thick; do cellcrush run my.txtpb -o $o; done > log",
        "for i in 14 15; do cellcrush submit my.txtpb --set loading.speed_m_per_s=0.5; done > log"}}}};
 
 const std::vector<Page>& pages() {
