@@ -165,7 +165,8 @@ void DataFolder::clean_job_folder(std::int64_t job) const {
   if (!is_history) return remove_file(folder.reports());
   std::error_code error;
   std::filesystem::rename(folder.reports(), folder.history(), error);
-  if (error) throw_file_error(folder.reports(), "renamed", error.value());
+  const bool is_deleted = error == std::errc::no_such_file_or_directory;
+  if (error && !is_deleted) throw_file_error(folder.reports(), "renamed", error.value());
 }
 
 bool DataFolder::has_reports(std::int64_t job) const {
@@ -236,7 +237,11 @@ std::filesystem::path DataFolder::set_aside(const std::string& name) const {
 void DataFolder::remove_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job).root();
   std::error_code error;
-  std::filesystem::remove_all(folder, error);
+  // clean_job_folder() may be removing and renaming files of a run that has just ended.
+  for (int tries = 0; tries < 100; ++tries) {
+    std::filesystem::remove_all(folder, error);
+    if (error != std::errc::no_such_file_or_directory && error != std::errc::directory_not_empty) break;
+  }
   if (error) throw_file_error(folder, "used", error.value());
 }
 

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
+#include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/result_reader.h"
 
@@ -197,6 +199,29 @@ TEST_F(JobLifeTest, ADeletedJobIsGoneWithAllItLeft) {
   EXPECT_EQ(client.watch(job).status.error_code(), grpc::StatusCode::NOT_FOUND);
   EXPECT_TRUE(client.list().empty());
   EXPECT_EQ(client.create(request).name(), "jobs/2") << "Its request_id is free, its number is not used again.";
+}
+
+TEST_F(JobLifeTest, ADeletionMayMeetTheTidyingUpOfARunThatHasJustEnded) {
+  const store::DataFolder data(folder_.path() / "deleted");
+  for (int round = 0; round < 200; ++round) {
+    data.make_job_folder(1);
+    const store::JobFolder job = data.job_folder(1);
+    for (const auto& file : {job.order(), job.claim(), job.checkpoint(), job.previous_checkpoint(), job.reports()})
+      std::ofstream(file) << "left";
+    std::atomic<int> ready = 0;
+    const auto meet = [&ready] {
+      ++ready;
+      while (ready < 2) std::this_thread::yield();
+    };
+    std::thread tidying_up([&] {
+      meet();
+      EXPECT_NO_THROW(data.clean_job_folder(1));
+    });
+    meet();
+    EXPECT_NO_THROW(data.remove_job_folder(1));
+    tidying_up.join();
+    ASSERT_FALSE(std::filesystem::exists(job.root())) << round;
+  }
 }
 
 TEST_F(JobLifeTest, AFolderThatADeletionLeftBehindGoesAtTheNextStart) {
