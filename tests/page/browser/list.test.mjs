@@ -27,7 +27,7 @@ test('a sweep unfolds its jobs, whose running ones show progress and the plateau
   assert.equal(await page.getByRole('link', { name: 'Three speeds' }).count(), 1, 'its jobs are not in the list');
   await inside().locator('progress').first().waitFor();
   await inside().locator('.so-far').first().waitFor();
-  await page.locator('.states .under', { hasText: '3 succeeded' }).waitFor({ timeout: 60000 });
+  await page.locator('.states .under', { hasText: '3 succeeded' }).waitFor({ timeout: 240000 });
   assert.equal(await inside().locator('.so-far').count(), 0);
 });
 

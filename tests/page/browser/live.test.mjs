@@ -28,7 +28,7 @@ test('of a crush whose daemon is killed on the way, the page has the samples of 
   await daemon.stop('SIGKILL');
   await page.waitForTimeout(1500);
   await daemon.start();
-  await page.getByText('succeeded').first().waitFor({ timeout: 90000 });
+  await page.getByText('succeeded').first().waitFor({ timeout: 240000 });
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save all samples as a CSV file' }).first().click();
   const saved = join(daemon.folder, 'page.csv');
@@ -56,7 +56,7 @@ test('ten tabs follow a crush to its end, and one of them can start another', as
   await last.goto(daemon.url + '/new');
   await last.getByRole('button', { name: 'Start the job' }).click();
   await last.waitForURL('**/jobs/*', { timeout: 15000 });
-  for (const tab of [...tabs, last]) await tab.getByText('succeeded').first().waitFor({ timeout: 60000 });
+  for (const tab of [...tabs, last]) await tab.getByText('succeeded').first().waitFor({ timeout: 240000 });
   await context.close();
 });
 
