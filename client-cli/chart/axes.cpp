@@ -80,12 +80,17 @@ void Axes::draw_frame(cairo_t* context) const {
 Ticks find_ticks(double low, double high, int most) {
   constexpr double kSlack = 1e-9;
   double power = std::pow(10.0, std::floor(std::log10((high - low) / most)));
+  Ticks finer;
   while (true) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double step = factor * power;
       const double first = std::ceil(low / step - kSlack);
       const double last = std::floor(high / step + kSlack);
-      if (last - first + 1 > most) continue;
+      if (last - first + 1 > most) {
+        finer = {step, {first * step, last * step}};
+        continue;
+      }
+      if (last - first < 1 && !finer.values.empty()) return finer;
       Ticks ticks{step, {}};
       for (double i = first; i <= last; i += 1.0) ticks.values.push_back(i * step);
       return ticks;
@@ -116,9 +121,11 @@ Ticks find_logarithmic_ticks(double low, double high, int most) {
     }
     return ticks;
   };
-  Ticks ticks = collect({1.0, 2.0, 5.0}, 1);
+  const Ticks all = collect({1.0, 2.0, 5.0}, 1);
+  if (all.values.size() < 2) return find_ticks(low, high, most);
+  Ticks ticks = all;
   for (int stride = 1; static_cast<int>(ticks.values.size()) > most; ++stride) ticks = collect({1.0}, stride);
-  return ticks;
+  return ticks.values.size() < 2 ? Ticks{0.0, {all.values.front(), all.values.back()}} : ticks;
 }
 
 std::string logarithmic_tick_label(double value) { return fmt::format("{:.6g}", value); }

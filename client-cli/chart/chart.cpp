@@ -14,6 +14,7 @@ constexpr double kMarkerRadius = 4.2;
 constexpr double kBarEnd = 3.0;  ///< half of the stroke that ends a bar
 constexpr double kLabelGap = 7.0;
 const TextStyle kLabelStyle{.size = 9.5, .colour = kMutedInk};
+const TextStyle kOvershootStyle{.size = 11.0};
 
 void stroke(cairo_t* context, double x0, double y0, double x1, double y1) {
   cairo_move_to(context, x0, y0);
@@ -71,12 +72,23 @@ void draw_overshoot(cairo_t* context, const Axes& axes, const Overshoot& oversho
   const double y = axes.area().y + room + 8.0;
   draw_marker(context, x, y, Marker::triangle, overshoot.colour);
   const bool left = x > axes.area().x + 0.75 * axes.area().width;
-  const double width = text_width(context, overshoot.text, {.size = 11.0}) + 4.0;
+  const double width = text_width(context, overshoot.text, kOvershootStyle) + 4.0;
   set_colour(context, {1.0, 1.0, 1.0, 0.85});
   cairo_rectangle(context, left ? x - width - 6.0 : x + 6.0, y - 7.0, width, 14.0);
   cairo_fill(context);
   draw_text(context, x + (left ? -8.0 : 8.0), y + 4.0, overshoot.text,
             {.size = 11.0, .colour = overshoot.colour, .anchor = left ? Anchor::right : Anchor::left});
+}
+
+// A label beside a point: on its right and above, or where that would reach the frame, on its left and below.
+void draw_label(cairo_t* context, const Rectangle& area, double x, double y, const std::string& text) {
+  constexpr double kFrame = 8.0;  // with its ticks
+  TextStyle style = kLabelStyle;
+  const double right = area.x + area.width - kFrame;
+  const bool has_room = x + kLabelGap + text_width(context, text, style) < right;
+  style.anchor = has_room ? Anchor::left : Anchor::right;
+  const double baseline = y - 4.0 - style.size < area.y + kFrame ? y + 4.0 + style.size : y - 4.0;
+  draw_text(context, has_room ? x + kLabelGap : x - kLabelGap, baseline, text, style);
 }
 
 // Draws bars, marks and labels at the points of a curve. Skips points that are not finite.
@@ -88,7 +100,7 @@ void draw_marks(cairo_t* context, const Axes& axes, const Curve& curve) {
     set_colour(context, curve.style.colour);
     if (!curve.low.empty()) draw_bar(context, axes, x, curve.low[i], curve.high[i]);
     draw_marker(context, x, y, curve.marker, curve.style.colour);
-    if (!curve.labels.empty()) draw_text(context, x + kLabelGap, y - 4.0, curve.labels[i], kLabelStyle);
+    if (!curve.labels.empty()) draw_label(context, axes.area(), x, y, curve.labels[i]);
   }
 }
 
@@ -233,8 +245,8 @@ void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
   }
   constexpr double kBandText = 20.0;
   for (const Overshoot& overshoot : chart.overshoots) {
-    // Its text is at most an eighth of the chart wide.
-    const double reach = 0.125 * (chart.x.high - chart.x.low);
+    const double width = text_width(context, overshoot.text, kOvershootStyle) + 16.0;
+    const double reach = width / area.width * (chart.x.high - chart.x.low);
     const bool beside_band = std::any_of(chart.bands.begin(), chart.bands.end(), [&](const Band& band) {
       return overshoot.x + reach > band.from && overshoot.x - reach < band.to;
     });

@@ -112,7 +112,15 @@ v1::SweepTable shown_table(const v1::SweepTable& table, bool each) {
 }
 
 v1::SweepTable charted_table(const v1::SweepTable& table, bool each) {
-  return shown_table(table, each || table.fields_size() == 1);
+  v1::SweepTable out = shown_table(table, each || table.fields_size() == 1);
+  const auto seed = std::ranges::find(out.fields(), kSeedField) - out.fields().begin();
+  const auto to_the_end = [&](auto& list) { std::rotate(list.begin() + seed, list.begin() + seed + 1, list.end()); };
+  if (seed == out.fields_size()) return out;
+  to_the_end(*out.mutable_fields());
+  for (auto& row : *out.mutable_rows()) {
+    if (row.values_size() == out.fields_size()) to_the_end(*row.mutable_values());
+  }
+  return out;
 }
 
 const v1::SweepTable::Mean* find_mean(const v1::SweepTable::SeedMeans& means, std::string_view path) {

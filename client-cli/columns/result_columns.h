@@ -31,7 +31,7 @@ const std::vector<ResultColumn>& result_columns();
 /// have the same index; a table with rows per job has no means.
 v1::SweepTable shown_table(const v1::SweepTable& table, bool each);
 
-/// The same for a chart: with one row per job also if it would else vary no field.
+/// The same for a chart: with one row per job also if it would else vary no field. The seed is the last field.
 v1::SweepTable charted_table(const v1::SweepTable& table, bool each);
 
 /// A mean by the path of its result; null if there is none.

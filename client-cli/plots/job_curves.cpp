@@ -14,6 +14,7 @@
 #include "chart/colour_map.h"
 #include "chart/smoothing.h"
 #include "results/energy_terms.h"
+#include "results/field_value.h"
 #include "results/sweep_results.h"
 #include "terminal/number_text.h"
 
@@ -291,8 +292,8 @@ Chart build_job_chart(const JobHistory& history) {
 }
 
 Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
-  std::map<std::string, int> uses;
-  for (const JobHistory& history : histories) ++uses[picture_name(history.job)];
+  std::map<std::string, std::vector<const v1::Case*>> cases;  // of each name
+  for (const JobHistory& history : histories) cases[picture_name(history.job)].push_back(&history.job.case_());
   std::vector<Curve> curves;
   double strain = 0.0;
   double top = 0.0;
@@ -303,7 +304,10 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
     const PlateCurves smooth = smoothed(raw);
     const Colour colour = kSeriesColours[i % kSeriesColours.size()];
     std::string name = picture_name(job);
-    if (uses[name] > 1) name += " (" + job.name() + ")";
+    if (const auto& same = cases.at(name); same.size() > 1) {
+      const std::string values = field_values_text(job.case_(), find_differences(same));
+      name += (values.empty() ? "" : ", " + values) + " (" + job.name() + ")";
+    }
     curves.push_back({smooth.strain, smooth.impact, {colour, 2.0, {}}, name});
     LineStyle dashed{colour, 1.4, {}};
     dashed.dashes = {5.0, 3.0};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "chart/colour_map.h"
@@ -25,24 +26,30 @@ constexpr double kColourBarRoom = 350.0;  // of the subtitle's line
 constexpr double kChartHeight = 400.0;
 constexpr double kEnergyHeight = 300.0;
 constexpr double kChartGap = 14.0;
+constexpr double kPrintedPageMm = 240.0;  // the height between the margins of a page
+constexpr double kStagesShare = 0.24;     // of the height of a printed picture that has two charts
+constexpr double kStressShare = 0.56;     // of the height of the two charts
 const TextStyle kTitleStyle{.size = 18.0, .bold = true};
 const TextStyle kSubtitleStyle{.size = 12.5, .colour = kMutedInk};
 
-// Where the parts of a picture are: one of a given width in print has no title and hardly a margin.
+// Where the parts of a picture are: one of a given width in print has no title and hardly a margin, and fits on a page.
 struct Page {
   double width;
   double margin;
-  double top;  ///< below the title
+  double top;     ///< below the title
+  double height;  ///< of all parts below it, at most
 
   Page(const PrintSize& print, double default_width)
       : width(print.width(default_width)),
         margin(print.width_mm > 0.0 ? 4.0 : kMargin),
-        top(margin + (print.width_mm > 0.0 ? 0.0 : kTitleHeight)) {}
+        top(margin + (print.width_mm > 0.0 ? 0.0 : kTitleHeight)),
+        height(print.width_mm > 0.0 ? kPrintedPageMm / 25.4 * 96.0 / print.scale() - 2.0 * margin
+                                    : std::numeric_limits<double>::infinity()) {}
 
   [[nodiscard]] double inner() const { return width - 2.0 * margin; }
   [[nodiscard]] bool has_title() const { return top > margin; }
-  // The height of a chart: never more than its width.
-  [[nodiscard]] double chart_height(double highest) const { return std::min(highest, std::max(inner(), 240.0)); }
+  // The height of a chart: hardly more than its width.
+  [[nodiscard]] double chart_height(double highest) const { return std::min(highest, std::max(1.2 * inner(), 240.0)); }
 };
 
 void draw_title(cairo_t* context, const Page& page, const std::string& title, const std::string& subtitle,
@@ -103,13 +110,15 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
   const std::vector<LatticeStage> stages = lattice_stages(frames);
   const Page page(print, kWidth);
   const double bar_room = stages.empty() || page.has_title() ? 0.0 : kColourBarHeight + kChartGap;
-  const StagePanels panels =
-      stages.empty() ? StagePanels{.bottom = page.top} : lay_stages(stages, page.margin, page.top, page.inner());
   const bool plates = history.job.words().plates();
+  const double most = std::min(kStagesHeight, (plates ? kStagesShare : 0.5) * page.height);
+  const StagePanels panels =
+      stages.empty() ? StagePanels{.bottom = page.top} : lay_stages(stages, page.margin, page.top, page.inner(), most);
   const double chart_top = panels.bottom + bar_room;
-  const double chart_height = page.chart_height(kChartHeight);
+  const double room = page.height - (chart_top - page.top) - kChartGap;  // of the charts
+  const double chart_height = std::min(page.chart_height(kChartHeight), (plates ? kStressShare : 1.0) * room);
   const double energy_top = chart_top + chart_height + kChartGap;
-  const double energy_height = plates ? page.chart_height(kEnergyHeight) : 0.0;
+  const double energy_height = plates ? std::min(page.chart_height(kEnergyHeight), (1.0 - kStressShare) * room) : 0.0;
   return render_picture(
       format, page.width, energy_top + energy_height + page.margin,
       [&](cairo_t* context) {
@@ -159,7 +168,9 @@ std::string render_stages_picture(PictureFormat format, const std::vector<MeshFr
   constexpr double kNarrowMargin = 12.0;
   const Page page(print, kWidth);
   const double top = std::min(page.margin, kNarrowMargin);
-  const StagePanels panels = lay_stages(stages, page.margin, top, page.inner());
+  constexpr double kBars = 60.0;
+  const double most = std::min(kStagesHeight, page.height - kBars);
+  const StagePanels panels = lay_stages(stages, page.margin, top, page.inner(), most);
   return render_picture(
       format, page.width, panels.bottom + kColourBarHeight + top,
       [&](cairo_t* context) {
@@ -196,7 +207,10 @@ std::string render_sweep_picture(PictureFormat format, const std::vector<SweepRe
       format, page.width, page.top + chart_height + page.margin,
       [&](cairo_t* context) {
         if (sweeps.size() > 1) {
-          draw_title(context, page, "Plateau stress", fmt::format("{} sweeps over {}", sweeps.size(), chart.x.label));
+          std::string names;
+          for (const SweepResults& results : sweeps) names += (names.empty() ? "" : ", ") + results.sweep.name();
+          draw_title(context, page, "Plateau stress",
+                     fmt::format("{} sweeps over {}   ({})", sweeps.size(), chart.x.label, names));
         } else {
           draw_title(context, page, title.empty() ? "Plateau stress" : title, sweep_subtitle(sweeps.front()));
         }

@@ -14,10 +14,11 @@ namespace {
 
 constexpr double kTitle = 20.0;
 constexpr double kGap = 14.0;
-constexpr double kPage = 660.0;          // height of all stages
 constexpr double kRowRoom = 60.0;        // minimum height of a row, including titles
 constexpr double kRowPreference = 0.45;  // a scale larger by rows^this justifies that many rows
 constexpr double kTitleWidth = 170.0;
+constexpr double kShortTitleWidth = 108.0;  // without the time
+constexpr double kNarrowWidth = 2.0 * kTitleWidth + kGap;
 constexpr double kLongestBar = 120.0;
 constexpr double kBarRoom = 18.0;
 const TextStyle kPanelTitleStyle{.size = 12.5};
@@ -28,14 +29,16 @@ struct Rows {
   std::vector<int> counts;
 };
 
-double cell_width(const Box& box, double scale) { return std::max(scale * box.width(), kTitleWidth); }
+double cell_width(const Box& box, double scale, double width) {
+  return std::max(scale * box.width(), width < kNarrowWidth ? kShortTitleWidth : kTitleWidth);
+}
 
 // Filled from the left, at least one stage a row.
 std::vector<int> fill_rows(const std::vector<Box>& boxes, double scale, double width) {
   std::vector<int> counts;
   double used = 0.0;
   for (const Box& box : boxes) {
-    const double cell = cell_width(box, scale);
+    const double cell = cell_width(box, scale, width);
     if (counts.empty() || used + kGap + cell > width) {
       counts.push_back(1);
       used = cell;
@@ -65,7 +68,7 @@ double height_of(const std::vector<Box>& boxes, const Rows& rows) {
 }
 
 // Searches from the largest scale that fits the width downwards: a smaller scale needs fewer rows.
-Rows find_rows(const std::vector<Box>& boxes, double width) {
+Rows find_rows(const std::vector<Box>& boxes, double width, double height) {
   double widest = 0.0;
   for (const Box& box : boxes) widest = std::max(widest, box.width());
   Rows best;
@@ -73,7 +76,7 @@ Rows find_rows(const std::vector<Box>& boxes, double width) {
   for (double scale = width / widest; best_score < 0.0 || scale > best.scale / 50.0; scale *= 0.99) {
     const Rows rows{scale, fill_rows(boxes, scale, width)};
     const auto count = static_cast<double>(rows.counts.size());
-    if (height_of(boxes, rows) > std::max(kPage, count * kRowRoom)) continue;
+    if (height_of(boxes, rows) > std::max(height, count * kRowRoom)) continue;
     const double score = scale / std::pow(count, kRowPreference);
     if (score <= best_score) continue;
     best_score = score;
@@ -82,10 +85,10 @@ Rows find_rows(const std::vector<Box>& boxes, double width) {
   return best;
 }
 
-std::string stage_text(const LatticeStage& stage, std::size_t index, std::size_t count) {
+std::string stage_text(const LatticeStage& stage, std::size_t index, std::size_t count, bool has_time) {
   const std::string time = number_text(1e3 * stage.time_s) + " ms";
   std::string text = stage.has_plates() ? fmt::format("strain {:.2f}", stage.strain) : time;
-  if (stage.has_plates() && stage.time_s > 0.0) text += ", " + time;
+  if (has_time && stage.has_plates() && stage.time_s > 0.0) text += ", " + time;
   // Letters as used in captions, as long as there are enough.
   return count > 1 && count <= 26 ? fmt::format("({}) {}", static_cast<char>('a' + index), text) : text;
 }
@@ -108,19 +111,23 @@ void draw_scale_bar(cairo_t* context, double right, double y, double scale) {
 
 }  // namespace
 
-StagePanels lay_stages(const std::vector<LatticeStage>& stages, double left, double top, double width) {
-  StagePanels panels{.boxes = find_boxes(stages), .places = {}, .bar_right = left + width, .bottom = top};
+StagePanels lay_stages(const std::vector<LatticeStage>& stages, double left, double top, double width, double height) {
+  StagePanels panels{.boxes = find_boxes(stages),
+                     .places = {},
+                     .bar_right = left + width,
+                     .bottom = top,
+                     .has_times = width >= kNarrowWidth};
   const std::vector<Box>& boxes = panels.boxes;
-  const Rows rows = find_rows(boxes, width);
+  const Rows rows = find_rows(boxes, width, height);
   const std::vector<double> heights = row_heights(boxes, rows);
   std::size_t i = 0;
   for (std::size_t row = 0; row < heights.size(); ++row) {
     double x = left;
     for (int k = 0; k < rows.counts[row]; ++k, ++i) {
-      const double height = rows.scale * boxes[i].height();
+      const double drawn = rows.scale * boxes[i].height();
       // Rows are aligned at the top, where the support plate of a crush along y is.
-      panels.places.push_back({x, panels.bottom + kTitle, rows.scale * boxes[i].width(), height});
-      x += cell_width(boxes[i], rows.scale) + kGap;
+      panels.places.push_back({x, panels.bottom + kTitle, rows.scale * boxes[i].width(), drawn});
+      x += cell_width(boxes[i], rows.scale, width) + kGap;
     }
     panels.bottom += kTitle + heights[row] + kGap;
   }
@@ -132,7 +139,8 @@ StagePanels lay_stages(const std::vector<LatticeStage>& stages, double left, dou
 void draw_stages(cairo_t* context, const StagePanels& panels, const std::vector<LatticeStage>& stages) {
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const Rectangle& place = panels.places[i];
-    draw_text(context, place.x, place.y - 5.0, stage_text(stages[i], i, stages.size()), kPanelTitleStyle);
+    const std::string title = stage_text(stages[i], i, stages.size(), panels.has_times);
+    draw_text(context, place.x, place.y - 5.0, title, kPanelTitleStyle);
     draw_lattice(context, place, panels.boxes[i], stages[i]);
   }
   draw_scale_bar(context, panels.bar_right, panels.bar_y, drawing_scale(panels.places[0], panels.boxes[0]));

@@ -52,8 +52,8 @@ Axis build_axis(const std::string& field, const std::vector<ResultSeries>& all, 
     }
     return {low / 1.2, 1.2 * high, axis_label(field), true};
   }
-  const double room = high > low ? 0.06 * (high - low) : 0.1 * std::max(std::abs(low), 1.0);
-  const bool from_zero = low >= 0.0 && low < 0.5 * high;
+  const double room = high > low ? 0.06 * (high - low) : low != 0.0 ? 0.1 * std::abs(low) : 1.0;
+  const bool from_zero = low == 0.0 || (low > 0.0 && low < 0.5 * high);
   return {from_zero ? 0.0 : low - room, high + room, axis_label(field)};
 }
 
@@ -186,33 +186,58 @@ void add_sweep(Chart& chart, const ResultSeries& series, bool speed, std::size_t
                                : Curve{series.x, values_of(series, shock), dashed, ""});
 }
 
-// The label of a sweep: its title; the differences of its case if titles are equal; or its name.
-std::vector<std::string> names_of(const std::vector<SweepResults>& sweeps) {
-  std::vector<const v1::Case*> cases;
-  std::set<std::string> titles;
-  for (const SweepResults& results : sweeps) {
-    cases.push_back(&results.sweep.case_());
-    titles.insert(results.sweep.case_().title());
-  }
-  const auto differences = find_differences(cases);
-  std::vector<std::string> names;
-  for (const SweepResults& results : sweeps) {
-    std::string name = results.sweep.case_().title();
-    if (titles.size() < sweeps.size()) name = field_values_text(results.sweep.case_(), differences);
-    names.push_back(name.empty() ? results.sweep.name() : name);
-  }
-  return names;
+std::set<std::string> varied_fields(const SweepResults& results) {
+  std::set<std::string> fields(results.table.fields().begin(), results.table.fields().end());
+  for (const v1::SweepAxis& axis : results.sweep.axes()) fields.insert(axis.field());
+  return fields;
 }
 
-// All series of the sweeps; those of several sweeps with the sweep's name.
+// What tells a sweep from the others: its title, unless all have the same, and its values of the fields in which sweeps
+// of this title differ, except those that it varies.
+std::string name_among(const SweepResults& results, const std::vector<SweepResults>& sweeps) {
+  const std::string& title = results.sweep.case_().title();
+  std::vector<const v1::Case*> cases;
+  std::set<std::string> varied;
+  for (const SweepResults& other : sweeps) {
+    if (other.sweep.case_().title() != title) continue;
+    cases.push_back(&other.sweep.case_());
+    varied.merge(varied_fields(other));
+  }
+  std::vector<std::string> fields = find_differences(cases);
+  for (const std::string& field : varied) {
+    if (field != kSeedField && std::ranges::find(fields, field) == fields.end()) fields.push_back(field);
+  }
+  std::erase_if(fields, [own = varied_fields(results)](const std::string& field) { return own.contains(field); });
+  const std::string values = field_values_text(results.sweep.case_(), fields);
+  if (cases.size() == sweeps.size() || title.empty()) return values;
+  return title + (values.empty() ? "" : ", " + values);
+}
+
+// All series of the sweeps; those of several sweeps with what tells the sweep from the others, or else its name.
 std::vector<ResultSeries> collect_series(const std::vector<SweepResults>& sweeps) {
-  const auto names = names_of(sweeps);
   std::vector<ResultSeries> all;
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    for (ResultSeries& series : split_series(sweeps[i].table)) {
-      if (sweeps.size() > 1) series.name = names[i] + (series.name.empty() ? "" : ", " + series.name);
+  std::vector<const std::string*> names;  // of the sweep of each
+  std::map<std::string, int> uses;
+  const auto append = [](std::string& text, const std::string& more) {
+    text += (text.empty() || more.empty() ? "" : ", ") + more;
+  };
+  for (const SweepResults& results : sweeps) {
+    for (ResultSeries& series : split_series(results.table)) {
+      if (sweeps.size() > 1) {
+        std::string name = name_among(results, sweeps);
+        append(name, series.name);
+        series.name = name;
+      }
+      ++uses[series.name];
+      names.push_back(&results.sweep.name());
       all.push_back(std::move(series));
     }
+  }
+  for (std::size_t i = 0; sweeps.size() > 1 && i < all.size(); ++i) {
+    if (!all[i].name.empty() && uses[all[i].name] == 1) continue;
+    std::string name = *names[i];
+    append(name, all[i].name);
+    all[i].name = name;
   }
   return all;
 }

@@ -24,7 +24,7 @@ struct LogarithmicAxes {
 
 /// Plateau stress against the first varied field. For one sweep: both plates with theory, the quadratic fit if only
 /// speed varies, and one series for each combination of the other varied fields. For several sweeps: the impact plate,
-/// one colour and mark per sweep, named by title or by the differences of their cases. Means have bars of their 95 %
+/// one colour and mark per curve, named by title and the differences of their cases. Means have bars of their 95 %
 /// intervals; letters mark densification within the plateau window and warnings. Throws CommandError (refused) if
 /// no job has a plateau yet, if nothing or different fields are varied, or if an axis cannot be logarithmic.
 Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const LogarithmicAxes& logarithmic = {});

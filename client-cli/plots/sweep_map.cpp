@@ -31,13 +31,15 @@ std::vector<double> values_of_field(const v1::SweepTable& table, int field) {
   return values;
 }
 
-// The borders of the cells around values: halfway between them, in the logarithm on a logarithmic axis.
+// The borders of the cells around values: halfway between them, in the logarithm on a logarithmic axis. Those of values
+// that are not negative begin at 0 at the lowest.
 std::vector<double> borders_of(const std::vector<double>& values, bool logarithmic) {
   const auto to = [&](double value) { return logarithmic ? std::log(value) : value; };
   const auto from = [&](double value) { return logarithmic ? std::exp(value) : value; };
   std::vector<double> borders = {from(1.5 * to(values[0]) - 0.5 * to(values[1]))};
   for (std::size_t i = 1; i < values.size(); ++i) borders.push_back(from(0.5 * (to(values[i - 1]) + to(values[i]))));
   borders.push_back(from(1.5 * to(values.back()) - 0.5 * to(values[values.size() - 2])));
+  if (values.front() >= 0.0) borders.front() = std::max(borders.front(), 0.0);
   return borders;
 }
 
@@ -178,7 +180,9 @@ void draw_bar(cairo_t* context, const Rectangle& area, const SweepMap& map, cons
 }  // namespace
 
 std::optional<SweepMap> build_sweep_map(const v1::SweepTable& table, const LogarithmicAxes& logarithmic) {
-  if (table.fields_size() != 2) return std::nullopt;
+  if (table.fields_size() != 2 || std::ranges::find(table.fields(), kSeedField) != table.fields().end()) {
+    return std::nullopt;
+  }
   if (std::ranges::any_of(table.rows(), [](const auto& row) { return row.values_size() != 2; })) return std::nullopt;
   SweepMap map;
   map.across = values_of_field(table, 0);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "case_file/field_names.h"
+#include "cellcrush/v1/field.pb.h"
 #include "columns/field_text.h"
 #include "terminal/number_text.h"
 
@@ -54,6 +55,24 @@ void collect_paths(const Descriptor& message, const std::string& prefix, std::ve
       paths.push_back(path);
     }
   }
+}
+
+// The default of a field, without the note in brackets; empty if it has none, or belongs to another member of a oneof
+// than the case has.
+std::string default_text(const v1::Case& scene, std::string_view path) {
+  const google::protobuf::Message* message = &scene;
+  const FieldDescriptor* field = nullptr;
+  const Descriptor* type = v1::Case::descriptor();
+  for (const PathPart& part : split_path(path)) {
+    field = type == nullptr ? nullptr : type->FindFieldByName(part.name);
+    if (field == nullptr || field->is_repeated()) return {};
+    const bool is_there = message != nullptr && message->GetReflection()->HasField(*message, field);
+    if (field->real_containing_oneof() != nullptr && !is_there) return {};
+    type = field->message_type();
+    message = is_there && type != nullptr ? &message->GetReflection()->GetMessage(*message, field) : nullptr;
+  }
+  const std::string& rules = field->options().GetExtension(v1::rules).default_();
+  return rules.substr(0, rules.find(" ("));
 }
 
 bool is_path_character(char letter) {
@@ -168,9 +187,12 @@ std::vector<std::string> find_varied_fields(const std::vector<const v1::Case*>& 
 std::string field_values_text(const v1::Case& scene, const std::vector<std::string>& fields) {
   std::string text;
   for (const std::string& field : fields) {
-    const std::string value = short_value_text(scene, field);
+    std::string value = short_value_text(scene, field);
+    if (value.empty()) value = default_text(scene, field);
     if (value.empty()) continue;
-    text += (text.empty() ? "" : ", ") + equation_text(field, value, fields);
+    const bool is_words = value.find_first_of("abcdfghijklmnopqrstuvwxyz") != std::string::npos;
+    text += text.empty() ? "" : ", ";
+    text += is_words ? words_among(field, fields).name + " by default" : equation_text(field, value, fields);
   }
   return text;
 }

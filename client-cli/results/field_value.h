@@ -42,7 +42,8 @@ std::vector<std::string> find_differences(const std::vector<const v1::Case*>& ca
 /// The same among cases with equal titles, sorted by the number of cases concerned.
 std::vector<std::string> find_varied_fields(const std::vector<const v1::Case*>& cases);
 
-/// Values of a case's fields as text: "speed = 50 m/s, wall thickness = 0.3 mm"; absent fields are omitted.
+/// Values of a case's fields as text: "speed = 50 m/s, wall thickness = 0.3 mm"; those of absent fields are their
+/// defaults, "vertical wall thickness by default" if that is no value. Fields that the case cannot have are omitted.
 std::string field_values_text(const v1::Case& scene, const std::vector<std::string>& fields);
 
 }  // namespace cellcrush::client

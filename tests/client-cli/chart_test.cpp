@@ -58,6 +58,22 @@ TEST(Ticks, OfALogarithmicAxisAreDecadesWithTheirDoublesAndFivesWhereThereIsRoom
   EXPECT_EQ(logarithmic_tick_label(600000.0), "600000");
 }
 
+TEST(Ticks, AreTwoAtLeastOnEveryAxis) {
+  for (const double low : {0.0021, 0.9, 1.1, 2.05, 6.0, 12.0, 61.0}) {
+    for (const double ratio : {1.02, 1.3, 2.2, 5.0, 30.0, 900.0, 2e5}) {
+      for (const int most : {2, 3, 4, 9}) {
+        const double high = ratio * low;
+        for (const Ticks& ticks : {find_logarithmic_ticks(low, high, most), find_ticks(low, high, most)}) {
+          EXPECT_GE(ticks.values.size(), 2U) << low << ' ' << ratio << ' ' << most;
+          EXPECT_LE(static_cast<int>(ticks.values.size()), most) << low << ' ' << ratio << ' ' << most;
+          EXPECT_GE(ticks.values.front(), low * (1 - 1e-8));
+          EXPECT_LE(ticks.values.back(), high * (1 + 1e-8));
+        }
+      }
+    }
+  }
+}
+
 TEST(Axes, OfALogarithmicScaleGiveEqualRatiosEqualRoom) {
   const Axes axes({0.0, 0.0, 300.0, 100.0}, {1.0, 1000.0, "x", true}, {0.0, 2.0, "y"});
   EXPECT_NEAR(axes.x(10.0), 100.0, 1e-9);

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <regex>
 
 #include "plots/job_picture.h"
+#include "programs/text_proto.h"
 #include "synthetic_crush.h"
 
 namespace cellcrush::client {
@@ -67,6 +69,21 @@ TEST(StagePanels, StayInsideTheWidthAndDoNotOverlap) {
           EXPECT_TRUE(other.x + other.width <= place.x + 1e-9 || other.y + other.height <= place.y + 1e-9);
         }
       }
+    }
+  }
+}
+
+TEST(JobPicture, OfAWidthInPrintFitsOnAPage) {
+  std::vector<MeshFrame> frames;
+  for (const double strain : {0.0, 0.2, 0.4, 0.8}) frames.push_back(testing::synthetic_stage(20, 7, strain));
+  const JobHistory history{cellcrush::testing::from_text<v1::Job>("words { plates: true }"),
+                           testing::synthetic_samples(100, 0.8)};
+  for (const PrintSize print : {PrintSize{85.0, 8.0}, PrintSize{85.0, 9.0}, PrintSize{140.0, 7.0}, PrintSize{180.0}}) {
+    for (const std::string& svg : {render_job_picture(PictureFormat::svg, history, frames, print),
+                                   render_stages_picture(PictureFormat::svg, frames, print)}) {
+      std::smatch height;
+      ASSERT_TRUE(std::regex_search(svg, height, std::regex("height=\"([0-9.]+)mm\"")));
+      EXPECT_LE(std::stod(height[1]), 240.01) << print.width_mm << ' ' << print.font_pt;
     }
   }
 }
