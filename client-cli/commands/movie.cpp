@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spawn.h>
+#include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,7 +43,7 @@ void encode_movie(const std::filesystem::path& frames, int frames_per_second, co
   std::vector<std::string> words = {"ffmpeg",     "-nostdin", "-y", "-loglevel", "error",
                                     "-framerate", rate,       "-i", pattern};
   // A GIF has 256 colours: those that its frames have most of, and half the size.
-  if (movie.extension() == ".gif")
+  if (strcasecmp(movie.extension().c_str(), ".gif") == 0)
     words.insert(words.end(), {"-vf", "scale=iw/2:-1:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse"});
   else
     words.insert(words.end(), {"-pix_fmt", "yuv420p"});

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <ranges>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -69,11 +69,10 @@ class FlowedShare {
 /// Impulse of the supports at a node, of all joints of its pin together.
 ReactionImpulse impulse_at(const Scene& scene, const State& state, int node) {
   ReactionImpulse sum = state.reaction_impulse[node];
-  const auto pins = std::views::iota(std::size_t{0}, scene.pins.count());  // in the order of their nodes
-  const auto found =
-      std::ranges::lower_bound(pins, node, {}, [&](std::size_t pin) { return scene.pins.joints_of(pin).front(); });
-  if (found != pins.end() && scene.pins.joints_of(*found).front() == node) {
-    for (const int joint : scene.pins.joints_of(*found).subspan(1)) {
+  const auto pins = std::span(scene.pins.offset).first(scene.pins.count());  // in the order of their nodes
+  const auto found = std::ranges::lower_bound(pins, node, {}, [&](int first) { return scene.pins.joint[first]; });
+  if (found != pins.end() && scene.pins.joint[*found] == node) {
+    for (const int joint : scene.pins.joints_of(found - pins.begin()).subspan(1)) {
       sum.x += state.reaction_impulse[joint].x;
       sum.y += state.reaction_impulse[joint].y;
     }

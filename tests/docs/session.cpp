@@ -64,12 +64,12 @@ class Ports {
   std::map<std::string, std::string> ports_;
 };
 
-// Stands before the daemon on the PATH: gives it the default addresses, with the ports of the session, and one more,
-// on which the session asks whether it answers.
+// Stands before the daemon on the PATH: gives the session's own one the default addresses, with the ports of the
+// session, and one more, on which the session asks whether it answers.
 constexpr const char* kWrapper = R"(#!/bin/bash
-case "$1" in [a-z]*|--version) exec DAEMON "$@" ;; esac
+[[ $OF_SESSION ]] || exec DAEMON "$@"
+unset OF_SESSION
 more=()
-case " $* " in *"/socket --http none ") exec DAEMON "$@" ;; esac  # a private one of Python
 case " $* " in *" --config "*) exec DAEMON "$@" --http 127.0.0.1:8080 ;; esac
 case " $* " in
   *" --listen "*) ;;
@@ -105,9 +105,9 @@ std::string typed(const std::string& command) {
   const bool in_front = std::regex_match(std::regex_replace(command, std::regex(R"(\\\n)"), " "), kDaemon) &&
                         command.find("--version") == std::string::npos;
   if (!in_front && !command.ends_with('&')) return command + "\n";
-  return "[[ -z $daemon ]] || { kill $daemon; wait $daemon; } 2>/dev/null\n" + command +
-         (in_front ? " >$HOME/.session/output 2>$HOME/.session/log &" : "") + "\ndaemon=$!\n" + kAnswers +
-         (in_front ? "cat $HOME/.session/output $HOME/.session/log\n" : "") + "(exit $answers)\n";
+  return "[[ -z $daemon ]] || { kill $daemon; wait $daemon; } 2>/dev/null\nexport OF_SESSION=1\n" + command +
+         (in_front ? " >$HOME/.session/output 2>$HOME/.session/log &" : "") + "\ndaemon=$!\nunset OF_SESSION\n" +
+         kAnswers + (in_front ? "cat $HOME/.session/output $HOME/.session/log\n" : "") + "(exit $answers)\n";
 }
 
 std::string script_of(const std::vector<Step>& steps, const fs::path& folder, const fs::path& programs, Ports& ports) {
@@ -179,10 +179,10 @@ std::vector<Step> steps_of(const Page& page) {
   const std::string python = "~/.session/page.py";
   std::vector<Step> steps;
   const auto save = [&](const Code& block, const std::string& how, const std::string& file) {
-    steps.push_back({block.line,
-                     "mkdir -p $(dirname " + file + ") && cat " + how + " " + file + " <<'@@ file'\n" + block.text +
-                         "@@ file",
-                     {}});
+    steps.push_back(
+        {block.line,
+         "mkdir -p $(dirname " + file + ") && cat " + how + " " + file + " <<'@@ file'\n" + block.text + "@@ file",
+         {}});
   };
   int python_line = 0;
   for (const Code& block : page.blocks) {
