@@ -99,6 +99,7 @@ def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:
 _NUMBERS = (FieldDescriptor.TYPE_DOUBLE, FieldDescriptor.TYPE_INT64)
 # By message or field, the number that is above 0 where it is known. A frame has no relative density.
 _KNOWN_BY = {"Summary": "step_count", "CheckCaseResponse": "step_count", "Theory": "shock_mpa",
+             "densification_strain": "densification_strain",  # of a theory
              **dict.fromkeys(("length_mm", "width_mm", "relative_density"), "relative_density")}
 
 
