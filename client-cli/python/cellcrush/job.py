@@ -119,6 +119,11 @@ class Job(Results):
         return Values(self._message.summary)
 
     @property
+    def has_result(self) -> bool:
+        """Whether there is a result file; of a job that was cancelled or failed, it has the results so far."""
+        return bool(self._message.HasField("summary"))
+
+    @property
     def case(self) -> Case:
         """The case as submitted."""
         if not self._message.HasField("case"):

@@ -8,6 +8,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -73,9 +74,13 @@ class Jobs(WithServer):
         job = self.server.submit(PRESET, SLOW, labels={"study": "walls"})
         self.assertEqual(job.suspend().state, "SUSPENDED")
         self.assertIn(job.resume().state, ("PENDING", "RUNNING"))
+        next(job.watch())
         job.cancel()
-        with self.assertRaisesRegex(cc.JobFailed, "CANCELLED"):
+        with self.assertRaisesRegex(cc.JobFailed, f"{job.name} CANCELLED: it was cancelled at step .* results so far"):
             job.wait()
+        queued = self.server.submit(PRESET, SLOW).cancel()
+        with self.assertRaisesRegex(cc.JobFailed, f"{queued.name} CANCELLED: .*Submit job.case again to run it."):
+            queued.wait()
         self.assertEqual([j.name for j in self.server.jobs('label.study = "walls"')], [job.name])
         self.assertEqual(self.server.get(job.name).case.loading.speed_m_per_s, 0.5)
         job.delete()
@@ -176,8 +181,6 @@ class Interruptions(unittest.TestCase):
         return daemon
 
     def test_waits_go_on_when_the_daemon_is_killed_and_started_again(self):
-        import tempfile
-
         with tempfile.TemporaryDirectory(dir="/tmp") as folder:
             daemon = self.start(folder)
             server = cc.connect(f"unix:{folder}/s")
@@ -218,11 +221,16 @@ class Interruptions(unittest.TestCase):
             cc.run(PRESET, SMALL, output="nofolder/x.h5")
         started.assert_not_called()
 
-    def test_run_needs_no_daemon(self):
-        with contextlib.ExitStack() as stack:
-            import tempfile
+    def test_run_saves_the_results_of_a_failed_job_too(self):
+        file = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()), "result.h5")
+        with self.assertRaisesRegex(cc.JobFailed, f"FAILED: .*time_limit_s.* {file} has the results so far") as raised:
+            cc.run(PRESET, SLOW, time_limit_s=1, output=file)
+        job, result = raised.exception.job, cc.open(file)
+        self.assertEqual((raised.exception.output, result.attributes["complete"]), (file, 0))
+        np.testing.assert_array_equal(result.samples()["strain"], job.samples()["strain"])
 
-            folder = stack.enter_context(tempfile.TemporaryDirectory())
+    def test_run_needs_no_daemon(self):
+        with tempfile.TemporaryDirectory() as folder:
             job = cc.run(PRESET, SMALL, output=f"{folder}/result.h5")
             self.assertEqual(cc.open(f"{folder}/result.h5").summary.plateau_stress_impact_mpa,
                              job.summary.plateau_stress_impact_mpa)
