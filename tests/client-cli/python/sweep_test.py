@@ -38,8 +38,12 @@ class Sweeps(WithServer):
                                    4.303 * plateau.std(axis=1, ddof=1) / np.sqrt(3), rtol=1e-3)
         self.assertEqual(list(table["count"]), [3, 3, 3])
         self.assertEqual(len(self.sweep.table(mean_over=["seed", "speed_m_per_s"])), 1)
-        with self.assertRaisesRegex(ValueError, "varies speed_m_per_s, seed"):
-            self.sweep.table(mean_over="rows")
+        for name in ("lattice.imperfection.seed", ["lattice__imperfection__seed"]):
+            pandas.testing.assert_frame_equal(self.sweep.table(mean_over=name), table)
+        self.assertEqual(list(self.sweep.table(mean_over="loading.speed_m_per_s")["seed"]), [1, 2, 3])
+        for name in ("rows", "lattice.hexagon.rows"):
+            with self.assertRaisesRegex(ValueError, f"mean_over '{name}' .* varies speed_m_per_s, seed"):
+                self.sweep.table(mean_over=name)
 
     def test_points_without_results_stay(self):
         sweep = self.server.sweep(PRESET, {**SLOW, "speed_m_per_s": [1, 0.5]}, seeds=2, amplitude_mm=0.02,
@@ -59,7 +63,7 @@ class Sweeps(WithServer):
             "plateau": [1.0, 3.0, 9.0, 5.0, 5.0, 9.0], "densification": [0.5, nan, 0.9, nan, nan, nan],
             "front": [nan] * 6})
         table.attrs["units"] = {}
-        means = mean_table(table, ["speed", "seed"], ["plateau", "densification", "front"], "seed")
+        means = mean_table(table, ["speed", "seed"], ["plateau", "densification", "front"], ["seed"])
         self.assertEqual([list(means[name]) for name in ("speed", "count", "warned", "densification_count")],
                          [[1, 2, 3], [2, 2, 0], [1, 0, 0], [1, 0, 0]])
         np.testing.assert_array_equal(means["plateau"], [2.0, 5.0, nan])
@@ -77,6 +81,13 @@ class Sweeps(WithServer):
         sweep.delete()
         with self.assertRaises(cc.NotFound):
             self.server.get(sweep.name)
+        sweep = self.server.sweep(PRESET, SLOW, speed_m_per_s=[0.5, 0.6], time_limit_s=0.1, max_parallel=1,
+                                  max_failures=1).wait()
+        self.assertEqual(sweep.states, {"FAILED": 1, "CANCELLED": 1})
+        old = [job.name for job in sweep]
+        self.assertFalse({job.name for job in sweep.retry()} & set(old))  # both again
+        self.assertEqual(self.server.get(old[0]).state, "FAILED")
+        sweep.cancel()
 
     def test_meshio_reads_every_frame(self):
         self.job.write_vtk(self.folder / "crush.pvd")
@@ -89,6 +100,19 @@ class Sweeps(WithServer):
             np.testing.assert_array_equal(grid.cell_data["plastic_fraction"][0], frames.plastic_fraction[index])
             np.testing.assert_array_equal(grid.cell_data["thickness_mm"][0], self.job.mesh.thickness_mm)
         self.assertGreater(np.abs(grid.point_data["displacement_mm"]).max(), 1.0)
+
+    def test_surplus_frames_of_a_longer_crush_are_deleted(self):
+        path, folder = self.folder / "crush.pvd", self.folder / "crush"
+        self.job.write_vtk(path)
+        count = len(self.job.frames)
+        path.write_text(path.read_text().replace("</Collection>", "".join(
+            f'<DataSet file="{name}"/>' for name in (f"crush/{count:04}.vtu", "crush/own.vtu", "../0000.vtu"))))
+        others = (folder / "own.vtu", folder / "9999.vtu", self.folder / "0000.vtu")
+        for name in (folder / f"{count:04}.vtu", *others):
+            name.touch()
+        self.job.write_vtk(path)
+        self.assertEqual(len(list(folder.iterdir())), count + 2)
+        self.assertTrue(all(name.exists() for name in others))
 
     def test_a_result_file_has_what_the_job_has(self):
         file = cc.open(self.job.download(self.folder / "result.h5"))
