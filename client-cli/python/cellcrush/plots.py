@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import io
+import re
 import time
 from typing import TYPE_CHECKING, Any, Optional, Tuple
 
@@ -24,6 +25,8 @@ _BLUE, _ORANGE, _GREY = "#0072b2", "#d55e00", "#666666"  # told apart by the col
 _SMOOTHED = 0.02  # strain over which a curve is averaged
 _REDRAWN_S = 0.5
 _DPI = 200.0
+_ICONS = {"minus": "−", "fast-backward": "«", "step-backward": "‹", "play fa-flip-horizontal": "◀\ufe0e",
+          "pause": "❚❚", "play": "▶\ufe0e", "step-forward": "›", "fast-forward": "»", "plus": "+"}
 
 
 def _axes(ax: "Optional[matplotlib.axes.Axes]", width_mm: float, aspect: float = 0.75) -> "matplotlib.axes.Axes":
@@ -177,7 +180,17 @@ def animate(results: "Results", width_mm: float = 85.0, font_pt: float = 8.0,
     animation = need("matplotlib.animation", "python3-matplotlib")
     ax = _axes(None, width_mm, _aspect(results))
     picture = _Picture(results, ax, font_pt)
-    movie: "matplotlib.animation.FuncAnimation" = animation.FuncAnimation(
+
+    class Player(animation.FuncAnimation):  # type: ignore[misc]
+        def to_jshtml(self, *options: Any, **named: Any) -> str:
+            """The player, with texts for the icons that matplotlib takes from another host."""
+            page = re.sub(r"<link[^>]*>", "", super().to_jshtml(*options, **named))
+            return re.sub(r'<i class="fa fa-([^"]*)"></i>', lambda icon: _ICONS[icon.group(1)], page)
+
+        def _repr_html_(self) -> str:
+            return self.to_jshtml()
+
+    movie: "matplotlib.animation.FuncAnimation" = Player(
         ax.figure, picture.show, frames=len(results.frames), interval=1000.0 / frames_per_s)
     need("matplotlib.pyplot", "python3-matplotlib").close(ax.figure)  # a notebook shows the movie alone
     return movie

@@ -82,7 +82,7 @@ class Results(ABC):
         return plot_frame(self, strain, ax, **style)
 
     def animate(self, **style: Any) -> "matplotlib.animation.FuncAnimation":
-        """The crush as a movie: `.save("crush.gif")`, or `.to_jshtml()` for a player in a notebook."""
+        """The crush as a movie: `.save("crush.gif")`. Notebooks show it as a player, the HTML of `.to_jshtml()`."""
         from cellcrush.plots import animate
 
         return animate(self, **style)

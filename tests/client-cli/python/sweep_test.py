@@ -159,7 +159,12 @@ class Sweeps(WithServer):
         legend = [text.get_text() for text in self.sweep.plot().get_legend().get_texts()]
         self.assertIn("shock theory (Eq. 51)", legend)
         self.assertEqual(self.job.plot(font_pt=7).xaxis.label.get_fontsize(), 7)
-        self.assertIn("<script", self.job.animate().to_jshtml())
+
+    def test_a_player_needs_no_other_host(self):
+        player = self.job.animate()
+        self.assertIn("<script", player._repr_html_())
+        self.assertNotRegex(player.to_jshtml(), r"https?:|//\w+\.\w|<link|<i ")
+        self.assertRegex(player.to_jshtml(), 'aria-label="Play"[^>]*>\\s*▶')
 
     def test_a_second_varied_field_gives_a_series_each(self):
         sweep = self.server.sweep(PRESET, SMALL, wall_thickness_mm=[0.3, 0.4], speed_m_per_s=[50, 100]).wait()
