@@ -11,17 +11,15 @@ import numpy as np
 from cellcrush.arrays import Array, samples_array
 from cellcrush.display import notebook_display
 from cellcrush.errors import need
-from cellcrush.words import label_of, short_names
 
 if TYPE_CHECKING:
     import matplotlib.animation
     import matplotlib.axes
     from cellcrush.job import Job
     from cellcrush.results import Results
-    from cellcrush.sweep import Sweep
 
 _MM = 1.0 / 25.4
-_BLUE, _ORANGE, _GREY = "#0072b2", "#d55e00", "#666666"  # told apart by the colour-blind
+_BLUE, _ORANGE, GREY = "#0072b2", "#d55e00", "#666666"  # told apart by the colour-blind
 _SMOOTHED = 0.02  # strain over which a curve is averaged
 _REDRAWN_S = 0.5
 _DPI = 200.0
@@ -29,7 +27,7 @@ _ICONS = {"minus": "−", "fast-backward": "«", "step-backward": "‹", "play f
           "pause": "❚❚", "play": "▶\ufe0e", "step-forward": "›", "fast-forward": "»", "plus": "+"}
 
 
-def _axes(ax: "Optional[matplotlib.axes.Axes]", width_mm: float, aspect: float = 0.75) -> "matplotlib.axes.Axes":
+def new_axes(ax: "Optional[matplotlib.axes.Axes]", width_mm: float, aspect: float = 0.75) -> "matplotlib.axes.Axes":
     pyplot = need("matplotlib.pyplot", "python3-matplotlib")
     if ax is None:
         size = (width_mm * _MM, aspect * width_mm * _MM)
@@ -38,10 +36,11 @@ def _axes(ax: "Optional[matplotlib.axes.Axes]", width_mm: float, aspect: float =
     return ax
 
 
-def _finish(ax: Any, font_pt: float, title: str = "", columns: int = 2) -> None:
+def finish(ax: Any, font_pt: float, title: str = "", columns: int = 2) -> None:
     """The legend goes above the axes, where it hides no curve."""
-    if ax.get_legend_handles_labels()[0]:
-        ax.legend(fontsize=font_pt, frameon=False, handlelength=1.5, ncols=columns, loc="lower left",
+    named = zip(*ax.get_legend_handles_labels())
+    if entries := sorted(named, key=lambda entry: not isinstance(entry[0], tuple)):  # error bars, then lines
+        ax.legend(*zip(*entries), fontsize=font_pt, frameon=False, handlelength=1.5, ncols=columns, loc="lower left",
                   borderaxespad=0.0, bbox_to_anchor=(0.0, 1.02), columnspacing=1.2, title=title or None,
                   title_fontsize=font_pt, alignment="left")
     for text in (ax.title, ax.xaxis.label, ax.yaxis.label):
@@ -72,7 +71,7 @@ def _draw_curves(ax: Any, samples: Array) -> None:
 
 def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
                 font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    ax = _axes(ax, width_mm)
+    ax = new_axes(ax, width_mm)
     _draw_curves(ax, results.samples())
     summary = results.summary
     if summary.plateau_stress_impact_mpa is not None:
@@ -80,49 +79,9 @@ def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None,
         ax.plot(window, [summary.plateau_stress_impact_mpa] * 2, color="black", linewidth=1.2, solid_capstyle="butt",
                 label=f"plateau {summary.plateau_stress_impact_mpa:.4g} MPa")
     if summary.densification_strain is not None:
-        ax.axvline(summary.densification_strain, color=_GREY, linewidth=0.6, linestyle=":",
+        ax.axvline(summary.densification_strain, color=GREY, linewidth=0.6, linestyle=":",
                    label=f"densification {summary.densification_strain:.3g}")
-    _finish(ax, font_pt)
-    return ax
-
-
-def _intervals(sweep: "Sweep") -> Tuple[Any, str, "list[str]"]:
-    names = short_names(sweep.fields)
-    seeds = [name for name in names if name.rsplit(".", 1)[-1] == "seed" and len(names) > 1]
-    table = sweep.table(mean_over=seeds)
-    others = [name for name in names if name not in seeds]
-    return table, others[0], others[1:]
-
-
-def plot_sweep(sweep: "Sweep", ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
-               font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    table, first, others = _intervals(sweep)
-    ax = _axes(ax, width_mm)
-    groups = table.groupby(others if len(others) > 1 else others[0], sort=False) if others else [((), table)]
-    for key, rows in groups:
-        rows = rows.sort_values(first)
-        values = key if isinstance(key, tuple) else (key,)
-        group = ", ".join(f"{value:g}" for value in values)
-        colour = None
-        for plate, marker, line in (("impact", "o", "-"), ("support", "s", "--")):
-            column = f"plateau_stress_{plate}_mpa"
-            bars = rows[column + "_ci95"]
-            drawn = ax.errorbar(rows[first], rows[column], yerr=None if bars.isna().all() else bars, marker=marker,
-                                markersize=3, linewidth=0.8, capsize=2, elinewidth=0.6, color=colour, linestyle=line,
-                                label=(group if plate == "impact" else None) if group else f"{plate} plate")
-            colour = drawn[0].get_color() if group else None
-    missing = table[first][table["count"] == 0]
-    if len(missing):
-        ax.plot(missing, [0.0] * len(missing), "x", color=_GREY, markersize=4, clip_on=False, label="no job succeeded")
-    if others:
-        ax.plot([], [], color=_GREY, linewidth=0.8, linestyle="--", marker="s", markersize=3, label="support")
-    theory = table["shock_mpa"].notna()
-    if first == "speed_m_per_s" and not others and theory.sum() > 1:
-        slope, constant = np.polyfit(table[first][theory] ** 2, table["shock_mpa"][theory], 1)
-        speeds = np.linspace(table[first].min(), table[first].max(), 200)
-        ax.plot(speeds, constant + slope * speeds**2, color="black", linewidth=0.8, label="shock theory (Eq. 51)")
-    ax.set(xlabel=label_of(first), ylabel="plateau stress (MPa)", ylim=(0.0, None))
-    _finish(ax, font_pt, ", ".join(label_of(name) for name in others), 4 if len(others) == 1 else 2)
+    finish(ax, font_pt)
     return ax
 
 
@@ -144,8 +103,8 @@ class _Picture:
         self._plate: Any = None
         if self._mesh.impact_plate_mm != self._mesh.support_plate_mm:
             draw = ax.axhline if self._mesh.along_y else ax.axvline
-            draw(self._mesh.support_plate_mm, color=_GREY, linewidth=1.5, clip_on=False)
-            self._plate = draw(self._mesh.impact_plate_mm, color=_GREY, linewidth=1.5, clip_on=False)
+            draw(self._mesh.support_plate_mm, color=GREY, linewidth=1.5, clip_on=False)
+            self._plate = draw(self._mesh.impact_plate_mm, color=GREY, linewidth=1.5, clip_on=False)
         ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
         ax.set_axis_off()
         self._title = ax.set_title("", fontsize=font_pt)
@@ -170,7 +129,7 @@ def _aspect(results: "Results") -> float:
 
 def plot_frame(results: "Results", strain: float, ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
                font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    ax = _axes(ax, width_mm, _aspect(results))
+    ax = new_axes(ax, width_mm, _aspect(results))
     _Picture(results, ax, font_pt).show(results.frames.nearest(strain))
     return ax
 
@@ -178,10 +137,10 @@ def plot_frame(results: "Results", strain: float, ax: "Optional[matplotlib.axes.
 def animate(results: "Results", width_mm: float = 85.0, font_pt: float = 8.0,
             frames_per_s: float = 12.0) -> "matplotlib.animation.FuncAnimation":
     animation = need("matplotlib.animation", "python3-matplotlib")
-    ax = _axes(None, width_mm, _aspect(results))
+    ax = new_axes(None, width_mm, _aspect(results))
     picture = _Picture(results, ax, font_pt)
 
-    class Player(animation.FuncAnimation):  # type: ignore[misc]
+    class Player(animation.FuncAnimation):  # type: ignore[misc, name-defined]
         def to_jshtml(self, *options: Any, **named: Any) -> str:
             """The player, with texts for the icons that matplotlib takes from another host."""
             page = re.sub(r"<link[^>]*>", "", super().to_jshtml(*options, **named))
@@ -198,7 +157,7 @@ def animate(results: "Results", width_mm: float = 85.0, font_pt: float = 8.0,
 
 def live_plot(job: "Job", width_mm: float = 85.0, font_pt: float = 8.0) -> "matplotlib.axes.Axes":
     pyplot = need("matplotlib.pyplot", "python3-matplotlib")
-    ax = _axes(None, width_mm)
+    ax = new_axes(None, width_mm)
     notebook: Any = notebook_display()
     handle, next_s = None, 0.0
     if notebook:
@@ -214,7 +173,7 @@ def live_plot(job: "Job", width_mm: float = 85.0, font_pt: float = 8.0) -> "matp
             continue
         ax.clear()
         _draw_curves(ax, samples_array(list(watch.samples.values())))
-        _finish(ax, font_pt)
+        finish(ax, font_pt)
         if handle is not None:
             handle.update(picture())
         elif pyplot.get_backend().lower() != "agg":

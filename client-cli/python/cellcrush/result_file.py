@@ -53,9 +53,9 @@ def _read_numbers(attributes: Mapping[str, Any], message: Any, prefix: str = "")
 
 def _summary(attributes: Mapping[str, Any]) -> Summary:
     """The summary as a job has it. Files of early versions have only the attributes of its parts."""
+    summary: Summary = json_format.Parse(attributes.get("job", "{}"), Job(), ignore_unknown_fields=True).summary
     if "job" in attributes:
-        return json_format.Parse(attributes["job"], Job(), ignore_unknown_fields=True).summary
-    summary = Summary()
+        return summary
     _read_numbers(attributes, summary)
     if "theory_shock_error_relative" in attributes:
         summary.shock_error_relative = attributes["theory_shock_error_relative"]

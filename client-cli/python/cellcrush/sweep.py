@@ -145,10 +145,12 @@ class Sweep:
         return mean_table(table, names, columns, [by_path.get(name.replace("__", "."), name) for name in over])
 
     def plot(self, ax: "matplotlib.axes.Axes | None" = None, **style: Any) -> "matplotlib.axes.Axes":
-        """Draws the plateau stresses over the first varied field, means over seeds with intervals, and theory."""
-        from cellcrush.plots import plot_sweep
+        """Draws the plateau stresses, means over seeds: over one field as curves with intervals and theory, over two as
+        a map with contours (with `series=True`, a curve for each value of the second). `style`: `width_mm=85`,
+        `font_pt=8`."""
+        from cellcrush.sweep_plots import plot_points, read_points
 
-        return plot_sweep(self, ax, **style)
+        return plot_points(*read_points(self), ax, **style)
 
     def cancel(self) -> "Sweep":
         """Cancels all jobs that have not ended."""

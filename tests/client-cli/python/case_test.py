@@ -39,7 +39,8 @@ class Cases(WithServer):
             with self.assertRaises(cc.CaseError, msg=(path, wrong)) as raised:
                 self.server.case(case)
             problem = raised.exception.problems[0]
-            self.assertEqual((problem.field, problem.value[:60]), (path, "" if path.endswith(".3") else str(wrong)[:60]))
+            value = "" if path.endswith(".3") else str(wrong)
+            self.assertEqual((problem.field, problem.value[:60]), (path, value[:60]))
             self.assertTrue(problem.remedy, path)
             count += 1
         self.assertGreater(count, 1000)

@@ -134,7 +134,8 @@ class Sweeps(WithServer):
         of_file, of_job = cc.open(path).summary, self.job.summary
         without = {"crush_mode_words": "", "theory.densification_strain": None}  # they have no attribute
         self.assertEqual(of_file.as_dict(), {**of_job.as_dict(), **without})
-        self.assertEqual([(w.kind, w.message) for w in of_file.warnings], [(w.kind, w.message) for w in of_job.warnings])
+        warnings = [[(w.kind, w.message) for w in summary.warnings] for summary in (of_file, of_job)]
+        self.assertEqual(*warnings)
 
     def test_only_a_whole_result_file_is_read(self):
         whole = self.job.download(self.folder / "result.h5").read_bytes()
@@ -166,10 +167,26 @@ class Sweeps(WithServer):
         self.assertNotRegex(player.to_jshtml(), r"https?:|//\w+\.\w|<link|<i ")
         self.assertRegex(player.to_jshtml(), 'aria-label="Play"[^>]*>\\s*▶')
 
-    def test_a_second_varied_field_gives_a_series_each(self):
-        sweep = self.server.sweep(PRESET, SMALL, wall_thickness_mm=[0.3, 0.4], speed_m_per_s=[50, 100]).wait()
-        legend = [text.get_text() for text in sweep.plot().get_legend().get_texts()]
-        self.assertIn("0.3", legend)
+    def test_two_varied_fields_give_a_map_of_means_over_seeds(self):
+        sweep = self.server.sweep(PRESET, SMALL, speed_m_per_s=[50, 200], wall_thickness_mm=[0.3, 0.4], seeds=2,
+                                  amplitude_mm=0.02).wait()
+        ax = sweep.plot()
+        means = sweep.table(mean_over="seed").sort_values(["wall_thickness_mm", "speed_m_per_s"])
+        cells, contours = ax.collections[0], ax.collections[1:]
+        np.testing.assert_array_equal(cells.get_array().ravel(), means["plateau_stress_impact_mpa"])
+        self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("speed (m/s)", "wall thickness (mm)"))
+        self.assertTrue(any(len(contour.get_paths()) for contour in contours))
+        self.assertEqual([text.get_text() for text in ax.texts],
+                         [f"{value:.3g}" for value in means["plateau_stress_impact_mpa"]])
+        self.assertGreater(min(*ax.get_xlim(), *ax.get_ylim()), 0.0)
+        series = sweep.plot(series=True)
+        self.assertEqual([text.get_text() for text in series.get_legend().get_texts()], ["0.3", "0.4", "support"])
+        self.assertGreaterEqual(series.get_xlim()[0], 0.0)
+
+    def test_a_map_shows_where_no_job_succeeded(self):
+        sweep = self.server.sweep(PRESET, {**SLOW, "speed_m_per_s": [1, 0.5]}, wall_thickness_mm=[0.3, 0.4],
+                                  max_parallel=1).cancel().wait()
+        self.assertEqual([text.get_text() for text in sweep.plot().texts], ["–"] * 4)
 
 
 if __name__ == "__main__":
