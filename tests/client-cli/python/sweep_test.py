@@ -1,5 +1,11 @@
 """Sweeps, their tables and means, and what is written for other programs and for print."""
+import contextlib
+import os
+import pathlib
+import subprocess
+import tempfile
 import unittest
+import urllib.request
 import warnings
 import zlib
 
@@ -188,6 +194,29 @@ class Sweeps(WithServer):
                                   max_parallel=1).cancel().wait()
         self.assertEqual([text.get_text() for text in sweep.plot().texts], ["–"] * 4)
 
+
+class Means(unittest.TestCase):
+    def test_means_are_those_of_the_daemon(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(dir="/tmp")))
+        with subprocess.Popen([os.environ["CELLCRUSHD"], "--data", folder / "data", "--listen", f"unix:{folder}/s",
+                               "--http", "127.0.0.1:0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+                              ) as daemon, contextlib.ExitStack() as stack:
+            stack.callback(daemon.terminate)
+            pages = next(line.split()[-1] for line in daemon.stderr if "serving HTTP on" in line)
+            daemon.stdout.readline()
+            server = stack.enter_context(cc.connect(f"unix:{folder}/s"))
+            sweep = server.sweep(PRESET, SMALL, wall_thickness_mm=[0.4, 0.6], vertical_wall_thickness_mm=0.4,
+                                 end_strain=0.85, speed_m_per_s=10, seeds=3, amplitude_mm=0.05).wait()
+            direct = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+            theirs = pandas.read_csv(direct.open(f"{pages}/{sweep.name}.csv"))
+            ours = sweep.table(mean_over="seed")
+        results = [name.removesuffix("_interval") for name in theirs if name.endswith("_interval")]
+        self.assertEqual((len(results), list(ours["densification_strain_count"])), (10, [1, 3]))
+        for name in results:
+            np.testing.assert_allclose(ours[name], theirs[name], rtol=1e-6, err_msg=name)
+            np.testing.assert_array_equal(ours.get(f"{name}_count", theirs[f"{name}_count"]), theirs[f"{name}_count"])
+            if f"{name}_ci95" in ours:  # Student's factor of the daemon has four digits
+                np.testing.assert_allclose(ours[f"{name}_ci95"], theirs[f"{name}_interval"], rtol=2e-5, err_msg=name)
 
 if __name__ == "__main__":
     unittest.main()
