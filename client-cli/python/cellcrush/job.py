@@ -58,6 +58,11 @@ class JobWatch:
             self.samples[event.sequence] = event.sample
         return kind
 
+    def show(self, bar: Bar, kind: str) -> None:
+        if kind in ("progress", "snapshot"):
+            now = self.job.progress
+            bar.show(now.fraction, f"strain {now.strain:.3f}, {now.seconds_left:.0f} s left")
+
     def has_ended(self) -> bool:
         return self.job.state in ENDED
 
@@ -169,9 +174,10 @@ class Job(Results):
         but stops a private server."""
         bar = Bar(self.name, progress)
         for kind, watch in self.events():
-            if kind in ("progress", "snapshot"):
-                now = watch.job.progress
-                bar.show(now.fraction, f"strain {now.strain:.3f}, {now.seconds_left:.0f} s left")
+            watch.show(bar, kind)
+        return self._ended(bar, check)
+
+    def _ended(self, bar: Bar, check: bool) -> "Job":
         bar.show(1.0 if self.state == "SUCCEEDED" else self._message.progress.fraction, self.state, last=True)
         if check and self.state != "SUCCEEDED":
             raise JobFailed(self)
@@ -270,9 +276,12 @@ class Job(Results):
 
     def live_plot(self, **style: Any) -> "matplotlib.axes.Axes":
         """Draws the curves while the job runs, in a notebook or a window, and returns them at its end."""
-        from cellcrush.plots import live_plot
+        from cellcrush.plots import LivePlot
 
-        return live_plot(self, **style)
+        live = LivePlot(**style)
+        for kind, watch in self.events():
+            live.take(kind, watch)
+        return live.end(self)
 
     def __repr__(self) -> str:
         return f"<{self.name} {self.state} {self.title!r}>"

@@ -15,7 +15,7 @@ from cellcrush.errors import need
 if TYPE_CHECKING:
     import matplotlib.animation
     import matplotlib.axes
-    from cellcrush.job import Job
+    from cellcrush.job import Job, JobWatch
     from cellcrush.results import Results
 
 _MM = 1.0 / 25.4
@@ -155,33 +155,38 @@ def animate(results: "Results", width_mm: float = 85.0, font_pt: float = 8.0,
     return movie
 
 
-def live_plot(job: "Job", width_mm: float = 85.0, font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    pyplot = need("matplotlib.pyplot", "python3-matplotlib")
-    ax = new_axes(None, width_mm)
-    notebook: Any = notebook_display()
-    handle, next_s = None, 0.0
-    if notebook:
-        handle = notebook.display("", display_id=True)
+class LivePlot:
+    """Curves that are drawn again as samples arrive, in a notebook or a window."""
 
-    def picture() -> Any:
+    def __init__(self, width_mm: float = 85.0, font_pt: float = 8.0) -> None:
+        self._pyplot = need("matplotlib.pyplot", "python3-matplotlib")
+        self._style = (width_mm, font_pt)
+        self._ax = new_axes(None, width_mm)
+        self._notebook: Any = notebook_display()
+        self._handle: Any = self._notebook.display("", display_id=True) if self._notebook else None
+        self._next_s = 0.0
+
+    def _show(self) -> None:
         png = io.BytesIO()
-        ax.figure.savefig(png, format="png")
-        return notebook.Image(png.getvalue())
+        self._ax.figure.savefig(png, format="png")
+        self._handle.update(self._notebook.Image(png.getvalue()))
 
-    for kind, watch in job.events():
-        if kind != "sample" or time.monotonic() < next_s:
-            continue
-        ax.clear()
-        _draw_curves(ax, samples_array(list(watch.samples.values())))
-        finish(ax, font_pt)
-        if handle is not None:
-            handle.update(picture())
-        elif pyplot.get_backend().lower() != "agg":
-            pyplot.pause(0.01)
-        next_s = time.monotonic() + _REDRAWN_S
-    ax.clear()
-    plot_curves(job, ax, width_mm, font_pt)
-    if handle is not None:
-        handle.update(picture())
-        pyplot.close(ax.figure)
-    return ax
+    def take(self, kind: str, watch: "JobWatch") -> None:
+        if kind != "sample" or time.monotonic() < self._next_s:
+            return
+        self._ax.clear()
+        _draw_curves(self._ax, samples_array(list(watch.samples.values())))
+        finish(self._ax, self._style[1])
+        if self._handle is not None:
+            self._show()
+        elif self._pyplot.get_backend().lower() != "agg":
+            self._pyplot.pause(0.01)
+        self._next_s = time.monotonic() + _REDRAWN_S
+
+    def end(self, job: "Job") -> "matplotlib.axes.Axes":
+        self._ax.clear()
+        plot_curves(job, self._ax, *self._style)
+        if self._handle is not None:
+            self._show()
+            self._pyplot.close(self._ax.figure)
+        return self._ax

@@ -60,6 +60,17 @@ def private_server(data: Optional[PathLike] = None) -> Iterator[Server]:
             daemon.stdout.close()  # type: ignore[union-attr]
 
 
+def keep_results(job: Job, output: Optional[PathLike], check: bool) -> None:
+    """Takes the results of an ended job into memory and into a file, before its daemon stops."""
+    job.case
+    saved = None
+    if job.has_result:
+        job.samples(), job.mesh
+        saved = job.download(output) if output is not None else None
+    if check and job.state != "SUCCEEDED":
+        raise JobFailed(job, saved)
+
+
 def run(case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *, output: Optional[PathLike] = None,
         progress: Optional[bool] = None, check: bool = True, **more: Any) -> Job:
     """Crushes one case and returns its job, with all results in memory; `output` also saves the result file.
@@ -70,11 +81,5 @@ def run(case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *, output: O
         require_place(pathlib.Path(output))
     with private_server() as server:
         job = server.submit(case, fields, **more).wait(progress, check=False)
-        job.case
-        saved = None
-        if job.has_result:
-            job.samples(), job.mesh
-            saved = job.download(output) if output is not None else None
-    if check and job.state != "SUCCEEDED":
-        raise JobFailed(job, saved)
+        keep_results(job, output, check)
     return job

@@ -46,6 +46,9 @@ class SweepWatch:
         elif kind == "progress":
             self.fractions[message.job] = message.event.progress.fraction
 
+    def show(self, bar: Bar) -> None:
+        bar.show(self.fraction(), f"{sum(self.ended.values())} of {len(self.ended)} jobs ended")
+
     def has_ended(self) -> bool:
         return bool(self.ended) and all(self.ended.values())
 
@@ -111,7 +114,10 @@ class Sweep:
             for message in self._connection.follow(self._connection.sweeps.WatchSweep, lambda: watch.request,
                                                    watch.has_ended):
                 watch.take(message)
-                bar.show(watch.fraction(), f"{sum(watch.ended.values())} of {len(watch.ended)} jobs ended")
+                watch.show(bar)
+        return self._ended(bar, watch)
+
+    def _ended(self, bar: Bar, watch: SweepWatch) -> "Sweep":
         self.refresh()
         bar.show(watch.fraction(), ", ".join(f"{n} {state}" for state, n in self.states.items()), last=True)
         return self

@@ -1,5 +1,4 @@
 """Jobs: results as arrays, and waits that survive what happens to them."""
-import asyncio
 import contextlib
 import io
 import itertools
@@ -15,7 +14,6 @@ import unittest
 from unittest import mock
 
 import cellcrush as cc
-import cellcrush.aio
 import numpy as np
 from support import PRESET, SLOW, SMALL, WithServer
 
@@ -115,37 +113,6 @@ class Jobs(WithServer):
     def test_a_request_id_names_one_job(self):
         jobs = [self.server.submit(PRESET, SMALL, request_id="once") for _ in range(2)]
         self.assertEqual(jobs[0].name, jobs[1].name)
-
-    def test_asyncio_waits_for_many_jobs(self):
-        async def crush():
-            server = await cellcrush.aio.connect(self.server.address)
-            jobs = [await server.submit(PRESET, SMALL, speed_m_per_s=speed) for speed in (100, 200)]
-            await asyncio.gather(*(job.wait() for job in jobs))
-            return [(job.state, len(await job.samples())) for job in jobs]
-
-        for state, count in asyncio.run(crush()):
-            self.assertEqual(state, "SUCCEEDED")
-            self.assertGreater(count, 100)
-
-    def test_asyncio_has_sweeps_and_watches(self):
-        async def crush():
-            server = await cellcrush.aio.connect(self.server.address)
-            self.assertEqual((await server.check(PRESET, SMALL)).problems, [])
-            sweep = await (await server.sweep(PRESET, SMALL, speed_m_per_s=[100, 200])).wait()
-            job = (await sweep.jobs())[0]
-            self.assertIn(job.name, [other.name for other in await server.jobs("state = SUCCEEDED")])
-            strains = [sample.strain async for sample in job.watch()]
-            self.assertEqual(strains, list((await job.history())["strain"]))
-            self.assertGreater(len(await job.frames()), 5)
-            states = list((await sweep.table())["state"])
-            await sweep.delete()
-            slow = await server.submit(PRESET, SLOW)
-            with self.assertRaises(cc.JobFailed):
-                await (await slow.cancel()).wait()
-            await slow.delete()
-            return states
-
-        self.assertEqual(asyncio.run(crush()), ["SUCCEEDED"] * 2)
 
     def test_a_bar_shows_progress(self):
         with contextlib.redirect_stderr(io.StringIO()) as shown:
