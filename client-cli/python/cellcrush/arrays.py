@@ -47,7 +47,7 @@ def samples_array(samples: Sequence[Sample]) -> Array:
     return array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Mesh:
     """What is constant during a run. N particles, E elements; lengths in mm."""
 
@@ -60,8 +60,12 @@ class Mesh:
     support_plate_mm: float
     along_y: bool  # whether the crush is along y
 
+    def __repr__(self) -> str:
+        return (f"<mesh of {len(self.position_mm)} particles and {len(self.element_nodes)} elements, "
+                f"{self.length_mm:.6g} x {self.width_mm:.6g} mm>")
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Frames:
     """The deformed mesh at F times."""
 
@@ -72,6 +76,9 @@ class Frames:
 
     def __len__(self) -> int:
         return len(self.time_s)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} frames, strain 0 to {self.strain.max(initial=0.0):.3g}>"
 
     def nearest(self, strain: float) -> int:
         """The index of the frame nearest to a nominal strain."""
@@ -156,8 +163,8 @@ class Values:
 
     def _rows(self) -> List[Tuple[str, str]]:
         shown = [(name, value) for name, value in self.as_dict().items() if value not in (None, "", [])]
-        return [(name, f"{value:.6g} {unit_of(name)}".rstrip() if isinstance(value, float) else str(value))
-                for name, value in shown]
+        return [(name, f"{value:.6g} {unit_of(name)}".rstrip() if isinstance(value, float) else
+                 " ".join(value) if isinstance(value, list) else str(value)) for name, value in shown]
 
     def __repr__(self) -> str:
         return "\n".join(f"{name}: {text}" for name, text in self._rows())
@@ -165,4 +172,4 @@ class Values:
     def _repr_html_(self) -> str:
         from cellcrush.display import html_table
 
-        return html_table([(words_of(name), text) for name, text in self._rows()])
+        return html_table([(" ".join(words_of(part) for part in name.split(".")), text) for name, text in self._rows()])

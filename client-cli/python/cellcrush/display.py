@@ -13,7 +13,7 @@ def html_table(rows: Iterable[Sequence[str]], heading: str = "") -> str:
     >>> html_table([("state", "RUNNING")])
     '<table><tr><td>state</td><td>RUNNING</td></tr></table>'
     """
-    caption = f"<caption><b>{html.escape(heading)}</b></caption>" if heading else ""
+    caption = f"<caption style='white-space:nowrap'><b>{html.escape(heading)}</b></caption>" if heading else ""
     cells = ("".join(f"<td>{html.escape(cell)}</td>" for cell in row) for row in rows)
     return f"<table>{caption}" + "".join(f"<tr>{row}</tr>" for row in cells) + "</table>"
 

@@ -292,10 +292,4 @@ class Job(Results):
             rows.append(("cause", f"{self.cause}: {self.cause_message} {self.remedy}"))
         if self._message.HasField("progress"):
             rows.append(("strain", f"{self.progress.strain:.3f} ({self.progress.fraction:.0%})"))
-        for label, name, unit in (("plateau at the impact plate", "plateau_stress_impact_mpa", "MPa"),
-                                  ("plateau at the support plate", "plateau_stress_support_mpa", "MPa"),
-                                  ("densification strain", "densification_strain", "")):
-            value = getattr(self.summary, name)
-            if value is not None:
-                rows.append((label, f"{value:.4g} {unit}".rstrip()))
-        return html_table(rows, f"{self.name}: {self.title}")
+        return html_table(rows + self._result_rows(), f"{self.name}: {self.title}")

@@ -23,6 +23,7 @@ _BLUE, _ORANGE, GREY = "#0072b2", "#d55e00", "#666666"  # told apart by the colo
 _SMOOTHED = 0.02  # strain over which a curve is averaged
 _REDRAWN_S = 0.5
 _DPI = 200.0
+_TALLEST = 1.5  # height of a picture over its width
 _ICONS = {"minus": "−", "fast-backward": "«", "step-backward": "‹", "play fa-flip-horizontal": "◀\ufe0e",
           "pause": "❚❚", "play": "▶\ufe0e", "step-forward": "›", "fast-forward": "»", "plus": "+"}
 
@@ -88,12 +89,10 @@ def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None,
 class _Picture:
     """A frame as lines, coloured by plastic fraction, which can show another one."""
 
-    def __init__(self, results: "Results", ax: Any, font_pt: float) -> None:
+    def __init__(self, results: "Results", ax: Any, font_pt: float, low: Array, high: Array) -> None:
         collections = need("matplotlib.collections", "python3-matplotlib")
         self._frames, self._mesh = results.frames, results.mesh
         # Thickness to scale: a point of a line is 1/72 inch.
-        positions = self._frames.position_mm
-        low, high = positions.min(axis=(0, 1)), positions.max(axis=(0, 1))
         box = ax.get_window_extent()
         scale = min(box.width / (high[0] - low[0]), box.height / (high[1] - low[1])) * 72.0 / ax.figure.dpi
         self._lines = collections.LineCollection([], cmap="inferno_r", linewidths=np.maximum(
@@ -122,23 +121,28 @@ class _Picture:
         return self._lines, self._title
 
 
-def _aspect(results: "Results") -> float:
-    size = results.frames.position_mm.max(axis=(0, 1)) - results.frames.position_mm.min(axis=(0, 1))
-    return float(size[1] / size[0]) + 0.08
+def _picture(results: "Results", frames: Any, ax: "Optional[matplotlib.axes.Axes]", width_mm: float,
+             font_pt: float) -> Tuple[Any, _Picture]:
+    """Axes with a picture that has room for these frames."""
+    positions = results.frames.position_mm[frames].reshape(-1, 2)
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    size = high - low
+    ax = new_axes(ax, width_mm, min(float(size[1] / size[0]) + 0.08, _TALLEST))
+    return ax, _Picture(results, ax, font_pt, low, high)
 
 
 def plot_frame(results: "Results", strain: float, ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
                font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    ax = new_axes(ax, width_mm, _aspect(results))
-    _Picture(results, ax, font_pt).show(results.frames.nearest(strain))
+    index = results.frames.nearest(strain)
+    ax, picture = _picture(results, index, ax, width_mm, font_pt)
+    picture.show(index)
     return ax
 
 
 def animate(results: "Results", width_mm: float = 85.0, font_pt: float = 8.0,
             frames_per_s: float = 12.0) -> "matplotlib.animation.FuncAnimation":
     animation = need("matplotlib.animation", "python3-matplotlib")
-    ax = new_axes(None, width_mm, _aspect(results))
-    picture = _Picture(results, ax, font_pt)
+    ax, picture = _picture(results, slice(None), None, width_mm, font_pt)
 
     class Player(animation.FuncAnimation):  # type: ignore[misc, name-defined]
         def to_jshtml(self, *options: Any, **named: Any) -> str:

@@ -11,6 +11,7 @@ from google.protobuf.descriptor import FieldDescriptor
 
 from cellcrush.arrays import Array, Frames, Mesh, Values
 from cellcrush.case import parse_case
+from cellcrush.display import html_table
 from cellcrush.errors import FileError, need
 from cellcrush.results import PathLike, Results
 from cellcrush.v1.job_pb2 import Job
@@ -90,6 +91,13 @@ class ResultFile(Results):
         self.case = parse_case(self.attributes["case"], str(path))
         self.title = self.case.title
         self.summary = Values(_summary(self.attributes))
+
+    def __repr__(self) -> str:
+        return f"<{'result' if self.attributes['complete'] else 'partial result'} {self.title!r}>"
+
+    def _repr_html_(self) -> str:
+        ended = [] if self.attributes["complete"] else [("partial", str(self.attributes.get("failure", "cancelled")))]
+        return html_table(ended + self._result_rows(), self.title)
 
     def samples(self) -> Array:
         return self._samples

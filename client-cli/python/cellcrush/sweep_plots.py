@@ -108,6 +108,7 @@ def _write_values(ax: Any, x: Array, y: Array, values: Any, cells: Any, font_pt:
     scale = 72.0 / ax.figure.dpi
     widths, heights = (scale * np.diff(ax.transData.transform(np.column_stack([borders, borders]))[:, axis])
                        for axis, borders in enumerate((_borders(x), _borders(y))))
+    middles = [0.5 * (borders[1:] + borders[:-1]) for borders in (_borders(x), _borders(y))]
     for row, column in np.ndindex(values.shape):
         value = values[row, column]
         text = "–" if value is np.ma.masked else f"{value:.3g}"
@@ -115,5 +116,5 @@ def _write_values(ax: Any, x: Array, y: Array, values: Any, cells: Any, font_pt:
             continue
         is_bright = value is np.ma.masked or cells.norm(value) > _DARK
         behind = "#ededed" if value is np.ma.masked else cells.to_rgba(value)
-        ax.text(x[column], y[row], text, fontsize=font_pt, ha="center", va="center", clip_on=True,
+        ax.text(middles[0][column], middles[1][row], text, fontsize=font_pt, ha="center", va="center", clip_on=True,
                 color="black" if is_bright else "white", bbox={"facecolor": behind, "edgecolor": "none", "pad": 0.8})

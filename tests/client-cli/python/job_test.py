@@ -37,6 +37,10 @@ class Jobs(WithServer):
         self.assertEqual(dataset.position_mm.attrs["units"], "mm")
         self.assertEqual(dataset.position_mm.dims, ("frame", "particle", "axis"))
         self.assertIn("MPa", job._repr_html_())
+        self.assertIn("<td>theory densification strain</td>", job.summary._repr_html_())
+        self.assertRegex(repr(mesh), f"<mesh of {len(mesh.position_mm)} particles .* elements, "
+                                     f"{mesh.length_mm:.6g} x {mesh.width_mm:.6g} mm>")
+        self.assertEqual(repr(frames), f"<{len(frames)} frames, strain 0 to 0.5>")
         self.assertEqual([s.strain for s in job.watch()], list(samples["strain"]))
 
     def test_a_watched_node_has_columns(self):

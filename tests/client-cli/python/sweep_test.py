@@ -129,6 +129,8 @@ class Sweeps(WithServer):
         self.assertEqual(file.summary.as_dict(), self.job.summary.as_dict())
         self.assertEqual(file.summary.theory.shock_mpa, self.job.summary.theory.shock_mpa)
         self.assertEqual(file.case, self.job.case)
+        self.assertEqual(repr(file), f"<result {self.job.title!r}>")
+        self.assertIn("plateau at the impact plate", file._repr_html_())
 
     def test_a_result_file_of_an_early_version_has_the_same_numbers(self):
         path = self.job.download(self.folder / "result.h5")
@@ -166,6 +168,10 @@ class Sweeps(WithServer):
         legend = [text.get_text() for text in self.sweep.plot().get_legend().get_texts()]
         self.assertIn("shock theory (Eq. 51)", legend)
         self.assertEqual(self.job.plot(font_pt=7).xaxis.label.get_fontsize(), 7)
+
+    def test_a_picture_fits_its_frame(self):
+        positions = self.job.frames.position_mm[-1]
+        self.assertEqual(self.job.plot_frame(1.0).get_xlim(), (positions[:, 0].min(), positions[:, 0].max()))
 
     def test_a_player_needs_no_other_host(self):
         player = self.job.animate()
