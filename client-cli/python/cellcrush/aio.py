@@ -72,12 +72,13 @@ class Sweep:
 
     async def wait(self, progress: Optional[bool] = False) -> "Sweep":
         """Waits until all jobs have ended, however: `states` counts how. Cancelling the task leaves them running."""
-        bar, watch = Bar(self.name, progress), _sweep.SweepWatch(self.name)
-        async for message in follow(self.sync._connection, sweeps_service_pb2_grpc.SweepsStub, "WatchSweep",
-                                    lambda: watch.request, watch.has_ended):
-            watch.take(message)
-            watch.show(bar)
-        await asyncio.to_thread(self.sync._ended, bar, watch)
+        watch = _sweep.SweepWatch(self.name)
+        with Bar(self.name, progress) as bar:
+            async for message in follow(self.sync._connection, sweeps_service_pb2_grpc.SweepsStub, "WatchSweep",
+                                        lambda: watch.request, watch.has_ended):
+                watch.take(message)
+                watch.show(bar)
+            await asyncio.to_thread(self.sync._ended, bar, watch)
         return self
 
     async def table(self, mean_over: Union[str, Sequence[str], None] = None) -> "pandas.DataFrame":

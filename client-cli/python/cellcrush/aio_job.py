@@ -147,10 +147,10 @@ class Job:
         with None on terminals and in notebooks; bars of several waits would overwrite each other.
 
         Raises JobFailed if it did not succeed, unless `check` is False."""
-        bar = Bar(self.name, progress)
-        async for kind, watch in self.events():
-            watch.show(bar, kind)
-        self.sync._ended(bar, check)
+        with Bar(self.name, progress) as bar:
+            async for kind, watch in self.events():
+                watch.show(bar, kind)
+            self.sync._ended(bar, check)
         return self
 
     async def cancel(self) -> "Job":

@@ -59,9 +59,11 @@ class JobWatch:
         return kind
 
     def show(self, bar: Bar, kind: str) -> None:
-        if kind in ("progress", "snapshot"):
-            now = self.job.progress
+        now = self.job.progress
+        if kind == "progress":
             bar.show(now.fraction, f"strain {now.strain:.3f}, {now.seconds_left:.0f} s left")
+        elif kind in ("snapshot", "state") and not self.has_ended():
+            bar.show(now.fraction, job_pb2.Job.State.Name(self.job.state))
 
     def has_ended(self) -> bool:
         return self.job.state in ENDED
@@ -152,20 +154,20 @@ class Job(Results):
         """The kind of each event (snapshot, state, sample, progress ...) with all that came so far, up to the end."""
         watch = JobWatch(self._message)
         stream = self._connection.follow(self._connection.jobs.WatchJob, lambda: watch.request, watch.has_ended)
-        with leaves_running(self.name, self._connection):
-            for event in stream:
-                kind = watch.take(event)
-                if kind in ("snapshot", "state"):
-                    self._take(watch.job)
-                yield kind, watch
+        for event in stream:
+            kind = watch.take(event)
+            if kind in ("snapshot", "state"):
+                self._take(watch.job)
+            yield kind, watch
 
     def watch(self) -> Iterator[Sample]:
         """Each sample as it comes, from the first, up to the end of the job; lost connections are made up for.
 
         A job that restarts from step 0 sends its samples again."""
-        for kind, watch in self.events():
-            if kind == "sample":
-                yield watch.samples[watch.request.after_sequence]
+        with leaves_running(self.name, self._connection):
+            for kind, watch in self.events():
+                if kind == "sample":
+                    yield watch.samples[watch.request.after_sequence]
 
     def wait(self, progress: "bool | None" = None, check: bool = True) -> "Job":
         """Waits for the end of the job. A bar shows on terminals and in notebooks, always or never with `progress`.
@@ -173,8 +175,9 @@ class Job(Results):
         Raises JobFailed if it did not succeed, unless `check` is False. Ctrl-C leaves the job running,
         but stops a private server."""
         bar = Bar(self.name, progress)
-        for kind, watch in self.events():
-            watch.show(bar, kind)
+        with leaves_running(self.name, self._connection):
+            for kind, watch in self.events():
+                watch.show(bar, kind)
         return self._ended(bar, check)
 
     def _ended(self, bar: Bar, check: bool) -> "Job":
@@ -279,8 +282,9 @@ class Job(Results):
         from cellcrush.plots import LivePlot
 
         live = LivePlot(**style)
-        for kind, watch in self.events():
-            live.take(kind, watch)
+        with leaves_running(self.name, self._connection):
+            for kind, watch in self.events():
+                live.take(kind, watch)
         return live.end(self)
 
     def __repr__(self) -> str:

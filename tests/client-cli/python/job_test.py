@@ -126,10 +126,14 @@ class Jobs(WithServer):
     def test_ctrl_c_leaves_the_job_running(self):
         server = self.enterContext(cc.connect(self.server.address))
         job = server.submit(PRESET, SLOW)
-        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
-        with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt):
-            job.wait()
-        self.assertIn(f"{job.name} keeps running", said.getvalue())
+        interrupt = mock.patch("cellcrush.plots.LivePlot.take", lambda *_: os.kill(os.getpid(), signal.SIGINT))
+        for wait in (job.wait, job.live_plot):
+            with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt), interrupt:
+                if wait == job.wait:
+                    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+                wait()
+            self.assertEqual(said.getvalue(), f"\n{job.name} keeps running; get({job.name!r}) of the server finds it "
+                                              "again\n")
         self.assertIn(job.refresh().state, ("PENDING", "RUNNING"))
         job.cancel()
 
