@@ -162,7 +162,8 @@ class Values:
         return values
 
     def _rows(self) -> List[Tuple[str, str]]:
-        shown = [(name, value) for name, value in self.as_dict().items() if value not in (None, "", [])]
+        shown = [(name, value) for name, value in self.as_dict().items()
+                 if value not in (None, "", []) and not str(value).endswith("_UNSPECIFIED")]
         return [(name, f"{value:.6g} {unit_of(name)}".rstrip() if isinstance(value, float) else
                  " ".join(value) if isinstance(value, list) else str(value)) for name, value in shown]
 

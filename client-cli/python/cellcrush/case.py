@@ -256,6 +256,12 @@ def parse_case(text: str, source: str = "the text") -> Case:
     return case
 
 
+def join_fields(fields: Optional[Mapping[str, Any]], more: Mapping[str, Any]) -> dict[str, Any]:
+    if not isinstance(fields, (Mapping, type(None))):
+        raise _refuse("fields", fields, "is not a dict.", 'Give a dict, such as {"contact.friction": 0.2}.')
+    return {**(fields or {}), **more}
+
+
 def build_case(source: CaseLike, fields: Mapping[str, Any], preset: Callable[[str], Case]) -> Case:
     """The case that any of the accepted forms describes, with these fields set. `preset` finds one by name."""
     case = Case()

@@ -61,12 +61,13 @@ def _smoothed(x: Array, y: Array) -> Array:
 
 def _draw_curves(ax: Any, samples: Array) -> None:
     strain, top = samples["strain"], 0.0
+    is_shown = strain > min(_SMOOTHED, 0.1 * strain.max(initial=0.0))  # the first impact may leave the axes
     for name, label, colour in (("stress_impact_mpa", "impact plate", _BLUE),
                                 ("stress_support_mpa", "support plate", _ORANGE)):
         smooth = _smoothed(strain, samples[name])
         ax.plot(strain, samples[name], color=colour, alpha=0.25, linewidth=0.4)
         ax.plot(strain, smooth, color=colour, linewidth=1.0, label=label)
-        top = max(top, *smooth[strain > _SMOOTHED], 0.0)
+        top = max(top, *smooth[is_shown], 0.0)
     ax.set(xlim=(0.0, None), ylim=(0.0, 1.1 * top or None), xlabel="nominal strain", ylabel="nominal stress (MPa)")
 
 

@@ -41,6 +41,7 @@ def plot_points(table: "pandas.DataFrame", fields: "List[str]", ax: "Optional[ma
 
 
 def _draw_curves(ax: Any, table: "pandas.DataFrame", first: str, others: "List[str]", font_pt: float) -> None:
+    is_seed = first.rsplit(".", 1)[-1] == "seed"
     groups = table.groupby(others if len(others) > 1 else others[0], sort=False) if others else [((), table)]
     for key, rows in groups:
         rows = rows.sort_values(first)
@@ -48,6 +49,7 @@ def _draw_curves(ax: Any, table: "pandas.DataFrame", first: str, others: "List[s
         group = ", ".join(f"{value:g}" for value in values)
         colour = None
         for plate, marker, line in (("impact", "o", "-"), ("support", "s", "--")):
+            line = "none" if is_seed else line
             column = f"plateau_stress_{plate}_mpa"
             bars = rows[column + "_ci95"]
             drawn = ax.errorbar(rows[first], rows[column], yerr=None if bars.isna().all() else bars, marker=marker,
@@ -65,6 +67,9 @@ def _draw_curves(ax: Any, table: "pandas.DataFrame", first: str, others: "List[s
         speeds = np.linspace(table[first].min(), table[first].max(), 200)
         ax.plot(speeds, constant + slope * speeds**2, color="black", linewidth=0.8, label="shock theory (Eq. 51)")
     ax.set(xlabel=label_of(first), ylabel="plateau stress (MPa)", ylim=(0.0, None))
+    locator = ax.xaxis.get_major_locator()
+    if isinstance(locator, need("matplotlib.ticker", "python3-matplotlib").MaxNLocator):
+        locator.set_params(integer=bool((table[first] % 1 == 0).all()))
     if table[first].min() > 0.0:
         ax.set_xlim(left=max(ax.get_xlim()[0], 0.0))
     finish(ax, font_pt, ", ".join(label_of(name) for name in others), 4 if len(others) == 1 else 2)

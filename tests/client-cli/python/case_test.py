@@ -94,6 +94,14 @@ class Cases(WithServer):
             with self.assertRaisesRegex(cc.CaseError, rf"^{field} .*\(found {value}\) Give", msg=fields):
                 self.server.sweep(PRESET, **fields)
 
+    def test_wrong_options_are_named(self):
+        for options in ({"time_limit_s": "1 h"}, {"priority": 1.5}, {"executor": 3.5}, {"fields": "speed_m_per_s=5"}):
+            for call in (self.server.submit, self.server.sweep):
+                with self.assertRaisesRegex(cc.CaseError, f"^{next(iter(options))} is .*Give", msg=options):
+                    call(PRESET, **{"fields": {"speed_m_per_s": [100]} if call == self.server.sweep else {}, **options})
+        job = self.server.submit(PRESET, SMALL, labels={"batch": 3}).cancel()
+        self.assertEqual(job.labels, {"batch": "3"})
+
     def test_the_daemon_lists_all_problems(self):
         with self.assertRaises(cc.CaseError) as raised:
             self.server.submit({"lattice.hexagon.columns": 1, "end_strain": 2})

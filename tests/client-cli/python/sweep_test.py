@@ -195,6 +195,11 @@ class Sweeps(WithServer):
         self.assertEqual([text.get_text() for text in series.get_legend().get_texts()], ["0.3", "0.4", "support"])
         self.assertGreaterEqual(series.get_xlim()[0], 0.0)
 
+    def test_seeds_alone_are_points_at_whole_numbers(self):
+        ax = self.server.sweep(PRESET, SMALL, seeds=3, amplitude_mm=0.02).wait().plot()
+        self.assertEqual([container[0].get_linestyle() for container in ax.containers], ["None"] * 2)
+        self.assertTrue(all(tick % 1 == 0 for tick in ax.get_xticks()))
+
     def test_a_map_shows_where_no_job_succeeded(self):
         sweep = self.server.sweep(PRESET, {**SLOW, "speed_m_per_s": [1, 0.5]}, wall_thickness_mm=[0.3, 0.4],
                                   max_parallel=1).cancel().wait()
