@@ -1,112 +1,41 @@
 """The same for asyncio: `server = await connect()`, `await job.wait()`, `async for sample in job.watch()`.
 
-Calls run in threads; watches and waits hold none, so that one program can wait for thousands of jobs."""
+Every call of the package is here, to be awaited; properties that ask the daemon are calls, too: `await job.frames()`.
+Calls run in threads; watches and waits hold none, so that one program can wait for thousands of jobs. Plots are drawn
+in the thread of the loop, as matplotlib requires."""
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Any, AsyncIterator, Callable, List, Mapping, Optional
+import pathlib
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING, Any, AsyncIterator, Dict, List, Mapping, Optional, Sequence, Union
 
-import grpc
-
-from cellcrush import job as _job
+import cellcrush as _plain
+from cellcrush import (Case, CaseError, Check, CrushError, FileError, Frames, JobFailed, Mesh, NotConnected, NotFound,
+                       Problem, ResultFile)
 from cellcrush import server as _server
 from cellcrush import sweep as _sweep
-from cellcrush.arrays import Array, Frames
+from cellcrush.aio_job import Job, documented_as, follow
 from cellcrush.case import CaseLike
-from cellcrush.connection import OPTIONS, RECOVERABLE, SILENCE_S, Connection, Patience
-from cellcrush.errors import JobFailed, NotConnected, raise_error
-from cellcrush.v1 import jobs_service_pb2_grpc, sweeps_service_pb2_grpc
-from cellcrush.v1.sample_pb2 import Sample
+from cellcrush.display import Bar
+from cellcrush.explain import explain
+from cellcrush.private import keep_results
+from cellcrush.results import PathLike
+from cellcrush.v1 import sweeps_service_pb2_grpc
+from cellcrush.whole_file import require_place
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import pandas
 
-
-async def _follow(connection: Connection, stub: Any, method: str, next_request: Callable[[], Any],
-                  is_complete: Callable[[], bool]) -> AsyncIterator[Any]:
-    """As Connection.follow."""
-    patience = Patience(connection.patience_s)
-    secure = connection.credentials
-    channel = (grpc.aio.secure_channel(connection.address, secure, options=OPTIONS) if secure else
-               grpc.aio.insecure_channel(connection.address, options=OPTIONS))
-    async with channel:
-        while True:
-            stream = getattr(stub(channel), method)(next_request(), metadata=connection.metadata)
-            try:
-                while (message := await asyncio.wait_for(stream.read(), SILENCE_S)) is not grpc.aio.EOF:
-                    patience.renew()
-                    yield message
-                if is_complete():
-                    return
-                lost = "the server closed the stream"
-            except asyncio.TimeoutError:
-                lost = "it fell silent"
-            except grpc.RpcError as error:
-                if error.code() not in RECOVERABLE:
-                    raise_error(error, connection.address)
-                lost = error.details() or ""
-            finally:
-                stream.cancel()
-            pause = patience.next_pause()
-            if pause is None:
-                raise NotConnected(f"lost the connection to {connection.address}: {lost}")
-            await asyncio.sleep(pause)
+__all__ = ["Case", "CaseError", "Check", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
+           "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "Sweep", "connect", "open", "private_server",
+           "run"]
 
 
-class Job:
-    """A job; `sync` is the same with blocking methods, for what it computes without the daemon (plots, tables)."""
-
-    def __init__(self, sync: _job.Job) -> None:
-        self.sync = sync
-
-    @property
-    def name(self) -> str:
-        return self.sync.name
-
-    @property
-    def state(self) -> str:
-        return self.sync.state
-
-    @property
-    def summary(self) -> Any:
-        return self.sync.summary
-
-    async def watch(self) -> AsyncIterator[Sample]:
-        """Each sample as it comes, up to the end of the job."""
-        watch = _job.JobWatch(self.sync._message)
-        async for event in _follow(self.sync._connection, jobs_service_pb2_grpc.JobsStub, "WatchJob",
-                                   lambda: watch.request, watch.has_ended):
-            if watch.take(event) == "sample":
-                yield event.sample
-        await asyncio.to_thread(self.sync.refresh)
-
-    async def wait(self, check: bool = True) -> "Job":
-        """Waits for the end of the job. Cancelling the task leaves the job running."""
-        async for _ in self.watch():
-            pass
-        if check and self.state != "SUCCEEDED":
-            raise JobFailed(self.sync)
-        return self
-
-    async def samples(self) -> Array:
-        return await asyncio.to_thread(self.sync.samples)
-
-    async def history(self) -> "pandas.DataFrame":
-        return await asyncio.to_thread(self.sync.history)
-
-    async def frames(self) -> Frames:
-        return await asyncio.to_thread(lambda: self.sync.frames)
-
-    async def cancel(self) -> "Job":
-        await asyncio.to_thread(self.sync.cancel)
-        return self
-
-    async def delete(self) -> None:
-        await asyncio.to_thread(self.sync.delete)
-
-
+@documented_as(_sweep.Sweep)
 class Sweep:
-    """A sweep; `sync` is the same with blocking methods."""
+    """A sweep; `sync` is the same with calls that block. `async for job in sweep` iterates over its jobs."""
 
     def __init__(self, sync: _sweep.Sweep) -> None:
         self.sync = sync
@@ -115,34 +44,90 @@ class Sweep:
     def name(self) -> str:
         return self.sync.name
 
-    async def jobs(self) -> List[Job]:
-        return [Job(job) for job in await asyncio.to_thread(lambda: self.sync.jobs)]
+    @property
+    def case(self) -> Case:
+        return self.sync.case
 
-    async def wait(self) -> "Sweep":
-        """Waits until all jobs have ended."""
-        watch = _sweep.SweepWatch(self.name)
-        async for message in _follow(self.sync._connection, sweeps_service_pb2_grpc.SweepsStub, "WatchSweep",
-                                     lambda: watch.request, watch.has_ended):
-            watch.take(message)
+    @property
+    def fields(self) -> List[str]:
+        return self.sync.fields
+
+    @property
+    def states(self) -> Dict[str, int]:
+        return self.sync.states
+
+    async def refresh(self) -> "Sweep":
         await asyncio.to_thread(self.sync.refresh)
         return self
 
-    async def table(self, mean_over: Optional[str] = None) -> "pandas.DataFrame":
+    async def jobs(self) -> List[Job]:
+        return [Job(job) for job in await asyncio.to_thread(lambda: self.sync.jobs)]
+
+    async def __aiter__(self) -> AsyncIterator[Job]:
+        for job in await self.jobs():
+            yield job
+
+    def __len__(self) -> int:
+        return len(self.sync)
+
+    async def wait(self, progress: Optional[bool] = False) -> "Sweep":
+        """Waits until all jobs have ended, however: `states` counts how. Cancelling the task leaves them running."""
+        watch = _sweep.SweepWatch(self.name)
+        with Bar(self.name, progress) as bar:
+            async for message in follow(self.sync._connection, sweeps_service_pb2_grpc.SweepsStub, "WatchSweep",
+                                        lambda: watch.request, watch.has_ended):
+                watch.take(message)
+                watch.show(bar)
+            await asyncio.to_thread(self.sync._ended, bar, watch)
+        return self
+
+    async def table(self, mean_over: Union[str, Sequence[str], None] = None) -> "pandas.DataFrame":
         return await asyncio.to_thread(self.sync.table, mean_over)
+
+    async def plot(self, ax: "matplotlib.axes.Axes | None" = None, **style: Any) -> "matplotlib.axes.Axes":
+        from cellcrush.sweep_plots import plot_points, read_points
+
+        return plot_points(*await asyncio.to_thread(read_points, self.sync), ax, **style)
 
     async def cancel(self) -> "Sweep":
         await asyncio.to_thread(self.sync.cancel)
         return self
 
+    async def retry(self) -> "Sweep":
+        await asyncio.to_thread(self.sync.retry)
+        return self
+
     async def delete(self) -> None:
         await asyncio.to_thread(self.sync.delete)
 
+    def __repr__(self) -> str:
+        return repr(self.sync)
 
+    def _repr_html_(self) -> str:
+        return self.sync._repr_html_()
+
+
+@documented_as(_server.Server)
 class Server:
-    """A daemon."""
+    """A daemon; `sync` is the same with calls that block."""
 
     def __init__(self, sync: _server.Server) -> None:
         self.sync = sync
+
+    explain = staticmethod(explain)
+
+    @property
+    def address(self) -> str:
+        return self.sync.address
+
+    async def case(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, **more: Any) -> Case:
+        return await asyncio.to_thread(self.sync.case, case, fields, **more)
+
+    async def presets(self) -> Dict[str, str]:
+        return await asyncio.to_thread(self.sync.presets)
+
+    async def check(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, **more: Any) -> Check:
+        return await asyncio.to_thread(self.sync.check, case, fields, **more)
 
     async def submit(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, **more: Any) -> Job:
         return Job(await asyncio.to_thread(self.sync.submit, case, fields, **more))
@@ -150,13 +135,56 @@ class Server:
     async def sweep(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, **more: Any) -> Sweep:
         return Sweep(await asyncio.to_thread(self.sync.sweep, case, fields, **more))
 
-    async def check(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, **more: Any) -> _server.Check:
-        return await asyncio.to_thread(self.sync.check, case, fields, **more)
+    async def get(self, name: Union[str, int]) -> Any:
+        found = await asyncio.to_thread(self.sync.get, name)
+        return Sweep(found) if isinstance(found, _sweep.Sweep) else Job(found)
 
     async def jobs(self, filter: str = "") -> List[Job]:  # noqa: A002
         return [Job(job) for job in await asyncio.to_thread(lambda: list(self.sync.jobs(filter)))]
 
+    async def sweeps(self) -> List[Sweep]:
+        return [Sweep(sweep) for sweep in await asyncio.to_thread(lambda: list(self.sync.sweeps()))]
+
+    async def close(self) -> None:
+        await asyncio.to_thread(self.sync.close)
+
+    async def __aenter__(self) -> "Server":
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+    def __repr__(self) -> str:
+        return repr(self.sync)
+
 
 async def connect(address: Optional[str] = None, **options: Any) -> Server:
     """As cellcrush.connect, with the same options."""
-    return Server(await asyncio.to_thread(_server.connect, address, **options))
+    return Server(await asyncio.to_thread(_plain.connect, address, **options))
+
+
+async def open(path: PathLike) -> ResultFile:  # noqa: A001
+    """As cellcrush.open."""
+    return await asyncio.to_thread(_plain.open, path)
+
+
+@asynccontextmanager
+async def private_server(data: Optional[PathLike] = None) -> AsyncIterator[Server]:
+    """As cellcrush.private_server: `async with private_server() as server`."""
+    plain = _plain.private_server(data)
+    server = await asyncio.to_thread(plain.__enter__)
+    try:
+        yield Server(server)
+    finally:
+        await asyncio.to_thread(plain.__exit__, None, None, None)
+
+
+async def run(case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *, output: Optional[PathLike] = None,
+              progress: Optional[bool] = False, check: bool = True, **more: Any) -> Job:
+    """As cellcrush.run. Cancelling the task stops the crush."""
+    if output is not None:
+        require_place(pathlib.Path(output))
+    async with private_server() as server:
+        job = await (await server.submit(case, fields, **more)).wait(progress, check=False)
+        await asyncio.to_thread(keep_results, job.sync, output, check)
+    return job

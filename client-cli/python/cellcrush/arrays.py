@@ -47,7 +47,7 @@ def samples_array(samples: Sequence[Sample]) -> Array:
     return array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Mesh:
     """What is constant during a run. N particles, E elements; lengths in mm."""
 
@@ -60,8 +60,12 @@ class Mesh:
     support_plate_mm: float
     along_y: bool  # whether the crush is along y
 
+    def __repr__(self) -> str:
+        return (f"<mesh of {len(self.position_mm)} particles and {len(self.element_nodes)} elements, "
+                f"{self.length_mm:.6g} x {self.width_mm:.6g} mm>")
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Frames:
     """The deformed mesh at F times."""
 
@@ -72,6 +76,9 @@ class Frames:
 
     def __len__(self) -> int:
         return len(self.time_s)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} frames, strain 0 to {self.strain.max(initial=0.0):.3g}>"
 
     def nearest(self, strain: float) -> int:
         """The index of the frame nearest to a nominal strain."""
@@ -99,6 +106,7 @@ def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:
 _NUMBERS = (FieldDescriptor.TYPE_DOUBLE, FieldDescriptor.TYPE_INT64)
 # By message or field, the number that is above 0 where it is known. A frame has no relative density.
 _KNOWN_BY = {"Summary": "step_count", "CheckCaseResponse": "step_count", "Theory": "shock_mpa",
+             "densification_strain": "densification_strain",  # of a theory
              **dict.fromkeys(("length_mm", "width_mm", "relative_density"), "relative_density")}
 
 
@@ -154,9 +162,10 @@ class Values:
         return values
 
     def _rows(self) -> List[Tuple[str, str]]:
-        shown = [(name, value) for name, value in self.as_dict().items() if value not in (None, "", [])]
-        return [(name, f"{value:.6g} {unit_of(name)}".rstrip() if isinstance(value, float) else str(value))
-                for name, value in shown]
+        shown = [(name, value) for name, value in self.as_dict().items()
+                 if value not in (None, "", []) and not str(value).endswith("_UNSPECIFIED")]
+        return [(name, f"{value:.6g} {unit_of(name)}".rstrip() if isinstance(value, float) else
+                 " ".join(value) if isinstance(value, list) else str(value)) for name, value in shown]
 
     def __repr__(self) -> str:
         return "\n".join(f"{name}: {text}" for name, text in self._rows())
@@ -164,4 +173,4 @@ class Values:
     def _repr_html_(self) -> str:
         from cellcrush.display import html_table
 
-        return html_table([(words_of(name), text) for name, text in self._rows()])
+        return html_table([(" ".join(words_of(part) for part in name.split(".")), text) for name, text in self._rows()])

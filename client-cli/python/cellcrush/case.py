@@ -9,6 +9,7 @@ import pathlib
 import re
 from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Union
 
+import numpy as np
 from google.protobuf import json_format, text_format
 from google.protobuf.descriptor import Descriptor, FieldDescriptor
 from google.protobuf.message import Message
@@ -20,13 +21,15 @@ CaseLike = Union[Case, Mapping[str, Any], str, "os.PathLike[str]"]
 
 _PRESET = "preset:"
 _FORMS = "Give a file, preset:NAME, text or a dict."
-_WHOLE = (FieldDescriptor.TYPE_INT32, FieldDescriptor.TYPE_INT64, FieldDescriptor.TYPE_UINT32,
-          FieldDescriptor.TYPE_UINT64)
+_WHOLE = {FieldDescriptor.TYPE_INT32: (-2**31, 2**31 - 1), FieldDescriptor.TYPE_INT64: (-2**63, 2**63 - 1),
+          FieldDescriptor.TYPE_UINT32: (0, 2**32 - 1), FieldDescriptor.TYPE_UINT64: (0, 2**64 - 1)}
+_SHOWN = 60  # characters of a value in an error
 _MAX_SEEDS = 100000
 
 
 def _refuse(field: str, value: object, message: str, remedy: str) -> CaseError:
-    return CaseError([Problem(field, "" if value is None else str(value), message, remedy)])
+    text = "" if value is None else str(value)
+    return CaseError([Problem(field, text if len(text) <= _SHOWN else text[:_SHOWN] + "...", message, remedy)])
 
 
 def _near(word: str, known: list[str]) -> str:
@@ -67,13 +70,19 @@ def _fits(case: Case, path: str) -> bool:
     return True
 
 
+def _text_of(key: Any, prefix: str = "") -> str:
+    if not isinstance(key, str):
+        raise _refuse(f"{prefix}{key}", None, "is no field of a case.", "Name fields by texts.")
+    return key
+
+
 def find_path(word: str, case: Case) -> str:
     """The path of a field: itself, or the only path in this case that ends in this word.
 
     >>> find_path("speed_m_per_s", Case()), find_path("lattice__hexagon__rows", Case())
     ('loading.speed_m_per_s', 'lattice.hexagon.rows')
     """
-    path = word.replace("__", ".")
+    path = _text_of(word).replace("__", ".")
     if "." in path or "[" in path or path in Case.DESCRIPTOR.fields_by_name:
         return path
     known = _paths_by_last_part()
@@ -87,32 +96,42 @@ def find_path(word: str, case: Case) -> str:
     raise _refuse(word, None, "is no field of a case.", _near(path, sorted(known)))
 
 
-def _scalar(field: FieldDescriptor, value: Any, path: str) -> Any:
+def _kind(field: FieldDescriptor) -> str:
+    """What a field, or each entry of a list, takes."""
+    if field.message_type is not None:
+        return "a dict with fields of it: " + ", ".join(member.name for member in field.message_type.fields)
     if field.enum_type is not None:
-        names = [entry.name for entry in field.enum_type.values if entry.number != 0]
-        if isinstance(value, str) and value.upper() in names:
-            return field.enum_type.values_by_name[value.upper()].number
-        if isinstance(value, int) and value in field.enum_type.values_by_number:
-            return value
-        raise _refuse(path, str(value), "is not valid.", "Give one of " + ", ".join(names) + ".")
+        return "one of " + ", ".join(entry.name for entry in field.enum_type.values if entry.number != 0)
+    if field.type in _WHOLE:
+        low, high = _WHOLE[field.type]
+        return f"a whole number from {low} to {high}"
+    return {FieldDescriptor.TYPE_BOOL: "True or False", FieldDescriptor.TYPE_STRING: "a text"}.get(
+        field.type, "a number")
+
+
+def _scalar(field: FieldDescriptor, value: Any, path: str) -> Any:
     try:
-        if field.type == FieldDescriptor.TYPE_STRING:
-            return str(value)
+        if field.enum_type is not None:
+            numbers = {entry.name: entry.number for entry in field.enum_type.values if entry.number != 0}
+            return numbers[value.upper()] if isinstance(value, str) else field.enum_type.values_by_number[
+                operator.index(value)].number
         if field.type == FieldDescriptor.TYPE_BOOL:
-            if value not in (True, False):
-                raise ValueError
-            return bool(value)
-        number = float(value)
-        if field.type in _WHOLE:
-            whole = int(value)
-            if whole != number:
-                raise ValueError
-            return whole
-        return number
-    except (TypeError, ValueError, OverflowError):
-        kind = {FieldDescriptor.TYPE_BOOL: "True or False", FieldDescriptor.TYPE_STRING: "a text"}.get(
-            field.type, "a whole number" if field.type in _WHOLE else "a number")
-        raise _refuse(path, str(value), "is not valid.", f"Give {kind}.") from None
+            return {False: False, True: True}[value]
+        if isinstance(value, (bool, np.bool_)):
+            raise ValueError
+        if field.type == FieldDescriptor.TYPE_STRING:
+            text = value if isinstance(value, str) else str(operator.index(value))
+            text.encode()
+            return text
+        if field.type not in _WHOLE:
+            return float(value)
+        whole = int(value)
+        low, high = _WHOLE[field.type]
+        if float(whole) != float(value) or not low <= whole <= high:
+            raise ValueError
+        return whole
+    except (LookupError, TypeError, ValueError, OverflowError):
+        raise _refuse(path, str(value), "is not valid.", f"Give {_kind(field)}.") from None
 
 
 def swept_values(path: str, values: Iterable[Any]) -> list[float]:
@@ -125,7 +144,7 @@ def swept_values(path: str, values: Iterable[Any]) -> list[float]:
     for value in values:
         try:
             numbers.append(float(value))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise _refuse(path, str(value), "takes only numbers in a sweep.",
                           "Give numbers, or submit a sweep for each value.") from None
     return numbers
@@ -148,7 +167,7 @@ def seed_count(value: Any) -> int:
 
 def _fill(message: Message, values: Mapping[str, Any], prefix: str) -> None:
     for key, value in values.items():
-        set_field(message, key, value, prefix)
+        set_field(message, _text_of(key, prefix), value, prefix)
 
 
 def set_field(message: Message, path: str, value: Any, prefix: str = "") -> None:
@@ -188,27 +207,37 @@ def set_field(message: Message, path: str, value: Any, prefix: str = "") -> None
             raise _refuse(here, None, f"is {what}.", f"Name an entry, such as {here}[0]." if repeated else "")
         set_field(current, rest, value, here + ".")
     elif repeated:
+        entries = _entries(field, value, here)
         del current[:]
-        for i, entry in enumerate(value):
+        for i, entry in enumerate(entries):
             if field.message_type is None:
-                current.append(_scalar(field, entry, here))
+                current.append(_scalar(field, entry, f"{here}[{i}]"))
             else:
-                _assign(current.add(), entry, f"{here}[{i}]")
+                _assign(field, current.add(), entry, f"{here}[{i}]")
     elif field.message_type is not None:
         current.SetInParent()
-        _assign(current, value, here)
+        _assign(field, current, value, here)
     else:
         setattr(message, name, _scalar(field, value, here))
 
 
-def _assign(message: Message, value: Any, path: str) -> None:
+def _entries(field: FieldDescriptor, value: Any, path: str) -> list[Any]:
+    """The entries of a list; a text or a dict is none, though Python iterates over it."""
+    try:
+        if not isinstance(value, (str, bytes, Mapping)):
+            return list(value)
+    except TypeError:
+        pass
+    raise _refuse(path, str(value), "is a list.", f"Give a list; each entry is {_kind(field)}.")
+
+
+def _assign(field: FieldDescriptor, message: Message, value: Any, path: str) -> None:
     if isinstance(value, Mapping):
         _fill(message, value, path + ".")
     elif isinstance(value, type(message)):
         message.CopyFrom(value)
     else:
-        names = ", ".join(field.name for field in message.DESCRIPTOR.fields)
-        raise _refuse(path, value, "is a group.", f"Give a dict with fields of it: {names}.")
+        raise _refuse(path, str(value), "is a group.", f"Give {_kind(field)}.")
 
 
 def parse_case(text: str, source: str = "the text") -> Case:
@@ -225,6 +254,12 @@ def parse_case(text: str, source: str = "the text") -> Case:
     except (json_format.ParseError, text_format.ParseError) as error:
         raise _refuse("case", None, f"cannot be read from {source}: {error}.", "") from None
     return case
+
+
+def join_fields(fields: Optional[Mapping[str, Any]], more: Mapping[str, Any]) -> dict[str, Any]:
+    if not isinstance(fields, (Mapping, type(None))):
+        raise _refuse("fields", fields, "is not a dict.", 'Give a dict, such as {"contact.friction": 0.2}.')
+    return {**(fields or {}), **more}
 
 
 def build_case(source: CaseLike, fields: Mapping[str, Any], preset: Callable[[str], Case]) -> Case:
@@ -244,7 +279,7 @@ def build_case(source: CaseLike, fields: Mapping[str, Any], preset: Callable[[st
     else:
         try:
             text = pathlib.Path(source).read_text()
-        except (OSError, UnicodeDecodeError) as error:
+        except (OSError, ValueError) as error:
             reason = error.strerror if isinstance(error, OSError) else "not a text file"
             raise _refuse("case", None, f"cannot be read: {source}: {reason}.", _FORMS) from None
         case = parse_case(text, str(source))

@@ -13,7 +13,7 @@ def html_table(rows: Iterable[Sequence[str]], heading: str = "") -> str:
     >>> html_table([("state", "RUNNING")])
     '<table><tr><td>state</td><td>RUNNING</td></tr></table>'
     """
-    caption = f"<caption><b>{html.escape(heading)}</b></caption>" if heading else ""
+    caption = f"<caption style='white-space:nowrap'><b>{html.escape(heading)}</b></caption>" if heading else ""
     cells = ("".join(f"<td>{html.escape(cell)}</td>" for cell in row) for row in rows)
     return f"<table>{caption}" + "".join(f"<tr>{row}</tr>" for row in cells) + "</table>"
 
@@ -26,7 +26,7 @@ def notebook_display() -> Optional[Any]:
 
 
 class Bar:
-    """A progress bar on a terminal (stderr) or in a notebook; nothing elsewhere."""
+    """A progress bar on a terminal (stderr) or in a notebook; nothing elsewhere. As a context, it ends its line."""
 
     WIDTH = 24
     INTERVAL_S = 0.2
@@ -38,6 +38,13 @@ class Bar:
         self._handle: Any = None
         self._width, self._next = 0, 0.0
 
+    def __enter__(self) -> "Bar":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._terminal and self._width:
+            sys.stderr.write("\n")
+
     def show(self, fraction: float, text: str, last: bool = False) -> None:
         """Draws the bar, at most a few times a second."""
         if time.monotonic() < self._next and not last:
@@ -48,7 +55,7 @@ class Bar:
             line = f"{self._name} {done:░<{self.WIDTH}} {fraction:4.0%}  {text}"
             sys.stderr.write("\r" + line.ljust(self._width) + ("\n" if last else ""))
             sys.stderr.flush()
-            self._width = len(line)
+            self._width = 0 if last else len(line)
         elif self._display:
             bar = f"<progress max='1' value='{fraction:.3f}'></progress>"
             content = self._display.HTML(f"{html.escape(self._name)} {bar} {fraction:.0%}&ensp;{html.escape(text)}")

@@ -1,8 +1,9 @@
 """What can go wrong, as exceptions that say what to do."""
 from __future__ import annotations
 
+import pathlib
 from dataclasses import dataclass
-from typing import Any, NoReturn, Sequence
+from typing import Any, NoReturn, Optional, Sequence
 
 import grpc
 
@@ -48,12 +49,24 @@ class CaseError(CrushError, ValueError):
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
 
-class JobFailed(CrushError):
-    """A job ended without a complete result. `job` has the cause and what was computed."""
+def _end_of(job: Any) -> str:
+    """Why a job ended without a complete result, and what to do."""
+    if job.cause_message or job.state != "CANCELLED":
+        return f"{job.cause_message} {job.remedy}".strip()
+    if not job.has_result:
+        return "it was cancelled before it began. Submit job.case again to run it."
+    return (f"it was cancelled at step {job.summary.step_count}. Its results so far are kept: samples(), frames and "
+            "download() have them. Submit job.case again to run it to its end.")
 
-    def __init__(self, job: Any) -> None:
-        self.job = job
-        super().__init__(f"{job.name} {job.state}: {job.cause_message} {job.remedy}".rstrip())
+
+class JobFailed(CrushError):
+    """A job ended without a complete result. `job` has the cause and what was computed, and `output` the file with it,
+    if `run` saved one."""
+
+    def __init__(self, job: Any, output: Optional[pathlib.Path] = None) -> None:
+        self.job, self.output = job, output
+        saved = f" {output} has the results so far." if output else ""
+        super().__init__(f"{job.name} {job.state}: {_end_of(job)}{saved}")
 
 
 def problem_from(message: problem_pb2.Problem) -> Problem:

@@ -58,6 +58,13 @@ class JobWatch:
             self.samples[event.sequence] = event.sample
         return kind
 
+    def show(self, bar: Bar, kind: str) -> None:
+        now = self.job.progress
+        if kind == "progress":
+            bar.show(now.fraction, f"strain {now.strain:.3f}, {now.seconds_left:.0f} s left")
+        elif kind in ("snapshot", "state") and not self.has_ended():
+            bar.show(now.fraction, job_pb2.Job.State.Name(self.job.state))
+
     def has_ended(self) -> bool:
         return self.job.state in ENDED
 
@@ -119,6 +126,11 @@ class Job(Results):
         return Values(self._message.summary)
 
     @property
+    def has_result(self) -> bool:
+        """Whether there is a result file; of a job that was cancelled or failed, it has the results so far."""
+        return bool(self._message.HasField("summary"))
+
+    @property
     def case(self) -> Case:
         """The case as submitted."""
         if not self._message.HasField("case"):
@@ -142,20 +154,20 @@ class Job(Results):
         """The kind of each event (snapshot, state, sample, progress ...) with all that came so far, up to the end."""
         watch = JobWatch(self._message)
         stream = self._connection.follow(self._connection.jobs.WatchJob, lambda: watch.request, watch.has_ended)
-        with leaves_running(self.name, self._connection):
-            for event in stream:
-                kind = watch.take(event)
-                if kind in ("snapshot", "state"):
-                    self._take(watch.job)
-                yield kind, watch
+        for event in stream:
+            kind = watch.take(event)
+            if kind in ("snapshot", "state"):
+                self._take(watch.job)
+            yield kind, watch
 
     def watch(self) -> Iterator[Sample]:
         """Each sample as it comes, from the first, up to the end of the job; lost connections are made up for.
 
         A job that restarts from step 0 sends its samples again."""
-        for kind, watch in self.events():
-            if kind == "sample":
-                yield watch.samples[watch.request.after_sequence]
+        with leaves_running(self.name, self._connection):
+            for kind, watch in self.events():
+                if kind == "sample":
+                    yield watch.samples[watch.request.after_sequence]
 
     def wait(self, progress: "bool | None" = None, check: bool = True) -> "Job":
         """Waits for the end of the job. A bar shows on terminals and in notebooks, always or never with `progress`.
@@ -163,10 +175,12 @@ class Job(Results):
         Raises JobFailed if it did not succeed, unless `check` is False. Ctrl-C leaves the job running,
         but stops a private server."""
         bar = Bar(self.name, progress)
-        for kind, watch in self.events():
-            if kind in ("progress", "snapshot"):
-                now = watch.job.progress
-                bar.show(now.fraction, f"strain {now.strain:.3f}, {now.seconds_left:.0f} s left")
+        with leaves_running(self.name, self._connection):
+            for kind, watch in self.events():
+                watch.show(bar, kind)
+        return self._ended(bar, check)
+
+    def _ended(self, bar: Bar, check: bool) -> "Job":
         bar.show(1.0 if self.state == "SUCCEEDED" else self._message.progress.fraction, self.state, last=True)
         if check and self.state != "SUCCEEDED":
             raise JobFailed(self)
@@ -265,9 +279,13 @@ class Job(Results):
 
     def live_plot(self, **style: Any) -> "matplotlib.axes.Axes":
         """Draws the curves while the job runs, in a notebook or a window, and returns them at its end."""
-        from cellcrush.plots import live_plot
+        from cellcrush.plots import LivePlot
 
-        return live_plot(self, **style)
+        live = LivePlot(**style)
+        with leaves_running(self.name, self._connection):
+            for kind, watch in self.events():
+                live.take(kind, watch)
+        return live.end(self)
 
     def __repr__(self) -> str:
         return f"<{self.name} {self.state} {self.title!r}>"
@@ -278,10 +296,4 @@ class Job(Results):
             rows.append(("cause", f"{self.cause}: {self.cause_message} {self.remedy}"))
         if self._message.HasField("progress"):
             rows.append(("strain", f"{self.progress.strain:.3f} ({self.progress.fraction:.0%})"))
-        for label, name, unit in (("plateau at the impact plate", "plateau_stress_impact_mpa", "MPa"),
-                                  ("plateau at the support plate", "plateau_stress_support_mpa", "MPa"),
-                                  ("densification strain", "densification_strain", "")):
-            value = getattr(self.summary, name)
-            if value is not None:
-                rows.append((label, f"{value:.4g} {unit}".rstrip()))
-        return html_table(rows, f"{self.name}: {self.title}")
+        return html_table(rows + self._result_rows(), f"{self.name}: {self.title}")

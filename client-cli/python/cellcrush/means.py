@@ -1,9 +1,9 @@
-"""Means over repeated runs and their confidence intervals."""
+"""Means over repeated runs and their 95 % intervals."""
 from __future__ import annotations
 
 import functools
 import math
-from typing import TYPE_CHECKING, Any, List, Sequence, Union
+from typing import TYPE_CHECKING, Any, List, Sequence
 
 if TYPE_CHECKING:
     import pandas
@@ -39,16 +39,15 @@ def t_quantile(freedom: int) -> float:
 
 
 def half_width(values: "pandas.Series[Any]") -> float:
-    """Half the width of the 95 % confidence interval of the mean; NaN for a single value."""
+    """The half-width of the 95 % interval of the mean; NaN for a single value."""
     known = values.dropna()
     count = len(known)
     return t_quantile(count - 1) * float(known.std()) / math.sqrt(count) if count > 1 else math.nan
 
 
 def mean_table(table: "pandas.DataFrame", fields: List[str], results: List[str],
-               over: Union[str, Sequence[str]]) -> "pandas.DataFrame":
+               averaged: Sequence[str]) -> "pandas.DataFrame":
     """The results of the rows that succeeded, averaged over some of the varied fields. A point where none did stays."""
-    averaged = [over] if isinstance(over, str) else list(over)
     unknown = [name for name in averaged if name not in fields]
     if unknown:
         raise ValueError(f"mean_over {unknown[0]!r} is not varied; the sweep varies {', '.join(fields)}")

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import io
+import re
 import time
 from typing import TYPE_CHECKING, Any, Optional, Tuple
 
@@ -10,23 +11,24 @@ import numpy as np
 from cellcrush.arrays import Array, samples_array
 from cellcrush.display import notebook_display
 from cellcrush.errors import need
-from cellcrush.words import label_of, short_names
 
 if TYPE_CHECKING:
     import matplotlib.animation
     import matplotlib.axes
-    from cellcrush.job import Job
+    from cellcrush.job import Job, JobWatch
     from cellcrush.results import Results
-    from cellcrush.sweep import Sweep
 
 _MM = 1.0 / 25.4
-_BLUE, _ORANGE, _GREY = "#0072b2", "#d55e00", "#666666"  # told apart by the colour-blind
+_BLUE, _ORANGE, GREY = "#0072b2", "#d55e00", "#666666"  # told apart by the colour-blind
 _SMOOTHED = 0.02  # strain over which a curve is averaged
 _REDRAWN_S = 0.5
 _DPI = 200.0
+_TALLEST = 1.5  # height of a picture over its width
+_ICONS = {"minus": "−", "fast-backward": "«", "step-backward": "‹", "play fa-flip-horizontal": "◀\ufe0e",
+          "pause": "❚❚", "play": "▶\ufe0e", "step-forward": "›", "fast-forward": "»", "plus": "+"}
 
 
-def _axes(ax: "Optional[matplotlib.axes.Axes]", width_mm: float, aspect: float = 0.75) -> "matplotlib.axes.Axes":
+def new_axes(ax: "Optional[matplotlib.axes.Axes]", width_mm: float, aspect: float = 0.75) -> "matplotlib.axes.Axes":
     pyplot = need("matplotlib.pyplot", "python3-matplotlib")
     if ax is None:
         size = (width_mm * _MM, aspect * width_mm * _MM)
@@ -35,10 +37,11 @@ def _axes(ax: "Optional[matplotlib.axes.Axes]", width_mm: float, aspect: float =
     return ax
 
 
-def _finish(ax: Any, font_pt: float, title: str = "", columns: int = 2) -> None:
+def finish(ax: Any, font_pt: float, title: str = "", columns: int = 2) -> None:
     """The legend goes above the axes, where it hides no curve."""
-    if ax.get_legend_handles_labels()[0]:
-        ax.legend(fontsize=font_pt, frameon=False, handlelength=1.5, ncols=columns, loc="lower left",
+    named = zip(*ax.get_legend_handles_labels())
+    if entries := sorted(named, key=lambda entry: not isinstance(entry[0], tuple)):  # error bars, then lines
+        ax.legend(*zip(*entries), fontsize=font_pt, frameon=False, handlelength=1.5, ncols=columns, loc="lower left",
                   borderaxespad=0.0, bbox_to_anchor=(0.0, 1.02), columnspacing=1.2, title=title or None,
                   title_fontsize=font_pt, alignment="left")
     for text in (ax.title, ax.xaxis.label, ax.yaxis.label):
@@ -58,18 +61,19 @@ def _smoothed(x: Array, y: Array) -> Array:
 
 def _draw_curves(ax: Any, samples: Array) -> None:
     strain, top = samples["strain"], 0.0
+    is_shown = strain > min(_SMOOTHED, 0.1 * strain.max(initial=0.0))  # the first impact may leave the axes
     for name, label, colour in (("stress_impact_mpa", "impact plate", _BLUE),
                                 ("stress_support_mpa", "support plate", _ORANGE)):
         smooth = _smoothed(strain, samples[name])
         ax.plot(strain, samples[name], color=colour, alpha=0.25, linewidth=0.4)
         ax.plot(strain, smooth, color=colour, linewidth=1.0, label=label)
-        top = max(top, *smooth[strain > _SMOOTHED], 0.0)
+        top = max(top, *smooth[is_shown], 0.0)
     ax.set(xlim=(0.0, None), ylim=(0.0, 1.1 * top or None), xlabel="nominal strain", ylabel="nominal stress (MPa)")
 
 
 def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
                 font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    ax = _axes(ax, width_mm)
+    ax = new_axes(ax, width_mm)
     _draw_curves(ax, results.samples())
     summary = results.summary
     if summary.plateau_stress_impact_mpa is not None:
@@ -77,61 +81,19 @@ def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None,
         ax.plot(window, [summary.plateau_stress_impact_mpa] * 2, color="black", linewidth=1.2, solid_capstyle="butt",
                 label=f"plateau {summary.plateau_stress_impact_mpa:.4g} MPa")
     if summary.densification_strain is not None:
-        ax.axvline(summary.densification_strain, color=_GREY, linewidth=0.6, linestyle=":",
+        ax.axvline(summary.densification_strain, color=GREY, linewidth=0.6, linestyle=":",
                    label=f"densification {summary.densification_strain:.3g}")
-    _finish(ax, font_pt)
-    return ax
-
-
-def _intervals(sweep: "Sweep") -> Tuple[Any, str, "list[str]"]:
-    names = short_names(sweep.fields)
-    seeds = [name for name in names if name.rsplit(".", 1)[-1] == "seed" and len(names) > 1]
-    table = sweep.table(mean_over=seeds)
-    others = [name for name in names if name not in seeds]
-    return table, others[0], others[1:]
-
-
-def plot_sweep(sweep: "Sweep", ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
-               font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    table, first, others = _intervals(sweep)
-    ax = _axes(ax, width_mm)
-    groups = table.groupby(others if len(others) > 1 else others[0], sort=False) if others else [((), table)]
-    for key, rows in groups:
-        rows = rows.sort_values(first)
-        values = key if isinstance(key, tuple) else (key,)
-        group = ", ".join(f"{value:g}" for value in values)
-        colour = None
-        for plate, marker, line in (("impact", "o", "-"), ("support", "s", "--")):
-            column = f"plateau_stress_{plate}_mpa"
-            bars = rows[column + "_ci95"]
-            drawn = ax.errorbar(rows[first], rows[column], yerr=None if bars.isna().all() else bars, marker=marker,
-                                markersize=3, linewidth=0.8, capsize=2, elinewidth=0.6, color=colour, linestyle=line,
-                                label=(group if plate == "impact" else None) if group else f"{plate} plate")
-            colour = drawn[0].get_color() if group else None
-    missing = table[first][table["count"] == 0]
-    if len(missing):
-        ax.plot(missing, [0.0] * len(missing), "x", color=_GREY, markersize=4, clip_on=False, label="no job succeeded")
-    if others:
-        ax.plot([], [], color=_GREY, linewidth=0.8, linestyle="--", marker="s", markersize=3, label="support")
-    theory = table["shock_mpa"].notna()
-    if first == "speed_m_per_s" and not others and theory.sum() > 1:
-        slope, constant = np.polyfit(table[first][theory] ** 2, table["shock_mpa"][theory], 1)
-        speeds = np.linspace(table[first].min(), table[first].max(), 200)
-        ax.plot(speeds, constant + slope * speeds**2, color="black", linewidth=0.8, label="shock theory (Eq. 51)")
-    ax.set(xlabel=label_of(first), ylabel="plateau stress (MPa)", ylim=(0.0, None))
-    _finish(ax, font_pt, ", ".join(label_of(name) for name in others), 4 if len(others) == 1 else 2)
+    finish(ax, font_pt)
     return ax
 
 
 class _Picture:
     """A frame as lines, coloured by plastic fraction, which can show another one."""
 
-    def __init__(self, results: "Results", ax: Any, font_pt: float) -> None:
+    def __init__(self, results: "Results", ax: Any, font_pt: float, low: Array, high: Array) -> None:
         collections = need("matplotlib.collections", "python3-matplotlib")
         self._frames, self._mesh = results.frames, results.mesh
         # Thickness to scale: a point of a line is 1/72 inch.
-        positions = self._frames.position_mm
-        low, high = positions.min(axis=(0, 1)), positions.max(axis=(0, 1))
         box = ax.get_window_extent()
         scale = min(box.width / (high[0] - low[0]), box.height / (high[1] - low[1])) * 72.0 / ax.figure.dpi
         self._lines = collections.LineCollection([], cmap="inferno_r", linewidths=np.maximum(
@@ -141,8 +103,8 @@ class _Picture:
         self._plate: Any = None
         if self._mesh.impact_plate_mm != self._mesh.support_plate_mm:
             draw = ax.axhline if self._mesh.along_y else ax.axvline
-            draw(self._mesh.support_plate_mm, color=_GREY, linewidth=1.5, clip_on=False)
-            self._plate = draw(self._mesh.impact_plate_mm, color=_GREY, linewidth=1.5, clip_on=False)
+            draw(self._mesh.support_plate_mm, color=GREY, linewidth=1.5, clip_on=False)
+            self._plate = draw(self._mesh.impact_plate_mm, color=GREY, linewidth=1.5, clip_on=False)
         ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
         ax.set_axis_off()
         self._title = ax.set_title("", fontsize=font_pt)
@@ -160,56 +122,76 @@ class _Picture:
         return self._lines, self._title
 
 
-def _aspect(results: "Results") -> float:
-    size = results.frames.position_mm.max(axis=(0, 1)) - results.frames.position_mm.min(axis=(0, 1))
-    return float(size[1] / size[0]) + 0.08
+def _picture(results: "Results", frames: Any, ax: "Optional[matplotlib.axes.Axes]", width_mm: float,
+             font_pt: float) -> Tuple[Any, _Picture]:
+    """Axes with a picture that has room for these frames."""
+    positions = results.frames.position_mm[frames].reshape(-1, 2)
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    size = high - low
+    ax = new_axes(ax, width_mm, min(float(size[1] / size[0]) + 0.08, _TALLEST))
+    return ax, _Picture(results, ax, font_pt, low, high)
 
 
 def plot_frame(results: "Results", strain: float, ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
                font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    ax = _axes(ax, width_mm, _aspect(results))
-    _Picture(results, ax, font_pt).show(results.frames.nearest(strain))
+    index = results.frames.nearest(strain)
+    ax, picture = _picture(results, index, ax, width_mm, font_pt)
+    picture.show(index)
     return ax
 
 
 def animate(results: "Results", width_mm: float = 85.0, font_pt: float = 8.0,
             frames_per_s: float = 12.0) -> "matplotlib.animation.FuncAnimation":
     animation = need("matplotlib.animation", "python3-matplotlib")
-    ax = _axes(None, width_mm, _aspect(results))
-    picture = _Picture(results, ax, font_pt)
-    movie: "matplotlib.animation.FuncAnimation" = animation.FuncAnimation(
+    ax, picture = _picture(results, slice(None), None, width_mm, font_pt)
+
+    class Player(animation.FuncAnimation):  # type: ignore[misc, name-defined]
+        def to_jshtml(self, *options: Any, **named: Any) -> str:
+            """The player, with texts for the icons that matplotlib takes from another host."""
+            page = re.sub(r"<link[^>]*>", "", super().to_jshtml(*options, **named))
+            return re.sub(r'<i class="fa fa-([^"]*)"></i>', lambda icon: _ICONS[icon.group(1)], page)
+
+        def _repr_html_(self) -> str:
+            return self.to_jshtml()
+
+    movie: "matplotlib.animation.FuncAnimation" = Player(
         ax.figure, picture.show, frames=len(results.frames), interval=1000.0 / frames_per_s)
     need("matplotlib.pyplot", "python3-matplotlib").close(ax.figure)  # a notebook shows the movie alone
     return movie
 
 
-def live_plot(job: "Job", width_mm: float = 85.0, font_pt: float = 8.0) -> "matplotlib.axes.Axes":
-    pyplot = need("matplotlib.pyplot", "python3-matplotlib")
-    ax = _axes(None, width_mm)
-    notebook: Any = notebook_display()
-    handle, next_s = None, 0.0
-    if notebook:
-        handle = notebook.display("", display_id=True)
+class LivePlot:
+    """Curves that are drawn again as samples arrive, in a notebook or a window."""
 
-    def picture() -> Any:
+    def __init__(self, width_mm: float = 85.0, font_pt: float = 8.0) -> None:
+        self._pyplot = need("matplotlib.pyplot", "python3-matplotlib")
+        self._style = (width_mm, font_pt)
+        self._ax = new_axes(None, width_mm)
+        self._notebook: Any = notebook_display()
+        self._handle: Any = self._notebook.display("", display_id=True) if self._notebook else None
+        self._next_s = 0.0
+
+    def _show(self) -> None:
         png = io.BytesIO()
-        ax.figure.savefig(png, format="png")
-        return notebook.Image(png.getvalue())
+        self._ax.figure.savefig(png, format="png")
+        self._handle.update(self._notebook.Image(png.getvalue()))
 
-    for kind, watch in job.events():
-        if kind != "sample" or time.monotonic() < next_s:
-            continue
-        ax.clear()
-        _draw_curves(ax, samples_array(list(watch.samples.values())))
-        _finish(ax, font_pt)
-        if handle is not None:
-            handle.update(picture())
-        elif pyplot.get_backend().lower() != "agg":
-            pyplot.pause(0.01)
-        next_s = time.monotonic() + _REDRAWN_S
-    ax.clear()
-    plot_curves(job, ax, width_mm, font_pt)
-    if handle is not None:
-        handle.update(picture())
-        pyplot.close(ax.figure)
-    return ax
+    def take(self, kind: str, watch: "JobWatch") -> None:
+        if kind != "sample" or time.monotonic() < self._next_s:
+            return
+        self._ax.clear()
+        _draw_curves(self._ax, samples_array(list(watch.samples.values())))
+        finish(self._ax, self._style[1])
+        if self._handle is not None:
+            self._show()
+        elif self._pyplot.get_backend().lower() != "agg":
+            self._pyplot.pause(0.01)
+        self._next_s = time.monotonic() + _REDRAWN_S
+
+    def end(self, job: "Job") -> "matplotlib.axes.Axes":
+        self._ax.clear()
+        plot_curves(job, self._ax, *self._style)
+        if self._handle is not None:
+            self._show()
+            self._pyplot.close(self._ax.figure)
+        return self._ax

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from typing import Any, Iterator, Mapping, Optional
 
 from cellcrush.case import CaseLike
-from cellcrush.errors import NotConnected
+from cellcrush.errors import JobFailed, NotConnected
 from cellcrush.job import Job
 from cellcrush.results import PathLike
 from cellcrush.server import Server, connect
@@ -60,17 +60,26 @@ def private_server(data: Optional[PathLike] = None) -> Iterator[Server]:
             daemon.stdout.close()  # type: ignore[union-attr]
 
 
+def keep_results(job: Job, output: Optional[PathLike], check: bool) -> None:
+    """Takes the results of an ended job into memory and into a file, before its daemon stops."""
+    job.case
+    saved = None
+    if job.has_result:
+        job.samples(), job.mesh
+        saved = job.download(output) if output is not None else None
+    if check and job.state != "SUCCEEDED":
+        raise JobFailed(job, saved)
+
+
 def run(case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *, output: Optional[PathLike] = None,
         progress: Optional[bool] = None, check: bool = True, **more: Any) -> Job:
     """Crushes one case and returns its job, with all results in memory; `output` also saves the result file.
 
-    Raises JobFailed if the job did not succeed, unless `check` is False."""
+    Raises JobFailed if the job did not succeed, unless `check` is False. The results so far are kept and saved then,
+    too."""
     if output is not None:
         require_place(pathlib.Path(output))
     with private_server() as server:
-        job = server.submit(case, fields, **more).wait(progress, check)
-        if job.summary.step_count:
-            job.samples(), job.mesh, job.case
-            if output is not None:
-                job.download(output)
+        job = server.submit(case, fields, **more).wait(progress, check=False)
+        keep_results(job, output, check)
     return job

@@ -3,15 +3,19 @@ from __future__ import annotations
 
 import pathlib
 import zlib
-from types import SimpleNamespace
-from typing import Any
+from typing import Any, Mapping
 
 import numpy as np
+from google.protobuf import json_format
+from google.protobuf.descriptor import FieldDescriptor
 
-from cellcrush.arrays import Array, Frames, Mesh
+from cellcrush.arrays import Array, Frames, Mesh, Values
+from cellcrush.case import parse_case
+from cellcrush.display import html_table
 from cellcrush.errors import FileError, need
 from cellcrush.results import PathLike, Results
-from cellcrush.case import parse_case
+from cellcrush.v1.job_pb2 import Job
+from cellcrush.v1.sample_pb2 import Summary
 
 _SEAL_BYTES = 512
 
@@ -36,8 +40,36 @@ def _check_seal(path: pathlib.Path) -> None:
                         "run its case again.")
 
 
+def _read_numbers(attributes: Mapping[str, Any], message: Any, prefix: str = "") -> None:
+    """The numbers that are attributes of their own, those of a group under names such as "theory_shock_mpa"."""
+    for field in message.DESCRIPTOR.fields:
+        name = prefix + field.name
+        if field.label == FieldDescriptor.LABEL_REPEATED:
+            continue
+        if field.message_type is not None:
+            _read_numbers(attributes, getattr(message, field.name), name.removesuffix("_times") + "_")
+        elif name in attributes and field.cpp_type != FieldDescriptor.CPPTYPE_ENUM:
+            setattr(message, field.name, attributes[name])
+
+
+def _summary(attributes: Mapping[str, Any]) -> Summary:
+    """The summary as a job has it. Files of early versions have only the attributes of its parts."""
+    summary: Summary = json_format.Parse(attributes.get("job", "{}"), Job(), ignore_unknown_fields=True).summary
+    if "job" in attributes:
+        return summary
+    _read_numbers(attributes, summary)
+    if "theory_shock_error_relative" in attributes:
+        summary.shock_error_relative = attributes["theory_shock_error_relative"]
+    if "crush_mode" in attributes:
+        summary.crush_mode = Summary.CrushMode.Value("CRUSH_MODE_" + attributes["crush_mode"])
+    for line in attributes.get("warnings", "").splitlines():
+        kind, _, message = line.partition(": ")
+        json_format.ParseDict({"kind": kind, "message": message}, summary.warnings.add(), ignore_unknown_fields=True)
+    return summary
+
+
 class ResultFile(Results):
-    """A result file, read once. `attributes` has what the file says of the run; `summary` is the same by name."""
+    """A result file, read once. `summary` is that of a job; `attributes` has all that the file says of the run."""
 
     def __init__(self, path: PathLike) -> None:
         h5py = need("h5py", "python3-h5py")
@@ -58,9 +90,14 @@ class ResultFile(Results):
                                   frames["plastic_fraction"][()])
         self.case = parse_case(self.attributes["case"], str(path))
         self.title = self.case.title
-        self.summary = SimpleNamespace(**{
-            "densification_strain": None, "plateau_stress_impact_mpa": None, "plateau_stress_support_mpa": None,
-            **self.attributes})
+        self.summary = Values(_summary(self.attributes))
+
+    def __repr__(self) -> str:
+        return f"<{'result' if self.attributes['complete'] else 'partial result'} {self.title!r}>"
+
+    def _repr_html_(self) -> str:
+        ended = [] if self.attributes["complete"] else [("partial", str(self.attributes.get("failure", "cancelled")))]
+        return html_table(ended + self._result_rows(), self.title)
 
     def samples(self) -> Array:
         return self._samples

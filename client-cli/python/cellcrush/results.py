@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, List, Tuple, Union
 
 from cellcrush.arrays import Array, Frames, Mesh
 from cellcrush.errors import need
@@ -37,6 +37,17 @@ class Results(ABC):
     @abstractmethod
     def frames(self) -> Frames:
         """The frames so far."""
+
+    def _result_rows(self) -> List[Tuple[str, str]]:
+        """What a notebook shows of the results."""
+        rows = []
+        for label, name, unit in (("plateau at the impact plate", "plateau_stress_impact_mpa", "MPa"),
+                                  ("plateau at the support plate", "plateau_stress_support_mpa", "MPa"),
+                                  ("densification strain", "densification_strain", "")):
+            value = getattr(self.summary, name)
+            if value is not None:
+                rows.append((label, f"{value:.4g} {unit}".rstrip()))
+        return rows
 
     def history(self) -> "pandas.DataFrame":
         """The samples so far as a table. `history().attrs["units"]` has the units."""
@@ -82,7 +93,7 @@ class Results(ABC):
         return plot_frame(self, strain, ax, **style)
 
     def animate(self, **style: Any) -> "matplotlib.animation.FuncAnimation":
-        """The crush as a movie: `.save("crush.gif")`, or `.to_jshtml()` for a player in a notebook."""
+        """The crush as a movie: `.save("crush.gif")`. Notebooks show it as a player, the HTML of `.to_jshtml()`."""
         from cellcrush.plots import animate
 
         return animate(self, **style)

@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from cellcrush.arrays import Values
-from cellcrush.case import CaseLike, build_case, find_path, seed_count, set_field, swept_values
+from cellcrush.case import CaseLike, build_case, find_path, join_fields, seed_count, set_field, swept_values
 from cellcrush.connection import Connection
 from cellcrush.errors import Problem, problem_from
 from cellcrush.explain import explain
@@ -38,6 +38,12 @@ class Check(Values):
                 *(("note", str(note)) for note in self.notes)]
 
 
+def _set_options(message: Any, labels: Optional[Mapping[str, Any]], **options: Any) -> None:
+    for name, value in options.items():
+        set_field(message, name, value)
+    message.labels.update({str(key): str(value) for key, value in (labels or {}).items()})
+
+
 class Server:
     """A daemon. In all methods `case` is a dict, protobuf text, JSON, a file, "preset:NAME" or a proto, and `fields`
     are values for fields of it: by name (`speed_m_per_s=50`), or by path in a dict (`{"contact.friction": 0.2}`)."""
@@ -53,7 +59,7 @@ class Server:
 
     def case(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, **more: Any) -> Case:
         """The case as a proto, with these fields set."""
-        return build_case(case, {**(fields or {}), **more}, self._preset)
+        return build_case(case, join_fields(fields, more), self._preset)
 
     def _preset(self, name: str) -> Case:
         request = cases_service_pb2.GetPresetRequest(name=name)
@@ -76,9 +82,9 @@ class Server:
         """Queues a job. Raises CaseError with all problems if the case is not valid.
 
         A call with the `request_id` of an earlier one returns the job of that one."""
-        request = jobs_service_pb2.CreateJobRequest(
-            case=self.case(case, fields, **more), request_id=request_id or str(uuid.uuid4()), labels=labels or {},
-            priority=priority, time_limit_s=time_limit_s, executor=executor)
+        request = jobs_service_pb2.CreateJobRequest(case=self.case(case, fields, **more),
+                                                    request_id=request_id or str(uuid.uuid4()))
+        _set_options(request, labels, priority=priority, time_limit_s=time_limit_s, executor=executor)
         return Job(self._connection, self._connection.call(self._connection.jobs.CreateJob, request))
 
     def sweep(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *, seeds: int = 0,
@@ -89,7 +95,7 @@ class Server:
         1 to 5 of the random imperfection."""
         base = self.case(case)
         axes = []
-        for word, value in {**(fields or {}), **more}.items():
+        for word, value in join_fields(fields, more).items():
             path = find_path(word, base)
             if isinstance(value, SEVERAL):
                 values = sweep_pb2.SweepAxis.List(values=swept_values(path, value))
@@ -100,9 +106,9 @@ class Server:
             axes.append(sweep_pb2.SweepAxis(field=SEED, seed_count=count))
             self._warn_of_equal_seeds(base, [axis.field for axis in axes])
         request = sweeps_service_pb2.CreateSweepRequest(request_id=request_id or str(uuid.uuid4()))
-        request.sweep.MergeFrom(sweep_pb2.Sweep(
-            case=base, axes=axes, labels=labels or {}, priority=priority, time_limit_s=time_limit_s,
-            max_parallel=max_parallel, max_failures=max_failures, executor=executor))
+        request.sweep.MergeFrom(sweep_pb2.Sweep(case=base, axes=axes))
+        _set_options(request.sweep, labels, priority=priority, time_limit_s=time_limit_s, max_parallel=max_parallel,
+                     max_failures=max_failures, executor=executor)
         return Sweep(self._connection, self._connection.call(self._connection.sweeps.CreateSweep, request))
 
     @staticmethod

@@ -46,6 +46,9 @@ class SweepWatch:
         elif kind == "progress":
             self.fractions[message.job] = message.event.progress.fraction
 
+    def show(self, bar: Bar) -> None:
+        bar.show(self.fraction(), f"{sum(self.ended.values())} of {len(self.ended)} jobs ended")
+
     def has_ended(self) -> bool:
         return bool(self.ended) and all(self.ended.values())
 
@@ -111,7 +114,10 @@ class Sweep:
             for message in self._connection.follow(self._connection.sweeps.WatchSweep, lambda: watch.request,
                                                    watch.has_ended):
                 watch.take(message)
-                bar.show(watch.fraction(), f"{sum(watch.ended.values())} of {len(watch.ended)} jobs ended")
+                watch.show(bar)
+        return self._ended(bar, watch)
+
+    def _ended(self, bar: Bar, watch: SweepWatch) -> "Sweep":
         self.refresh()
         bar.show(watch.fraction(), ", ".join(f"{n} {state}" for state, n in self.states.items()), last=True)
         return self
@@ -119,10 +125,10 @@ class Sweep:
     def table(self, mean_over: Union[str, Sequence[str], None] = None) -> "pandas.DataFrame":
         """The results, a row for each job with the number of its `warnings`; `attrs["units"]` has the units.
 
-        With `mean_over`, such as "seed", a row for all jobs that differ in these fields alone: the `count` of those
-        that succeeded, how many of these are `warned`, the mean of each result over them (NaN where there are none)
-        and the half-width of its 95 % confidence interval (`..._ci95`). A result that only some of them have also
-        has their number (`..._count`)."""
+        With `mean_over`, such as "seed" or a list of fields by name or path, a row for all jobs that differ in these
+        fields alone: the `count` of those that succeeded, how many of these are `warned`, the mean of each result over
+        them (NaN where there are none) and the half-width of its 95 % interval (`..._ci95`). A result that only some of
+        them have also has their number (`..._count`)."""
         pandas = need("pandas", "python3-pandas")
         names = short_names(self.fields)
         records = []
@@ -138,13 +144,19 @@ class Sweep:
         table = pandas.DataFrame(records, columns=[*names, "job", "state", "warnings", *columns, "crush_mode"])
         table[columns] = table[columns].astype(float)
         table.attrs.update(title=self.case.title, units=units_of(table.columns))
-        return mean_table(table, names, columns, mean_over) if mean_over is not None else table
+        if mean_over is None:
+            return table
+        by_path = dict(zip(self.fields, names))
+        over = [mean_over] if isinstance(mean_over, str) else mean_over
+        return mean_table(table, names, columns, [by_path.get(name.replace("__", "."), name) for name in over])
 
     def plot(self, ax: "matplotlib.axes.Axes | None" = None, **style: Any) -> "matplotlib.axes.Axes":
-        """Draws the plateau stresses over the first varied field, means over seeds with intervals, and theory."""
-        from cellcrush.plots import plot_sweep
+        """Draws the plateau stresses, means over seeds: over one field as curves with intervals and theory, over two as
+        a map with contours (with `series=True`, a curve for each value of the second). `style`: `width_mm=85`,
+        `font_pt=8`."""
+        from cellcrush.sweep_plots import plot_points, read_points
 
-        return plot_sweep(self, ax, **style)
+        return plot_points(*read_points(self), ax, **style)
 
     def cancel(self) -> "Sweep":
         """Cancels all jobs that have not ended."""
@@ -153,7 +165,9 @@ class Sweep:
         return self
 
     def retry(self) -> "Sweep":
-        """Runs the jobs that failed again."""
+        """Queues a new job in the place of each that FAILED, and of each that `max_failures` cancelled. The old ones
+        stay as jobs of their own. Jobs that were cancelled otherwise are left; without any to repeat, nothing changes.
+        `wait` waits for the new ones."""
         self._message = self._connection.call(self._connection.sweeps.RetryFailedJobs,
                                               sweeps_service_pb2.RetryFailedJobsRequest(name=self.name))
         return self

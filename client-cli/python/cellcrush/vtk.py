@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import base64
 import pathlib
-from typing import TYPE_CHECKING, List, Tuple
+import re
+from typing import TYPE_CHECKING, List, Set, Tuple
 
 import numpy as np
 
@@ -33,12 +34,20 @@ def _section(tag: str, arrays: List[Tuple[str, Array]]) -> str:
     return f"<{tag}>" + "".join(_array(name, values) for name, values in arrays) + f"</{tag}>"
 
 
+def _frames_of(file: pathlib.Path) -> Set[str]:
+    """The files of frames that a .pvd names in the folder of its own name."""
+    if not file.exists():
+        return set()
+    text = file.read_text(errors="replace")
+    return set(re.findall(rf'file="({re.escape(file.stem)}/\d{{4,}}\.vtu)"', text))
+
+
 def write_vtk(results: "Results", path: "PathLike") -> None:
     file = pathlib.Path(path)
     if file.suffix != ".pvd":
         raise ValueError(f"{file}: the name of the file ends in .pvd")
     mesh, frames = results.mesh, results.frames
-    folder = file.with_suffix("")
+    folder, old = file.with_suffix(""), _frames_of(file)
     folder.mkdir(exist_ok=True)
     count = len(mesh.element_nodes)
     cells = _section("Cells", [("connectivity", mesh.element_nodes.ravel()),
@@ -60,3 +69,5 @@ def write_vtk(results: "Results", path: "PathLike") -> None:
         entries.append(f'<DataSet timestep="{frames.time_s[i]:.9g}" file="{folder.name}/{i:04}.vtu"/>\n')
     file.write_text('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">'
                     "<Collection>\n" + "".join(entries) + "</Collection></VTKFile>\n")
+    for surplus in old - _frames_of(file):  # of an earlier, longer crush
+        (file.parent / surplus).unlink(missing_ok=True)

@@ -3,10 +3,48 @@ import unittest
 
 import cellcrush as cc
 import numpy as np
+from google.protobuf.descriptor import FieldDescriptor
 from support import PRESET, SMALL, WithServer
 
 
+ALWAYS_WRONG = (object(), b"x", 1j, [[1]], np.ones((2, 2)))
+WRONG = {  # by type
+    FieldDescriptor.TYPE_MESSAGE: (None, 3, "x", [1], cc.Case()), FieldDescriptor.TYPE_BOOL: (None, "yes", 2, {"x": 1}),
+    FieldDescriptor.TYPE_STRING: (None, True, 2.5, {"x": 1}, "\ud800"),
+    FieldDescriptor.TYPE_ENUM: (None, "sideways", 2.5, 99, {"x": 1}),
+    FieldDescriptor.TYPE_DOUBLE: (None, "fast", True, 10**400, {"x": 1}),
+    FieldDescriptor.TYPE_INT32: (None, "many", True, 2.5, 2**31, {"x": 1}),
+    FieldDescriptor.TYPE_UINT64: (None, "many", True, 2.5, -1, 2**64, {"x": 1})}
+
+
+def wrong_values(group=cc.Case.DESCRIPTOR, wrap=lambda value: value, prefix=""):
+    """For every field of a case, in lists too: a case with a value that the field cannot take, and the path to it."""
+    for field in group.fields:
+        path, put = prefix + field.name, lambda value, name=field.name: wrap({name: value})
+        if field.label == FieldDescriptor.LABEL_REPEATED:
+            for wrong in (None, 3, "x", {"x": 1}, np.array(1)):
+                yield put(wrong), path, wrong
+            path, put = path + "[0]", lambda value, put=put: put([value])
+        for wrong in (*WRONG[field.type], *ALWAYS_WRONG):
+            yield put(wrong), path, wrong
+        if field.message_type is not None:
+            yield put({3: 1}), path + ".3", None
+            yield from wrong_values(field.message_type, put, path + ".")
+
+
 class Cases(WithServer):
+    def test_every_field_refuses_a_wrong_type_by_its_path(self):
+        count = 0
+        for case, path, wrong in wrong_values():
+            with self.assertRaises(cc.CaseError, msg=(path, wrong)) as raised:
+                self.server.case(case)
+            problem = raised.exception.problems[0]
+            value = "" if path.endswith(".3") else str(wrong)
+            self.assertEqual((problem.field, problem.value[:60]), (path, value[:60]))
+            self.assertTrue(problem.remedy, path)
+            count += 1
+        self.assertGreater(count, 1000)
+
     def test_all_forms_give_the_same_case(self):
         case = self.server.case(PRESET, SMALL)
         from google.protobuf import json_format, text_format
@@ -30,7 +68,8 @@ class Cases(WithServer):
     def test_every_wrong_field_names_itself_and_the_remedy(self):
         for fields, field, remedy in (
                 ({"speed_m_per_s": "fast"}, "loading.speed_m_per_s", "Give a number"),
-                ({"columns": 2.5}, "lattice.hexagon.columns", "whole number"),
+                ({"columns": 2.5}, "lattice.hexagon.columns", "Give a whole number from -2147483648 to 2147483647."),
+                ({"lattice.frame.nodes": 3}, "lattice.frame", "Start from a case"), ({3: 1}, "3", "texts"),
                 ({"speed": 3}, "speed", "Did you mean speed_m_per_s?"),
                 ({"friction": 0.1}, "friction", "contact.friction, plates.friction"),
                 ({"direction": "Z"}, "loading.direction", "one of X, Y"),
@@ -54,6 +93,14 @@ class Cases(WithServer):
                                      ({"seeds": -1}, "seeds", "-1"), ({"seeds": 10**12}, "seeds", "1000000000000")):
             with self.assertRaisesRegex(cc.CaseError, rf"^{field} .*\(found {value}\) Give", msg=fields):
                 self.server.sweep(PRESET, **fields)
+
+    def test_wrong_options_are_named(self):
+        for options in ({"time_limit_s": "1 h"}, {"priority": 1.5}, {"executor": 3.5}, {"fields": "speed_m_per_s=5"}):
+            for call in (self.server.submit, self.server.sweep):
+                with self.assertRaisesRegex(cc.CaseError, f"^{next(iter(options))} is .*Give", msg=options):
+                    call(PRESET, **{"fields": {"speed_m_per_s": [100]} if call == self.server.sweep else {}, **options})
+        job = self.server.submit(PRESET, SMALL, labels={"batch": 3}).cancel()
+        self.assertEqual(job.labels, {"batch": "3"})
 
     def test_the_daemon_lists_all_problems(self):
         with self.assertRaises(cc.CaseError) as raised:

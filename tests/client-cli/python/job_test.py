@@ -1,5 +1,4 @@
 """Jobs: results as arrays, and waits that survive what happens to them."""
-import asyncio
 import contextlib
 import io
 import itertools
@@ -8,13 +7,13 @@ import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
 from unittest import mock
 
 import cellcrush as cc
-import cellcrush.aio
 import numpy as np
 from support import PRESET, SLOW, SMALL, WithServer
 
@@ -38,6 +37,10 @@ class Jobs(WithServer):
         self.assertEqual(dataset.position_mm.attrs["units"], "mm")
         self.assertEqual(dataset.position_mm.dims, ("frame", "particle", "axis"))
         self.assertIn("MPa", job._repr_html_())
+        self.assertIn("<td>theory densification strain</td>", job.summary._repr_html_())
+        self.assertRegex(repr(mesh), f"<mesh of {len(mesh.position_mm)} particles .* elements, "
+                                     f"{mesh.length_mm:.6g} x {mesh.width_mm:.6g} mm>")
+        self.assertEqual(repr(frames), f"<{len(frames)} frames, strain 0 to 0.5>")
         self.assertEqual([s.strain for s in job.watch()], list(samples["strain"]))
 
     def test_a_watched_node_has_columns(self):
@@ -62,7 +65,7 @@ class Jobs(WithServer):
                       summary.front.shock_mpa, summary.quasi_static.kinetic_share, job.suspend().progress.fraction):
             self.assertIsNone(value)
         self.assertFalse(summary.front)
-        self.assertNotIn(" 0", repr(summary))
+        self.assertNotRegex(repr(summary), " 0|UNSPECIFIED")
         job.cancel()
         crush = self.crush(speed_m_per_s=1)
         self.assertIsNone(crush.summary.front.shock_mpa)
@@ -73,9 +76,13 @@ class Jobs(WithServer):
         job = self.server.submit(PRESET, SLOW, labels={"study": "walls"})
         self.assertEqual(job.suspend().state, "SUSPENDED")
         self.assertIn(job.resume().state, ("PENDING", "RUNNING"))
+        next(job.watch())
         job.cancel()
-        with self.assertRaisesRegex(cc.JobFailed, "CANCELLED"):
+        with self.assertRaisesRegex(cc.JobFailed, f"{job.name} CANCELLED: it was cancelled at step .* results so far"):
             job.wait()
+        queued = self.server.submit(PRESET, SLOW).cancel()
+        with self.assertRaisesRegex(cc.JobFailed, f"{queued.name} CANCELLED: .*Submit job.case again to run it."):
+            queued.wait()
         self.assertEqual([j.name for j in self.server.jobs('label.study = "walls"')], [job.name])
         self.assertEqual(self.server.get(job.name).case.loading.speed_m_per_s, 0.5)
         job.delete()
@@ -111,37 +118,6 @@ class Jobs(WithServer):
         jobs = [self.server.submit(PRESET, SMALL, request_id="once") for _ in range(2)]
         self.assertEqual(jobs[0].name, jobs[1].name)
 
-    def test_asyncio_waits_for_many_jobs(self):
-        async def crush():
-            server = await cellcrush.aio.connect(self.server.address)
-            jobs = [await server.submit(PRESET, SMALL, speed_m_per_s=speed) for speed in (100, 200)]
-            await asyncio.gather(*(job.wait() for job in jobs))
-            return [(job.state, len(await job.samples())) for job in jobs]
-
-        for state, count in asyncio.run(crush()):
-            self.assertEqual(state, "SUCCEEDED")
-            self.assertGreater(count, 100)
-
-    def test_asyncio_has_sweeps_and_watches(self):
-        async def crush():
-            server = await cellcrush.aio.connect(self.server.address)
-            self.assertEqual((await server.check(PRESET, SMALL)).problems, [])
-            sweep = await (await server.sweep(PRESET, SMALL, speed_m_per_s=[100, 200])).wait()
-            job = (await sweep.jobs())[0]
-            self.assertIn(job.name, [other.name for other in await server.jobs("state = SUCCEEDED")])
-            strains = [sample.strain async for sample in job.watch()]
-            self.assertEqual(strains, list((await job.history())["strain"]))
-            self.assertGreater(len(await job.frames()), 5)
-            states = list((await sweep.table())["state"])
-            await sweep.delete()
-            slow = await server.submit(PRESET, SLOW)
-            with self.assertRaises(cc.JobFailed):
-                await (await slow.cancel()).wait()
-            await slow.delete()
-            return states
-
-        self.assertEqual(asyncio.run(crush()), ["SUCCEEDED"] * 2)
-
     def test_a_bar_shows_progress(self):
         with contextlib.redirect_stderr(io.StringIO()) as shown:
             self.server.submit(PRESET, SMALL).wait(progress=True)
@@ -150,10 +126,14 @@ class Jobs(WithServer):
     def test_ctrl_c_leaves_the_job_running(self):
         server = self.enterContext(cc.connect(self.server.address))
         job = server.submit(PRESET, SLOW)
-        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
-        with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt):
-            job.wait()
-        self.assertIn(f"{job.name} keeps running", said.getvalue())
+        interrupt = mock.patch("cellcrush.plots.LivePlot.take", lambda *_: os.kill(os.getpid(), signal.SIGINT))
+        for wait in (job.wait, job.live_plot):
+            with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(KeyboardInterrupt), interrupt:
+                if wait == job.wait:
+                    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+                wait()
+            self.assertEqual(said.getvalue(), f"\n{job.name} keeps running; get({job.name!r}) of the server finds it "
+                                              "again\n")
         self.assertIn(job.refresh().state, ("PENDING", "RUNNING"))
         job.cancel()
 
@@ -176,8 +156,6 @@ class Interruptions(unittest.TestCase):
         return daemon
 
     def test_waits_go_on_when_the_daemon_is_killed_and_started_again(self):
-        import tempfile
-
         with tempfile.TemporaryDirectory(dir="/tmp") as folder:
             daemon = self.start(folder)
             server = cc.connect(f"unix:{folder}/s")
@@ -218,11 +196,16 @@ class Interruptions(unittest.TestCase):
             cc.run(PRESET, SMALL, output="nofolder/x.h5")
         started.assert_not_called()
 
-    def test_run_needs_no_daemon(self):
-        with contextlib.ExitStack() as stack:
-            import tempfile
+    def test_run_saves_the_results_of_a_failed_job_too(self):
+        file = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()), "result.h5")
+        with self.assertRaisesRegex(cc.JobFailed, f"FAILED: .*time_limit_s.* {file} has the results so far") as raised:
+            cc.run(PRESET, SLOW, time_limit_s=1, output=file)
+        job, result = raised.exception.job, cc.open(file)
+        self.assertEqual((raised.exception.output, result.attributes["complete"]), (file, 0))
+        np.testing.assert_array_equal(result.samples()["strain"], job.samples()["strain"])
 
-            folder = stack.enter_context(tempfile.TemporaryDirectory())
+    def test_run_needs_no_daemon(self):
+        with tempfile.TemporaryDirectory() as folder:
             job = cc.run(PRESET, SMALL, output=f"{folder}/result.h5")
             self.assertEqual(cc.open(f"{folder}/result.h5").summary.plateau_stress_impact_mpa,
                              job.summary.plateau_stress_impact_mpa)

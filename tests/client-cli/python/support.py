@@ -17,7 +17,6 @@ PRESET = "preset:hexagon-small"
 SLOW = {**SMALL, "columns": 20, "speed_m_per_s": 0.5}
 
 
-
 class WithServer(unittest.TestCase):
     """Tests with a daemon, which a class shares, and a folder of their own."""
 
