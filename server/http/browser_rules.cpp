@@ -17,7 +17,9 @@ std::optional<HttpRefusal> check_browser(const BrowserHeaders& headers, const Ht
   const std::string own_origin = (port.has_tls ? "https://" : "http://") + std::string(headers.host);
   const bool is_own_origin = headers.origin.empty() || headers.origin == own_origin;
   if (!is_own_origin || headers.fetch_site == "cross-site")
-    return HttpRefusal{403, "Pages of other sites may not call this server."};
+    return HttpRefusal{403,
+                       "Pages of other sites may not call this server. cellcrushd's --allow-framing names those that "
+                       "may show its page in a frame."};
   return std::nullopt;
 }
 

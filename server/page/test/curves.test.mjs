@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
 import { SampleSchema, SummarySchema, Warning_Kind } from "../gen/cellcrush/v1/sample_pb";
-import { runningMean, strainAxis, thin } from "../src/charts/curves";
+import { linesAt } from "../src/charts/contours";
+import { runningMean, strainAxis, thin, ticksOf } from "../src/charts/curves";
 import { energyChart } from "../src/charts/energy";
 import { stressChart } from "../src/charts/stress";
 import { duration, number } from "../src/dom/format";
@@ -44,4 +45,19 @@ test("numbers have three significant digits, times a unit", () => {
   assert.deepEqual([0.31437, 3.5526, 1544, 0, undefined].map((value) => number(value)),
                    ["0.314", "3.55", "1544", "0", "–"]);
   assert.deepEqual([0.05, 12, 300, 7300].map(duration), ["50 ms", "12 s", "5 min", "2 h 2 min"]);
+});
+
+test("levels are as many round numbers of the range as fit", () => {
+  assert.deepEqual(ticksOf(0.205, 14.17, 8), [2, 4, 6, 8, 10, 12, 14]);
+  assert.deepEqual(ticksOf(0.3, 8.7, 8), [1, 2, 3, 4, 5, 6, 7, 8]);
+  assert.deepEqual(ticksOf(3, 3, 8), []);
+});
+
+test("contours lie between the points by their values, part at a saddle by its mean, and end at gaps", () => {
+  assert.deepEqual(linesAt([[0, 4, 8], [0, 4, 8]], 1), [[[0.25, 0], [0.25, 1]]]);
+  assert.deepEqual(linesAt([[0, 4, 8], [0, undefined, 8]], 1), []);
+  const saddle = (peak) => linesAt([[0, peak], [peak, 0]], 1).map(([[x0, y0], [x1, y1]]) =>
+    Math.sign((y1 - y0) / (x1 - x0)));
+  assert.deepEqual(saddle(1.5), [1, 1], "low along the diagonal");
+  assert.deepEqual(saddle(3), [-1, -1], "high across it");
 });

@@ -17,9 +17,9 @@ function freePort() {
 export class Daemon {
   folder = mkdtempSync(join(tmpdir(), 'cellcrush-page-'));
 
-  async start() {
+  async start(more = []) {
     this.port ??= await freePort();
-    const options = ['--data', this.folder, '--listen', 'unix:' + join(this.folder, 's'), '--workers', '1'];
+    const options = ['--data', this.folder, '--listen', 'unix:' + join(this.folder, 's'), '--workers', '1', ...more];
     this.process = spawn(process.env.CELLCRUSHD, [...options, '--http', `127.0.0.1:${this.port}`], { stdio: 'ignore' });
     for (let i = 0; i < 300; ++i) {
       const answer = await fetch(this.url).catch(() => undefined);

@@ -14,7 +14,10 @@ const daemon = stage(async (its) => {
   await createSweep('Thicknesses', 'lattice.hexagon.wall_thickness_mm', [0.3, 0.4]);
   await createSweep('Speeds and thicknesses', speed, [50, 100],
     [{ field: 'lattice.hexagon.wall_thickness_mm', list: { values: [0.3, 0.4] } }]);
-  for (const name of ['sweeps/1', 'sweeps/2', 'sweeps/3', 'sweeps/4']) await endOf(name);
+  await createSweep('Three fields', speed, [50, 100],
+    ['wall_thickness_mm', 'side_mm'].map((name, i) =>
+      ({ field: `lattice.hexagon.${name}`, list: { values: [[0.3, 0.4], [4, 5]][i] } })));
+  for (const id of [1, 2, 3, 4, 5]) await endOf(`sweeps/${id}`);
 });
 
 async function createSweep(title, field, values, more = []) {
@@ -134,10 +137,39 @@ test('a sweep over two fields has a map, whose cells lead to their jobs', async 
   const wanted = [1, 3, 0, 2].map((i) => rows[i]);
   assert.deepEqual(await map.locator('td a').evaluateAll((links) => links.map((link) => [link.pathname.slice(1),
     link.textContent])), wanted.map(({ job, result }) => [job, result.summary.plateauStressImpactMpa.toPrecision(3)]));
+  const labels = await map.locator('.contours text').allTextContents();
+  assert.ok(labels.length > 0);
+  const plateaus = rows.map(({ result }) => result.summary.plateauStressImpactMpa);
+  for (const level of labels.map(Number)) {
+    assert.ok(level > Math.min(...plateaus) && level < Math.max(...plateaus), `${level} of ${plateaus}`);
+  }
   assert.deepEqual(await seriousFindings(page), []);
   await page.goto(`${daemon.url}/sweeps/1?with=2`);
   await page.locator('.sweep-page .legend').getByText('Thick').waitFor();
   assert.equal(await map.isVisible(), false, 'one field is no map');
+});
+
+test('of a sweep over three fields the map has two that are chosen, and holds the third', async () => {
+  await page.goto(`${daemon.url}/sweeps/5`);
+  const map = page.locator('.sweep-map');
+  const { fields, rows } = await daemon.call('Sweeps/GetSweepTable', { name: 'sweeps/5' });
+  const [speed, thickness, side] = [0, 1, 2];
+  const jobs = () => map.locator('td a').evaluateAll((links) => links.map((link) => link.pathname.slice(1)));
+  // By rows from the top; values grow to the right and upwards.
+  const wanted = (x, y, held, value) => rows.filter(({ values }) => values[held] === value)
+    .sort((a, b) => b.values[y] - a.values[y] || a.values[x] - b.values[x]).map(({ job }) => job);
+  await map.getByText('Impact plateau, MPa').waitFor();
+  assert.equal(fields.length, 3);
+  assert.deepEqual(await jobs(), wanted(speed, thickness, side, 4));
+  await map.getByLabel('side (mm)').selectOption('5');
+  assert.deepEqual(await jobs(), wanted(speed, thickness, side, 5));
+  await map.getByLabel('across').selectOption('wall thickness (mm)');
+  assert.deepEqual(await jobs(), wanted(thickness, speed, side, 5), 'the axes change places');
+  await map.getByLabel('up').selectOption('side (mm)');
+  assert.deepEqual(await jobs(), wanted(thickness, side, speed, 50));
+  assert.deepEqual(await seriousFindings(page), []);
+  await page.goto(`${daemon.url}/sweeps/1?with=2`);
+  await page.locator('.sweep-page .legend').getByText('Thick').waitFor();
 });
 
 test('the SVG of the chart has the curves of both sweeps', async () => {

@@ -1,12 +1,17 @@
 // The token that a daemon with --tokens asks for. It stays in the tab, or in the browser if the user wants that.
 import { Code, ConnectError, type Interceptor } from "@connectrpc/connect";
-import { h, labelled } from "../dom/element";
+import { h, labelled, setText } from "../dom/element";
 
 const kKey = "cellcrush-token";
 let isAsking = false;
 
+// None where the browser keeps nothing, as for a page in a frame of another site.
 function storedToken(): string {
-  return sessionStorage.getItem(kKey) ?? localStorage.getItem(kKey) ?? "";
+  try {
+    return sessionStorage.getItem(kKey) ?? localStorage.getItem(kKey) ?? "";
+  } catch {
+    return "";
+  }
 }
 
 export const hasToken = (): boolean => storedToken() !== "";
@@ -23,15 +28,20 @@ function askForToken(reason: string): void {
   isAsking = true;
   const token = h("input", { type: "password", autocomplete: "off", required: true });
   const keep = h("input", { type: "checkbox" });
+  const why = h("p", {}, reason);
   const submit = (event: Event): void => {
     event.preventDefault();
-    sessionStorage.removeItem(kKey);
-    localStorage.removeItem(kKey);
-    (keep.checked ? localStorage : sessionStorage).setItem(kKey, token.value.trim());
-    location.reload();
+    try {
+      sessionStorage.removeItem(kKey);
+      localStorage.removeItem(kKey);
+      (keep.checked ? localStorage : sessionStorage).setItem(kKey, token.value.trim());
+      location.reload();
+    } catch {
+      setText(why, "The browser keeps no token for this page, as in a frame. Open the page in a tab of its own.");
+    }
   };
   const dialog = h("dialog", { class: "token", cancel: (event: Event) => event.preventDefault() },
-    h("h2", {}, "This daemon asks for a token"), h("p", {}, reason),
+    h("h2", {}, "This daemon asks for a token"), why,
     h("form", { submit }, labelled("Token", token),
       h("label", { class: "keep" }, keep, " keep it in this browser"),
       h("div", { class: "buttons" }, h("button", { type: "submit", class: "primary" }, "Continue"))));

@@ -25,13 +25,14 @@ export async function takePlace(): Promise<(() => void) | undefined> {
   return undefined;
 }
 
-// A lock is held until the promise of its callback is settled, and ends with its tab.
+// A lock is held until the promise of its callback is settled, and ends with its tab. Browsers may refuse locks to a
+// page in a frame of another site, which then streams without.
 function holdIfFree(name: string): Promise<(() => void) | undefined> {
-  return new Promise((resolve, reject) => {
+  return new Promise((resolve) => {
     navigator.locks.request(name, { ifAvailable: true }, (lock) => {
       if (!lock) return resolve(undefined);
       return new Promise<void>((giveBack) => resolve(giveBack));
-    }).catch(reject);
+    }).catch(() => resolve(() => undefined));
   });
 }
 

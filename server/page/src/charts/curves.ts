@@ -85,3 +85,16 @@ export function thin(y: number[], most: number): number[] {
   }
   return kept;
 }
+
+/** The round numbers from low to high, no more than `most`: 1, 2 or 5 times a power of ten apart. As the command line's. */
+export function ticksOf(low: number, high: number, most: number): number[] {
+  if (!(high > low)) return [];
+  const kSlack = 1e-9;
+  for (let power = 10 ** Math.floor(Math.log10((high - low) / most)); ; power *= 10) {
+    for (const step of [power, 2 * power, 5 * power]) {
+      const first = Math.ceil(low / step - kSlack);
+      const count = Math.floor(high / step + kSlack) - first + 1;
+      if (count <= most) return Array.from({ length: count }, (_, i) => Number(((first + i) * step).toPrecision(12)));
+    }
+  }
+}

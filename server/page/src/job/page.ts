@@ -93,7 +93,7 @@ export class JobPage implements View {
         h("section", { class: "card" },
           h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
             takeAwayOfPicture(picture, this.player, this.data)),
-          h("div", { class: "picture-box" }, picture.element), this.bar.element, this.thinned),
+          this.bar.element, h("div", { class: "picture-box" }, picture.element), this.thinned),
         this.numbers, this.facts),
       h("div", { class: "column" },
         h("section", { class: "card" }, this.stress.element, this.energy.element), this.modelled));

@@ -1,4 +1,5 @@
 // A chart as an SVG file for a paper: black on white, in the colours of the light theme.
+import { ticksOf } from "../charts/curves";
 import { bandShapes, markShapes, type Place, type Shape } from "../charts/chart_marks";
 import { legendOf, markPath, type ChartData, type Series } from "../charts/chart_data";
 import { themeColour } from "../picture/colours";
@@ -8,21 +9,10 @@ const kWidth = 720;
 const kPlot = { left: 64, top: 40, width: 630, height: 330 };
 const kFont = { "font-family": "sans-serif", "font-size": 12, fill: "#222" };
 
-/** Values 1, 2 or 5 times a power of ten apart, about `wanted` of them. */
-function ticksOf(low: number, high: number, wanted: number): number[] {
-  const rough = (high - low) / wanted;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= rough) ?? 10);
-  const ticks: number[] = [];
-  const last = Math.floor((high / step) * (1 + 1e-9));
-  for (let i = Math.ceil(low / step); i <= last; ++i) ticks.push(Number((i * step).toPrecision(12)));
-  return ticks;
-}
-
 const kPowers = Array.from({ length: 25 }, (_, i) => i - 12);
 
-function axisTicks(low: number, high: number, isLog: boolean | undefined, wanted: number): number[] {
-  if (!isLog) return ticksOf(low, high, wanted);
+function axisTicks(low: number, high: number, isLog: boolean | undefined, most: number): number[] {
+  if (!isLog) return ticksOf(low, high, most);
   const steps = high / low > 1e3 ? [1] : [1, 2, 5];
   return kPowers.flatMap((power) => steps.map((step) => Number(`${step}e${power}`)))
     .filter((value) => value >= low && value <= high);
