@@ -179,7 +179,10 @@ class LivePlot:
         self._style = (width_mm, font_pt)
         self._ax = new_axes(None, width_mm)
         self._notebook: Any = notebook_display()
-        self._handle: Any = self._notebook.display("", display_id=True) if self._notebook else None
+        self._handle: Any = None
+        if self._notebook:
+            self._handle = self._notebook.display("", display_id=True)
+            self._pyplot.close(self._ax.figure)  # else the notebook would show it once more
         self._next_s = 0.0
 
     def _show(self) -> None:
@@ -204,5 +207,4 @@ class LivePlot:
         plot_curves(job, self._ax, *self._style)
         if self._handle is not None:
             self._show()
-            self._pyplot.close(self._ax.figure)
         return self._ax
