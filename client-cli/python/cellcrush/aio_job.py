@@ -50,13 +50,17 @@ async def follow(connection: Connection, stub: Any, method: str, next_request: C
         while True:
             stream = getattr(stub(channel), method)(next_request(), metadata=connection.metadata)
             try:
-                while (message := await asyncio.wait_for(stream.read(), SILENCE_S)) is not grpc.aio.EOF:
+                while True:
+                    async with asyncio.timeout(SILENCE_S):
+                        message = await stream.read()
+                    if message is grpc.aio.EOF:
+                        break
                     patience.renew()
                     yield message
                 if is_complete():
                     return
                 lost = "the server closed the stream"
-            except asyncio.TimeoutError:
+            except TimeoutError:
                 lost = "it fell silent"
             except grpc.RpcError as error:
                 if error.code() not in RECOVERABLE:

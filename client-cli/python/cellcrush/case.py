@@ -134,6 +134,19 @@ def _scalar(field: FieldDescriptor, value: Any, path: str) -> Any:
         raise _refuse(path, str(value), "is not valid.", f"Give {_kind(field)}.") from None
 
 
+def is_list(path: str) -> bool:
+    """Whether a field takes a list.
+
+    >>> is_list("lattice.frame.watched_nodes"), is_list("depth_mm")
+    (True, False)
+    """
+    group, field = Case.DESCRIPTOR, None
+    for part in path.split("."):
+        field = group.fields_by_name.get(part) if group is not None else None
+        group = field.message_type if field is not None else None
+    return field is not None and field.label == FieldDescriptor.LABEL_REPEATED
+
+
 def swept_values(path: str, values: Iterable[Any]) -> list[float]:
     """The values of an axis of a sweep.
 

@@ -59,27 +59,38 @@ def _smoothed(x: Array, y: Array) -> Array:
     return means
 
 
-def _draw_curves(ax: Any, samples: Array) -> None:
-    strain, top = samples["strain"], 0.0
+def stress_unit(ax: Any, largest: float) -> Tuple[str, float]:
+    """The unit by size, as in all outputs of cellcrush, and its number in a MPa. Axes with curves keep theirs."""
+    label = ax.get_ylabel()
+    is_small = 0.0 < largest < 0.1 and not label.endswith("(MPa)")
+    return ("kPa", 1e3) if is_small or label.endswith("(kPa)") else ("MPa", 1.0)
+
+
+def _draw_curves(ax: Any, samples: Array) -> Tuple[str, float]:
+    """Draws the stresses; returns their unit."""
+    strain = samples["strain"]
     is_shown = strain > min(_SMOOTHED, 0.1 * strain.max(initial=0.0))  # the first impact may leave the axes
-    for name, label, colour in (("stress_impact_mpa", "impact plate", _BLUE),
-                                ("stress_support_mpa", "support plate", _ORANGE)):
-        smooth = _smoothed(strain, samples[name])
-        ax.plot(strain, samples[name], color=colour, alpha=0.25, linewidth=0.4)
-        ax.plot(strain, smooth, color=colour, linewidth=1.0, label=label)
-        top = max(top, *smooth[is_shown], 0.0)
-    ax.set(xlim=(0.0, None), ylim=(0.0, 1.1 * top or None), xlabel="nominal strain", ylabel="nominal stress (MPa)")
+    smooth = {name: _smoothed(strain, samples[name]) for name in ("stress_impact_mpa", "stress_support_mpa")}
+    top = max(curve[is_shown].max(initial=0.0) for curve in smooth.values())
+    unit, factor = stress_unit(ax, top)
+    for (name, curve), label, colour in zip(smooth.items(), ("impact plate", "support plate"), (_BLUE, _ORANGE)):
+        ax.plot(strain, factor * samples[name], color=colour, alpha=0.25, linewidth=0.4)
+        ax.plot(strain, factor * curve, color=colour, linewidth=1.0, label=label)
+    ax.set(xlim=(0.0, None), ylim=(0.0, 1.1 * factor * top or None), xlabel="nominal strain",
+           ylabel=f"nominal stress ({unit})")
+    return unit, factor
 
 
 def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
                 font_pt: float = 8.0) -> "matplotlib.axes.Axes":
     ax = new_axes(ax, width_mm)
-    _draw_curves(ax, results.samples())
+    unit, factor = _draw_curves(ax, results.samples())
     summary = results.summary
     if summary.plateau_stress_impact_mpa is not None:
         window = (summary.plateau_window_low, summary.plateau_window_high)
-        ax.plot(window, [summary.plateau_stress_impact_mpa] * 2, color="black", linewidth=1.2, solid_capstyle="butt",
-                label=f"plateau {summary.plateau_stress_impact_mpa:.4g} MPa")
+        plateau = factor * summary.plateau_stress_impact_mpa
+        ax.plot(window, [plateau] * 2, color="black", linewidth=1.2, solid_capstyle="butt",
+                label=f"plateau {plateau:.4g} {unit}")
     if summary.densification_strain is not None:
         ax.axvline(summary.densification_strain, color=GREY, linewidth=0.6, linestyle=":",
                    label=f"densification {summary.densification_strain:.3g}")
@@ -168,7 +179,10 @@ class LivePlot:
         self._style = (width_mm, font_pt)
         self._ax = new_axes(None, width_mm)
         self._notebook: Any = notebook_display()
-        self._handle: Any = self._notebook.display("", display_id=True) if self._notebook else None
+        self._handle: Any = None
+        if self._notebook:
+            self._handle = self._notebook.display("", display_id=True)
+            self._pyplot.close(self._ax.figure)  # else the notebook would show it once more
         self._next_s = 0.0
 
     def _show(self) -> None:
@@ -193,5 +207,4 @@ class LivePlot:
         plot_curves(job, self._ax, *self._style)
         if self._handle is not None:
             self._show()
-            self._pyplot.close(self._ax.figure)
         return self._ax

@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from cellcrush.arrays import Values
-from cellcrush.case import CaseLike, build_case, find_path, join_fields, seed_count, set_field, swept_values
+from cellcrush.case import CaseLike, build_case, find_path, is_list, join_fields, seed_count, set_field, swept_values
 from cellcrush.connection import Connection
 from cellcrush.errors import Problem, problem_from
 from cellcrush.explain import explain
@@ -97,7 +97,7 @@ class Server:
         axes = []
         for word, value in join_fields(fields, more).items():
             path = find_path(word, base)
-            if isinstance(value, SEVERAL):
+            if isinstance(value, SEVERAL) and not is_list(path):
                 values = sweep_pb2.SweepAxis.List(values=swept_values(path, value))
                 axes.append(sweep_pb2.SweepAxis(field=path, list=values))
             else:

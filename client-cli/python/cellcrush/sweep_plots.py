@@ -7,7 +7,7 @@ import numpy as np
 
 from cellcrush.arrays import Array
 from cellcrush.errors import need
-from cellcrush.plots import GREY, finish, new_axes
+from cellcrush.plots import GREY, finish, new_axes, stress_unit
 from cellcrush.words import label_of, short_names
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ def plot_points(table: "pandas.DataFrame", fields: "List[str]", ax: "Optional[ma
 
 
 def _draw_curves(ax: Any, table: "pandas.DataFrame", first: str, others: "List[str]", font_pt: float) -> None:
+    unit, factor = stress_unit(ax, table[[_STRESS, "plateau_stress_support_mpa"]].max().max())
     is_seed = first.rsplit(".", 1)[-1] == "seed"
     groups = table.groupby(others if len(others) > 1 else others[0], sort=False) if others else [((), table)]
     for key, rows in groups:
@@ -49,11 +50,11 @@ def _draw_curves(ax: Any, table: "pandas.DataFrame", first: str, others: "List[s
         group = ", ".join(f"{value:g}" for value in values)
         colour = None
         for plate, marker, line in (("impact", "o", "-"), ("support", "s", "--")):
-            line = "none" if is_seed else line
             column = f"plateau_stress_{plate}_mpa"
-            bars = rows[column + "_ci95"]
-            drawn = ax.errorbar(rows[first], rows[column], yerr=None if bars.isna().all() else bars, marker=marker,
-                                markersize=3, linewidth=0.8, capsize=2, elinewidth=0.6, color=colour, linestyle=line,
+            bars = factor * rows[column + "_ci95"]
+            drawn = ax.errorbar(rows[first], factor * rows[column], yerr=None if bars.isna().all() else bars,
+                                marker=marker, markersize=3, linewidth=0.8, capsize=2, elinewidth=0.6, color=colour,
+                                linestyle="none" if is_seed else line,
                                 label=(group if plate == "impact" else None) if group else f"{plate} plate")
             colour = drawn[0].get_color() if group else None
     missing = table[first][table["count"] == 0]
@@ -65,8 +66,9 @@ def _draw_curves(ax: Any, table: "pandas.DataFrame", first: str, others: "List[s
     if first == "speed_m_per_s" and not others and theory.sum() > 1:
         slope, constant = np.polyfit(table[first][theory] ** 2, table["shock_mpa"][theory], 1)
         speeds = np.linspace(table[first].min(), table[first].max(), 200)
-        ax.plot(speeds, constant + slope * speeds**2, color="black", linewidth=0.8, label="shock theory (Eq. 51)")
-    ax.set(xlabel=label_of(first), ylabel="plateau stress (MPa)", ylim=(0.0, None))
+        ax.plot(speeds, factor * (constant + slope * speeds**2), color="black", linewidth=0.8,
+                label="shock theory (Eq. 51)")
+    ax.set(xlabel=label_of(first), ylabel=f"plateau stress ({unit})", ylim=(0.0, None))
     locator = ax.xaxis.get_major_locator()
     if isinstance(locator, need("matplotlib.ticker", "python3-matplotlib").MaxNLocator):
         locator.set_params(integer=bool((table[first] % 1 == 0).all()))
@@ -89,13 +91,14 @@ def _draw_map(ax: Any, table: "pandas.DataFrame", fields: "List[str]", font_pt: 
     """Cells coloured by the plateau stress with their values, and contours between the points."""
     matplotlib = need("matplotlib", "python3-matplotlib")
     stress = table.pivot(index=fields[1], columns=fields[0], values=_STRESS).sort_index().sort_index(axis=1)
-    x, y, values = stress.columns.to_numpy(), stress.index.to_numpy(), np.ma.masked_invalid(stress.to_numpy())
+    unit, factor = stress_unit(ax, stress.max().max())
+    x, y, values = stress.columns.to_numpy(), stress.index.to_numpy(), factor * np.ma.masked_invalid(stress.to_numpy())
     colours = matplotlib.colors.ListedColormap(matplotlib.colormaps["plasma"](np.linspace(0.0, 0.8, 256)))
     ax.set_facecolor("#ededed")  # where there is no plateau
     cells = ax.pcolormesh(_borders(x), _borders(y), values, cmap=colours, rasterized=True)
     ax.set(xlabel=label_of(fields[0]), ylabel=label_of(fields[1]))
     if values.count():
-        bar = ax.figure.colorbar(cells, ax=ax, label="plateau stress, impact plate (MPa)", pad=0.03)
+        bar = ax.figure.colorbar(cells, ax=ax, label=f"plateau stress, impact plate ({unit})", pad=0.03)
         levels = matplotlib.ticker.MaxNLocator(_MOST_LEVELS).tick_values(values.min(), values.max())
         levels = levels[(levels > values.min()) & (levels < values.max())]
         if len(levels):

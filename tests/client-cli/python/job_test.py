@@ -53,6 +53,8 @@ class Jobs(WithServer):
             "depth_mm": 1, "youngs_modulus_mpa": 70000, "yield_stress_mpa": 100, "density_kg_per_m3": 2700}
         job = self.server.submit(frame, sample_count=20).wait()
         self.assertGreater(job.samples()["nodes.b.uy_mm"][-1], 0.0)
+        sweep = self.server.sweep(frame, sample_count=20, depth_mm=[1, 2], watched_nodes=["a"]).wait()
+        self.assertEqual(list(sweep.case.lattice.frame.watched_nodes), ["a"])  # a list is the value of a list
         check = self.server.check(frame)
         self.assertEqual((check.relative_density, check.length_mm), (None, None))
         for theory in (job.summary.theory, check.theory):

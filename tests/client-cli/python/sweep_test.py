@@ -169,6 +169,19 @@ class Sweeps(WithServer):
         self.assertIn("shock theory (Eq. 51)", legend)
         self.assertEqual(self.job.plot(font_pt=7).xaxis.label.get_fontsize(), 7)
 
+    def test_small_stresses_are_in_kpa(self):
+        thin = {**SMALL, "wall_thickness_mm": 0.1, "vertical_wall_thickness_mm": 0.1}
+        sweep = self.server.sweep(PRESET, thin, speed_m_per_s=[5, 10]).wait()
+        job = sweep.jobs[0]
+        kpa = 1000.0 * job.summary.plateau_stress_impact_mpa
+        self.assertLess(kpa, 100.0)
+        ax, over = job.plot(), sweep.plot()
+        self.assertEqual([ax.get_ylabel(), over.get_ylabel()], ["nominal stress (kPa)", "plateau stress (kPa)"])
+        self.assertIn(f"plateau {kpa:.4g} kPa", [text.get_text() for text in ax.get_legend().get_texts()])
+        self.assertAlmostEqual(over.containers[0][0].get_ydata()[0], kpa)
+        line = self.job.plot(self.job.plot(ax)).get_lines()[-1]  # axes keep their unit
+        self.assertAlmostEqual(line.get_ydata()[0], 1000.0 * self.job.summary.plateau_stress_impact_mpa)
+
     def test_a_picture_fits_its_frame(self):
         positions = self.job.frames.position_mm[-1]
         self.assertEqual(self.job.plot_frame(1.0).get_xlim(), (positions[:, 0].min(), positions[:, 0].max()))
