@@ -97,6 +97,10 @@ class Job:
     async def frames(self) -> Frames:
         return await asyncio.to_thread(lambda: self.sync.frames)
 
+    async def set_note(self, note: str) -> "Job":
+        await asyncio.to_thread(self.sync.set_note, note)
+        return self
+
     async def cancel(self) -> "Job":
         await asyncio.to_thread(self.sync.cancel)
         return self
@@ -129,6 +133,10 @@ class Sweep:
 
     async def table(self, mean_over: Optional[str] = None) -> "pandas.DataFrame":
         return await asyncio.to_thread(self.sync.table, mean_over)
+
+    async def set_note(self, note: str) -> "Sweep":
+        await asyncio.to_thread(self.sync.set_note, note)
+        return self
 
     async def cancel(self) -> "Sweep":
         await asyncio.to_thread(self.sync.cancel)
