@@ -16,6 +16,7 @@ class ServiceError : public std::runtime_error {
     not_found,            ///< nothing has this name
     already_exists,       ///< the name or id is already in use
     failed_precondition,  ///< the state does not allow it
+    aborted,              ///< another caller came before
     out_of_range,         ///< past the end
     storage_full,         ///< no room on the disk or in a quota
     exhausted,            ///< beyond a limit of this daemon

@@ -22,6 +22,7 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
     case ServiceError::Kind::not_found: return grpc::StatusCode::NOT_FOUND;
     case ServiceError::Kind::already_exists: return grpc::StatusCode::ALREADY_EXISTS;
     case ServiceError::Kind::failed_precondition: return grpc::StatusCode::FAILED_PRECONDITION;
+    case ServiceError::Kind::aborted: return grpc::StatusCode::ABORTED;
     case ServiceError::Kind::out_of_range: return grpc::StatusCode::OUT_OF_RANGE;
     case ServiceError::Kind::storage_full:
     case ServiceError::Kind::exhausted: return grpc::StatusCode::RESOURCE_EXHAUSTED;

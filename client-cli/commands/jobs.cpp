@@ -58,6 +58,43 @@ bool confirm(const std::function<std::string()>& question) {
   return answer == "y" || answer == "Y" || answer == "yes";
 }
 
+struct NoteOptions {
+  std::string name;
+  std::string text;
+};
+
+// Writes the note of a job or a sweep in place of that in `before`; `target` is the part of the request for it.
+template <typename Stub, typename Request, typename Resource>
+ExitCode write_note(Session& session, Stub& stub,
+                    grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Resource*),
+                    Resource* (Request::*target)(), const Resource& before, const std::string& text) {
+  Request request;
+  (request.*target)()->set_name(before.name());
+  (request.*target)()->set_note(text);
+  request.mutable_update_mask()->add_paths("note");
+  request.set_previous_note(before.note());
+  const Resource after = session.connection().call(stub, method, request);
+  if (session.json) {
+    print_json(after);
+    return ExitCode::done;
+  }
+  const bool has_replaced = !before.note().empty() && before.note() != after.note();
+  fmt::print("{}{}\n{}", printable(after.name()),
+             after.note().empty() ? " has no note" : ": " + printable(after.note()),
+             has_replaced ? "Replaced: " + printable(before.note()) + '\n' : "");
+  return ExitCode::done;
+}
+
+ExitCode run_note(Session& session, const NoteOptions& options) {
+  Connection& connection = session.connection();
+  if (names_sweep(options.name)) {
+    return write_note(session, connection.sweeps(), &v1::Sweeps::Stub::UpdateSweep,
+                      &v1::UpdateSweepRequest::mutable_sweep, fetch_sweep(connection, options.name), options.text);
+  }
+  return write_note(session, connection.jobs(), &v1::Jobs::Stub::UpdateJob, &v1::UpdateJobRequest::mutable_job,
+                    fetch_job(connection, job_name(options.name)), options.text);
+}
+
 struct DeleteOptions {
   std::string name;
   bool yes = false;
@@ -120,6 +157,11 @@ void add_job_commands(CLI::App& app, Session& session) {
       app, session, "retry", "Queue the failed jobs of a sweep again", "SWEEP", "Name of a sweep",
       [](Session& s, const std::string& name) { change_sweep(s, name, &v1::Sweeps::Stub::RetryFailedJobs); });
   add_examples(*retry, {"cellcrush retry sweeps/3"});
+  const auto [note, note_options] = add_command<NoteOptions>(
+      app, session, kJobCommands, "note", "Write a note on a job or a sweep, in place of its former one", run_note);
+  note->add_option("NAME", note_options->name, "Name of a job or a sweep")->required();
+  note->add_option("TEXT", note_options->text, "The note, up to 2000 bytes; '' removes it")->required();
+  add_examples(*note, {"cellcrush note jobs/12 'buckled at the left first'", "cellcrush note sweeps/3 ''"});
   const auto [command, options] = add_command<DeleteOptions>(
       app, session, kJobCommands, "delete", "Delete a job, or a sweep with all its jobs; asks first", run_delete);
   command->add_option("NAME", options->name, "Job name, or sweeps/NAME")->required();

@@ -20,6 +20,7 @@ struct SubmitOptions {
   bool watch = false;
   std::string request_id;
   std::vector<std::string> labels;
+  std::string note;
   int priority = 0;
   double time_limit_s = 0.0;
   std::string executor;
@@ -41,6 +42,8 @@ void add_submit_options(CLI::App& command, SubmitOptions& options, const std::st
              "Label KEY=VALUE for list --filter; KEY up to 63 and VALUE up to 255 characters (may be repeated up "
              "to 64 times; default: none)")
       ->allow_extra_args(false);
+  add_option(command, kIdentityOptions, "--note", options.note,
+             "Note on the " + what + ", up to 2000 bytes; `cellcrush note` changes it (default: none)");
   add_option(command, kScheduleOptions, "--priority", options.priority,
              "Waiting jobs of higher priority start first; -100 to 100 (default: 0)")
       ->check(CLI::Range(-100, 100));
@@ -58,6 +61,7 @@ void fill(const SubmitOptions& options, Target& target) {
     }
     (*target.mutable_labels())[text.substr(0, equals)] = text.substr(equals + 1);
   }
+  target.set_note(options.note);
   target.set_priority(options.priority);
   target.set_time_limit_s(options.time_limit_s);
   target.set_executor(options.executor);

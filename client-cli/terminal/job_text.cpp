@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "command_error.h"
 #include "terminal/case_text.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
-#include "terminal/table.h"
 
 namespace cellcrush::client {
 
@@ -82,6 +82,7 @@ std::string description_text(const v1::Job& job, int width) {
   if (!job.case_().title().empty()) table.add({"title", job.case_().title()});
   const std::string scene = scene_text(job.words());
   if (!scene.empty()) table.add({"case", scene});
+  add_note_rows(table, job.note());
   if (!job.labels().empty()) table.add({"labels", labels_text(job.labels())});
   if (job.priority() != 0) table.add({"priority", std::to_string(job.priority())});
   if (job.time_limit_s() > 0.0) table.add({"time limit", duration_text(job.time_limit_s())});
@@ -110,6 +111,17 @@ std::string labels_text(const google::protobuf::Map<std::string, std::string>& l
   std::string text;
   for (const auto& [key, value] : ordered) text += fmt::format("{}{}={}", text.empty() ? "" : ", ", key, value);
   return text;
+}
+
+void add_note_rows(Table& table, const std::string& note) {
+  std::istringstream lines(note);
+  std::string heading = "note";
+  for (std::string line; std::getline(lines, line); heading.clear()) table.add({heading, line});
+}
+
+std::string short_note_text(const std::string& note) {
+  constexpr int kWidth = 40;
+  return cut(note.substr(0, note.find('\n')), kWidth);
 }
 
 std::string time_text(const google::protobuf::Timestamp& time) {

@@ -165,6 +165,7 @@ std::string description_text(const v1::Sweep& sweep, int width) {
     table.add({"executor", executor});
   if (sweep.max_parallel() > 0) table.add({"most jobs at once", std::to_string(sweep.max_parallel())});
   if (sweep.max_failures() > 0) table.add({"most failures", std::to_string(sweep.max_failures())});
+  add_note_rows(table, sweep.note());
   if (!sweep.labels().empty()) table.add({"labels", labels_text(sweep.labels())});
   if (!sweep.owner().empty()) table.add({"owner", sweep.owner()});
   if (sweep.has_create_time()) table.add({"created", time_text(sweep.create_time())});
@@ -174,13 +175,14 @@ std::string description_text(const v1::Sweep& sweep, int width) {
 
 std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps, int width) {
   if (sweeps.empty()) return "no sweeps\n";
-  Table table(
-      {Align::left, Align::right, Align::left, Align::left, Align::left, Align::left, Align::left, Align::left});
-  table.add({"NAME", "JOBS", "STATES", "OVER", "PRIORITY", "LABELS", "CREATED", "TITLE"});
+  Table table({Align::left, Align::right, Align::left, Align::left, Align::left, Align::left, Align::left, Align::left,
+               Align::left});
+  table.add({"NAME", "JOBS", "STATES", "OVER", "PRIORITY", "LABELS", "NOTE", "CREATED", "TITLE"});
   for (const v1::Sweep& sweep : sweeps) {
     table.add({sweep.name(), std::to_string(sweep.jobs_size()), counts_text(sweep), varied_text(sweep),
                sweep.priority() != 0 ? std::to_string(sweep.priority()) : "", labels_text(sweep.labels()),
-               sweep.has_create_time() ? time_text(sweep.create_time()) : "", sweep.case_().title()});
+               short_note_text(sweep.note()), sweep.has_create_time() ? time_text(sweep.create_time()) : "",
+               sweep.case_().title()});
   }
   const std::string constants = constants_text(table.remove_constant_columns(3, 1), width);
   return table.text(0, width) + constants;

@@ -29,6 +29,7 @@ class JobCalls {
     parts_.admission.check_priority(request.priority(), "priority");
     parts_.admission.check_time_limit(request.time_limit_s(), "time_limit_s");
     check_length("executor", request.executor(), kLongestName);
+    check_note("note", request.note());
     const std::string executor = parts_.queues.executor_for(request.executor(), "executor");
     check_size("case", request.case_().ByteSizeLong(), kLargestCase);
     translate::CaseChecker checker;
@@ -40,6 +41,7 @@ class JobCalls {
     *job.mutable_case_() = request.case_();
     *job.mutable_labels() = request.labels();
     job.set_priority(request.priority());
+    job.set_note(request.note());
     job.set_time_limit_s(request.time_limit_s());
     job.set_executor(executor);
     job.set_owner(call.caller().name);
@@ -93,6 +95,16 @@ class JobCalls {
       *out.add_jobs() = std::move(job.job);
     }
     return out;
+  }
+
+  v1::Job update_job(const Call& call, const v1::UpdateJobRequest& request) {
+    const std::int64_t job = find_own(call, request.job().name());
+    check_update(request.update_mask(), "job", request.job().note());
+    if (parts_.journal.set_note(job, request.job().note(), request.previous_note())) {
+      parts_.hub.recent().forget(job);
+      log_change(store::name_of(job), "annotated", call.caller().name);
+    }
+    return find_live(request.job().name());
   }
 
   v1::Job cancel_job(const Call& call, const v1::CancelJobRequest& request) {
@@ -221,6 +233,7 @@ void add_jobs_methods(MethodTable& table, const ServiceParts& parts) {
   table.unary("/cellcrush.v1.Jobs/CreateJob", Scope::submit, &parts.checks, calls, &JobCalls::create_job);
   table.unary("/cellcrush.v1.Jobs/GetJob", Scope::read, &parts.calls, calls, &JobCalls::get_job);
   table.unary("/cellcrush.v1.Jobs/ListJobs", Scope::read, &parts.calls, calls, &JobCalls::list_jobs);
+  table.unary("/cellcrush.v1.Jobs/UpdateJob", Scope::submit, &parts.calls, calls, &JobCalls::update_job);
   table.unary("/cellcrush.v1.Jobs/CancelJob", Scope::submit, &parts.calls, calls, &JobCalls::cancel_job);
   table.unary("/cellcrush.v1.Jobs/SuspendJob", Scope::submit, &parts.calls, calls, &JobCalls::suspend_job);
   table.unary("/cellcrush.v1.Jobs/ResumeJob", Scope::submit, &parts.calls, calls, &JobCalls::resume_job);

@@ -1,5 +1,6 @@
 #include "rpc/request_fields.h"
 
+#include <absl/strings/ascii.h>
 #include <absl/strings/str_replace.h>
 #include <fmt/format.h>
 
@@ -24,6 +25,7 @@ constexpr std::size_t kLongestId = 128;
 constexpr std::size_t kMostLabels = 64;
 constexpr std::size_t kLongestKey = 63;
 constexpr std::size_t kLongestValue = 255;
+constexpr std::size_t kLongestNote = 2000;
 constexpr int kHighestPriority = 100;
 
 constexpr int kDefaultPage = 50;
@@ -81,6 +83,24 @@ void check_request(const std::string& request_id, const google::protobuf::Map<st
     if (value.size() > kLongestValue)
       throw InvalidField(field, "have a value that is too long for \"" + key + "\".", "Use at most 255 characters.");
   }
+}
+
+void check_note(const std::string& field, const std::string& note) {
+  check_length(field, note, kLongestNote);
+  const auto found = std::ranges::find_if(
+      note, [](char character) { return character != '\n' && (absl::ascii_iscntrl(character) != 0); });
+  if (found == note.end()) return;
+  throw InvalidField(field, fmt::format("has the control character 0x{:02x}.", *found),
+                     "Use printable characters and line feeds.");
+}
+
+void check_update(const google::protobuf::FieldMask& mask, const std::string& resource, const std::string& note) {
+  const std::string remedy = "Use \"note\", the only field that can be written.";
+  if (mask.paths().empty()) throw InvalidField("update_mask", "is empty.", remedy);
+  for (const std::string& path : mask.paths()) {
+    if (path != "note") throw InvalidField("update_mask", "has the path \"" + path + "\".", remedy);
+  }
+  check_note(resource + ".note", note);
 }
 
 void check_priority(int priority, const std::string& field) {

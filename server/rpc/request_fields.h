@@ -1,5 +1,6 @@
 #pragma once
 
+#include <google/protobuf/field_mask.pb.h>
 #include <google/protobuf/map.h>
 
 #include <cstddef>
@@ -46,6 +47,12 @@ void check_epoch(const store::Epoch& epoch, const std::string& given);
 /// 63 characters, values of at most 255). Throws InvalidField; `prefix` precedes "labels".
 void check_request(const std::string& request_id, const google::protobuf::Map<std::string, std::string>& labels,
                    const std::string& prefix = "");
+
+/// Checks a note: at most 2000 bytes, no control characters but line feeds. Throws InvalidField.
+void check_note(const std::string& field, const std::string& note);
+
+/// Checks the common fields of UpdateJob and UpdateSweep, for `note` in `resource`. Throws InvalidField.
+void check_update(const google::protobuf::FieldMask& mask, const std::string& resource, const std::string& note);
 
 /// Throws InvalidField unless the priority is -100 to 100.
 void check_priority(int priority, const std::string& field);

@@ -70,6 +70,7 @@ class SweepCalls {
     parts_.admission.check_priority(request.sweep().priority(), "sweep.priority");
     parts_.admission.check_time_limit(request.sweep().time_limit_s(), "sweep.time_limit_s");
     check_length("sweep.executor", request.sweep().executor(), kLongestName);
+    check_note("sweep.note", request.sweep().note());
     const std::string executor = parts_.queues.executor_for(request.sweep().executor(), "sweep.executor");
     const std::string owner = call.caller().name;
     const std::string hash = payload_hash(request, owner);
@@ -129,6 +130,14 @@ class SweepCalls {
     }
     if (has_more) out.set_next_page_token(page_token(last, "sweeps"));
     return out;
+  }
+
+  v1::Sweep update_sweep(const Call& call, const v1::UpdateSweepRequest& request) {
+    const std::int64_t sweep = find_own(call, request.sweep().name());
+    check_update(request.update_mask(), "sweep", request.sweep().note());
+    if (parts_.journal.set_sweep_note(sweep, request.sweep().note(), request.previous_note()))
+      log_change(store::sweep_name_of(sweep), "annotated", call.caller().name);
+    return find(request.sweep().name()).sweep;
   }
 
   v1::Sweep cancel_sweep(const Call& call, const v1::CancelSweepRequest& request) {
@@ -260,6 +269,7 @@ void add_sweeps_methods(MethodTable& table, const ServiceParts& parts) {
   table.unary("/cellcrush.v1.Sweeps/CreateSweep", Scope::submit, &parts.checks, calls, &SweepCalls::create_sweep);
   table.unary("/cellcrush.v1.Sweeps/GetSweep", Scope::read, &parts.calls, calls, &SweepCalls::get_sweep);
   table.unary("/cellcrush.v1.Sweeps/ListSweeps", Scope::read, &parts.calls, calls, &SweepCalls::list_sweeps);
+  table.unary("/cellcrush.v1.Sweeps/UpdateSweep", Scope::submit, &parts.calls, calls, &SweepCalls::update_sweep);
   table.unary("/cellcrush.v1.Sweeps/CancelSweep", Scope::submit, &parts.calls, calls, &SweepCalls::cancel_sweep);
   table.unary("/cellcrush.v1.Sweeps/DeleteSweep", Scope::submit, &parts.calls, calls, &SweepCalls::delete_sweep);
   table.unary("/cellcrush.v1.Sweeps/RetryFailedJobs", Scope::submit, &parts.calls, calls,

@@ -125,6 +125,12 @@ class Journal {
   /// Sets the PENDING ones among the jobs to CANCELLED in one transaction. Returns them.
   std::vector<std::int64_t> cancel_waiting(const std::vector<std::int64_t>& jobs);
 
+  /// Write the note of a job or a sweep in place of the one that the caller has read, and return whether it is another
+  /// one. An ended job's note becomes part of its last event, that of any other job an event of its own. Throw
+  /// ServiceError: not_found, aborted if the note is neither of the two, or data_loss for an unreadable row.
+  bool set_note(std::int64_t job, const std::string& note, const std::string& previous);
+  bool set_sweep_note(std::int64_t sweep, const std::string& note, const std::string& previous);
+
   /// Deletes an ended job with its events and its place in a sweep, and records that its folder must be deleted. Throws
   /// not_found, or failed_precondition if it has not ended.
   void delete_job(std::int64_t job);

@@ -23,6 +23,11 @@ std::shared_ptr<RecentEvents::Window> RecentEvents::window_of(std::int64_t job) 
   return out;
 }
 
+void RecentEvents::forget(std::int64_t job) {
+  const MutexLock lock(mutex_);
+  windows_.erase(job);
+}
+
 std::vector<RecentEvents::Event> RecentEvents::read(store::JournalReader& journal, std::int64_t job,
                                                     std::int64_t after) {
   ++reads_;

@@ -40,6 +40,9 @@ class RecentEvents {
   /// there is no such job, and the errors of JournalReader::events.
   std::vector<Event> after(store::JournalReader& journal, std::int64_t job, std::int64_t after, std::uint64_t stamp);
 
+  /// Drops the events of a job, whose last one has changed.
+  void forget(std::int64_t job);
+
   /// How often the journal was read.
   [[nodiscard]] std::int64_t reads() const { return reads_; }
 

@@ -49,6 +49,26 @@ TEST_F(SecondDay, AVelocitySweepEndsInATableWithTheoryBesideIt) {
   EXPECT_TRUE(json::parse(cellcrush({"list", "--json"}).output)["jobs"].empty()) << "its jobs go with it";
 }
 
+TEST_F(SecondDay, ANoteIsWrittenShownReplacedAndRemoved) {
+  const Outcome submitted = cellcrush({"submit", small(), "--note", "as drawn"});
+  const std::string job = first_word(submitted);
+  EXPECT_THAT(cellcrush({"list"}).output, HasSubstr("as drawn")) << submitted.all();
+  const Outcome replaced = cellcrush({"note", job, "walls 0.3 mm\nnot 0.4"});
+  EXPECT_EQ(replaced.output, job + ": walls 0.3 mm\nnot 0.4\nReplaced: as drawn\n") << replaced.all();
+  EXPECT_THAT(cellcrush({"show", job}).output, ::testing::ContainsRegex("note +walls 0.3 mm\n +not 0.4\n"));
+  EXPECT_EQ(json::parse(cellcrush({"note", job, "", "--json"}).output)["note"], "");
+  const std::string sweep =
+      first_word(cellcrush({"sweep", small(), "--over", "loading.speed_m_per_s=100", "--note", "second series"}));
+  EXPECT_THAT(cellcrush({"note", sweep, ""}).output, HasSubstr(sweep + " has no note\nReplaced: second series"));
+  EXPECT_EQ(cellcrush({"note", sweep, "of all"}).output, sweep + ": of all\n");
+  EXPECT_THAT(cellcrush({"list", "--sweeps"}).output, HasSubstr("of all"));
+  EXPECT_THAT(cellcrush({"show", sweep}).output, ::testing::ContainsRegex("note +of all"));
+  const Outcome refused = cellcrush({"note", job, "\a"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("job.note: has the control character 0x07."));
+  EXPECT_EQ(cellcrush({"note", "jobs/99", "none"}).exit_code, 5);
+}
+
 TEST_F(SecondDay, ACancelledJobKeepsWhatItComputedAndCanThenBeDeleted) {
   const Outcome submitted = cellcrush({"submit", "preset:type-i"});
   ASSERT_EQ(submitted.exit_code, 0) << submitted.all();

@@ -51,6 +51,8 @@ TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
   EXPECT_EQ(client.get("jobs/1").executor(), "local");
   EXPECT_EQ(client.history("jobs/1").size(), 21U);
   EXPECT_EQ(client.get("jobs/2").state(), v1::Job::CANCELLED);
+  EXPECT_TRUE(client.annotate("jobs/2", "of before").ok());
+  EXPECT_EQ(client.get("jobs/2").note(), "of before");
   for (const char* ended : {"jobs/1", "jobs/2"}) {
     grpc::Status status;
     EXPECT_GT(client.download(ended, 0, status).size(), 1000U);

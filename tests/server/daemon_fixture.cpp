@@ -92,6 +92,20 @@ grpc::Status Client::remove(const std::string& job) {
   return try_call(*jobs, &v1::Jobs::Stub::DeleteJob, named<v1::DeleteJobRequest>(job));
 }
 
+grpc::Status Client::annotate(const std::string& name, const std::string& note, const std::string& previous) const {
+  const auto request_for = [&]<class Request, class Resource>(Resource* (Request::*resource)()) {
+    Request out;
+    (out.*resource)()->set_name(name);
+    (out.*resource)()->set_note(note);
+    out.mutable_update_mask()->add_paths("note");
+    out.set_previous_note(previous);
+    return out;
+  };
+  return name.starts_with("sweeps/")
+             ? try_call(*sweeps, &v1::Sweeps::Stub::UpdateSweep, request_for(&v1::UpdateSweepRequest::mutable_sweep))
+             : try_call(*jobs, &v1::Jobs::Stub::UpdateJob, request_for(&v1::UpdateJobRequest::mutable_job));
+}
+
 std::vector<v1::Sample> Client::history(const std::string& job) {
   grpc::Status status;
   auto out = history(job, status);

@@ -81,6 +81,8 @@ class Client {
   grpc::Status suspend(const std::string& job);
   grpc::Status resume(const std::string& job);
   grpc::Status remove(const std::string& job);
+  /// Writes the note of a job or a sweep in place of the previous one.
+  grpc::Status annotate(const std::string& name, const std::string& note, const std::string& previous = "") const;
   /// All pages of it; fails the test when one is refused.
   std::vector<v1::Sample> history(const std::string& job);
   /// All pages up to one that is refused, and how the last call ended.

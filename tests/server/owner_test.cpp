@@ -38,13 +38,14 @@ class OwnerTest : public GateFixture {
   }
 
   static Codes change(Client& client, const std::string& job) {
-    return {client.cancel(job).error_code(), client.suspend(job).error_code(), client.resume(job).error_code(),
-            client.remove(job).error_code()};
+    return {client.annotate(job, "mine").error_code(), client.cancel(job).error_code(),
+            client.suspend(job).error_code(), client.resume(job).error_code(), client.remove(job).error_code()};
   }
 
   static Codes change_sweep(Client& client, const std::string& name) {
     using Stub = v1::Sweeps::Stub;
-    return {try_call(*client.sweeps, &Stub::CancelSweep, named<v1::CancelSweepRequest>(name)).error_code(),
+    return {client.annotate(name, "mine").error_code(),
+            try_call(*client.sweeps, &Stub::CancelSweep, named<v1::CancelSweepRequest>(name)).error_code(),
             try_call(*client.sweeps, &Stub::RetryFailedJobs, named<v1::RetryFailedJobsRequest>(name)).error_code(),
             try_call(*client.sweeps, &Stub::DeleteSweep, named<v1::DeleteSweepRequest>(name)).error_code()};
   }
@@ -72,8 +73,8 @@ TEST_F(OwnerTest, AnOwnerIsKeptAndAloneChangesWhatIsHis) {
   start(with_tokens(tcp_options()));
   EXPECT_EQ(client().get(job).owner(), "anna");
   auto bob = client_of("bob");
-  EXPECT_EQ(change(bob, job), (Codes{kDenied, kDenied, kDenied, kDenied}));
-  EXPECT_EQ(change_sweep(bob, sweep), (Codes{kDenied, kDenied, kDenied}));
+  EXPECT_EQ(change(bob, job), Codes(5, kDenied));
+  EXPECT_EQ(change_sweep(bob, sweep), Codes(4, kDenied));
   EXPECT_NE(bob.create(once()).name(), job) << "A request_id is its owner's own.";
   EXPECT_EQ(count(bob, "owner = anna"), 2U);
   EXPECT_EQ(count(bob, "owner = anna AND title : other"), 0U);

@@ -118,6 +118,22 @@ TEST_F(WatchJobsTest, OneStreamSaysWhatHappensToAllJobsAndSweeps) {
   EXPECT_THAT(changes_in(third), Contains(before + " deleted"));
 }
 
+TEST_F(WatchJobsTest, NotesAreChangesAlsoOfJobsThatHaveEnded) {
+  auto client = this->client();
+  const auto made = create(client, sweep_of(tiny_case(), kSpeed, {50.0}));
+  const std::string ended = made.jobs(0);
+  EXPECT_TRUE(client.wait_for_state(ended, v1::Job::SUCCEEDED));
+  const std::string running = client.create(endless_case(), v1::Job::RUNNING);
+  JobsWatch watch(client, {});
+  for (const std::string& name : {ended, running, made.name()}) EXPECT_TRUE(client.annotate(name, "so far good").ok());
+  const auto noted = watch.read_until([](const auto& message) { return message.has_sweep(); });
+  EXPECT_EQ(changes_in(noted), (std::vector<std::string>{ended + " SUCCEEDED", running + " RUNNING", made.name()}));
+  for (const auto& message : noted) {
+    if (message.has_progress()) continue;
+    EXPECT_EQ(message.job().note() + message.sweep().note(), "so far good");
+  }
+}
+
 TEST_F(WatchJobsTest, AResumedWatchGetsEveryChangeOnce) {
   auto client = this->client();
   std::vector<std::string> seen;

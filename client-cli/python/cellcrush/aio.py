@@ -53,6 +53,10 @@ class Sweep:
         return self.sync.fields
 
     @property
+    def note(self) -> str:
+        return self.sync.note
+
+    @property
     def states(self) -> Dict[str, int]:
         return self.sync.states
 
@@ -88,6 +92,10 @@ class Sweep:
         from cellcrush.sweep_plots import plot_points, read_points
 
         return plot_points(*await asyncio.to_thread(read_points, self.sync), ax, **style)
+
+    async def set_note(self, note: str) -> "Sweep":
+        await asyncio.to_thread(self.sync.set_note, note)
+        return self
 
     async def cancel(self) -> "Sweep":
         await asyncio.to_thread(self.sync.cancel)

@@ -110,6 +110,10 @@ class Job:
         return self.sync.labels
 
     @property
+    def note(self) -> str:
+        return self.sync.note
+
+    @property
     def notes(self) -> List[str]:
         return self.sync.notes
 
@@ -167,6 +171,10 @@ class Job:
 
     async def resume(self) -> "Job":
         await asyncio.to_thread(self.sync.resume)
+        return self
+
+    async def set_note(self, note: str) -> "Job":
+        await asyncio.to_thread(self.sync.set_note, note)
         return self
 
     async def delete(self) -> None:

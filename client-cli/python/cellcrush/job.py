@@ -111,6 +111,11 @@ class Job(Results):
         return dict(self._message.labels)
 
     @property
+    def note(self) -> str:
+        """Its note; `set_note` changes it."""
+        return str(self._message.note)
+
+    @property
     def notes(self) -> List[str]:
         """Implausible values in the case, as found when it was submitted."""
         return [f"{note.field} {note.message} {note.remedy}" for note in self._message.notes]
@@ -201,6 +206,13 @@ class Job(Results):
 
     def resume(self) -> "Job":
         return self._command("ResumeJob")
+
+    def set_note(self, note: str) -> "Job":
+        """Writes its note; "" removes it. Raises CrushError if somebody has changed it since `refresh`."""
+        request = jobs_service_pb2.UpdateJobRequest(job=job_pb2.Job(name=self.name, note=note),
+                                                    previous_note=self.note, update_mask={"paths": ["note"]})
+        self._take(self._connection.call(self._connection.jobs.UpdateJob, request))
+        return self
 
     def delete(self) -> None:
         """Deletes a job that has ended, with its results."""

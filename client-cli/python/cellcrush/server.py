@@ -77,20 +77,20 @@ class Server:
         return Check(self._connection.call(self._connection.cases.CheckCase, request))
 
     def submit(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *,
-               labels: Optional[Mapping[str, str]] = None, priority: int = 0, time_limit_s: float = 0.0,
-               executor: str = "", request_id: str = "", **more: Any) -> Job:
+               labels: Optional[Mapping[str, str]] = None, note: str = "", priority: int = 0,
+               time_limit_s: float = 0.0, executor: str = "", request_id: str = "", **more: Any) -> Job:
         """Queues a job. Raises CaseError with all problems if the case is not valid.
 
         A call with the `request_id` of an earlier one returns the job of that one."""
         request = jobs_service_pb2.CreateJobRequest(case=self.case(case, fields, **more),
                                                     request_id=request_id or str(uuid.uuid4()))
-        _set_options(request, labels, priority=priority, time_limit_s=time_limit_s, executor=executor)
+        _set_options(request, labels, note=note, priority=priority, time_limit_s=time_limit_s, executor=executor)
         return Job(self._connection, self._connection.call(self._connection.jobs.CreateJob, request))
 
     def sweep(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, *, seeds: int = 0,
-              labels: Optional[Mapping[str, str]] = None, priority: int = 0, time_limit_s: float = 0.0,
-              max_parallel: int = 0, max_failures: int = 0, executor: str = "", request_id: str = "",
-              **more: Any) -> Sweep:
+              labels: Optional[Mapping[str, str]] = None, note: str = "", priority: int = 0,
+              time_limit_s: float = 0.0, max_parallel: int = 0, max_failures: int = 0, executor: str = "",
+              request_id: str = "", **more: Any) -> Sweep:
         """Queues a job for every combination of the fields with several values; `seeds=5` repeats each with the seeds
         1 to 5 of the random imperfection."""
         base = self.case(case)
@@ -107,8 +107,8 @@ class Server:
             self._warn_of_equal_seeds(base, [axis.field for axis in axes])
         request = sweeps_service_pb2.CreateSweepRequest(request_id=request_id or str(uuid.uuid4()))
         request.sweep.MergeFrom(sweep_pb2.Sweep(case=base, axes=axes))
-        _set_options(request.sweep, labels, priority=priority, time_limit_s=time_limit_s, max_parallel=max_parallel,
-                     max_failures=max_failures, executor=executor)
+        _set_options(request.sweep, labels, note=note, priority=priority, time_limit_s=time_limit_s,
+                     max_parallel=max_parallel, max_failures=max_failures, executor=executor)
         return Sweep(self._connection, self._connection.call(self._connection.sweeps.CreateSweep, request))
 
     @staticmethod

@@ -82,6 +82,11 @@ class Sweep:
         return sorted(self._message.points[0].fields)
 
     @property
+    def note(self) -> str:
+        """Its note; `set_note` changes it."""
+        return str(self._message.note)
+
+    @property
     def states(self) -> Dict[str, int]:
         """How many jobs are in each state."""
         return dict(self._message.state_counts)
@@ -170,6 +175,13 @@ class Sweep:
         `wait` waits for the new ones."""
         self._message = self._connection.call(self._connection.sweeps.RetryFailedJobs,
                                               sweeps_service_pb2.RetryFailedJobsRequest(name=self.name))
+        return self
+
+    def set_note(self, note: str) -> "Sweep":
+        """Writes its note; "" removes it. Raises CrushError if somebody has changed it since `refresh`."""
+        request = sweeps_service_pb2.UpdateSweepRequest(sweep=sweep_pb2.Sweep(name=self.name, note=note),
+                                                        previous_note=self.note, update_mask={"paths": ["note"]})
+        self._message = self._connection.call(self._connection.sweeps.UpdateSweep, request)
         return self
 
     def delete(self) -> None:

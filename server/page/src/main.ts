@@ -4,6 +4,7 @@ import "./style/theme.css";
 import "./style/layout.css";
 import "./style/jobs.css";
 import "./style/job.css";
+import "./style/note.css";
 import "./style/sweep.css";
 import "./style/new_case.css";
 import "./style/server.css";

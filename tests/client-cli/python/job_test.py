@@ -43,6 +43,14 @@ class Jobs(WithServer):
         self.assertEqual(repr(frames), f"<{len(frames)} frames, strain 0 to 0.5>")
         self.assertEqual([s.strain for s in job.watch()], list(samples["strain"]))
 
+    def test_a_note_replaces_only_the_one_that_is_known(self):
+        job = self.server.submit(PRESET, SMALL, note="thin").wait()
+        other = self.server.get(job.name)
+        self.assertEqual(job.set_note("thin walls").note, "thin walls")
+        with self.assertRaisesRegex(cc.CrushError, "thin walls"):
+            other.set_note("thick")
+        self.assertEqual(other.refresh().set_note("").refresh().note, "")
+
     def test_a_watched_node_has_columns(self):
         frame = {"lattice.frame": {
             "nodes": [{"id": "a", "x_mm": 0, "y_mm": 0}, {"id": "b", "x_mm": 10, "y_mm": 0}],

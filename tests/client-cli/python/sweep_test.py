@@ -1,4 +1,5 @@
 """Sweeps, their tables and means, and what is written for other programs and for print."""
+import asyncio
 import contextlib
 import os
 import pathlib
@@ -10,6 +11,7 @@ import warnings
 import zlib
 
 import cellcrush as cc
+import cellcrush.aio
 import h5py
 import meshio
 import numpy as np
@@ -34,6 +36,10 @@ class Sweeps(WithServer):
         self.assertEqual(list(table["warnings"]), [len(job.summary.warnings) for job in self.sweep])
         self.assertEqual(len(self.sweep), 9)
         self.assertEqual(table.attrs["units"]["absorbed_energy_mj"], "mJ")
+
+    def test_it_has_a_note_of_its_own(self):
+        asyncio.run(cellcrush.aio.Sweep(self.sweep).set_note("series 2"))
+        self.assertEqual((self.sweep.refresh().note, self.sweep.jobs[0].note), ("series 2", ""))
 
     def test_means_have_confidence_intervals(self):
         plateau = self.sweep.table()["plateau_stress_impact_mpa"].to_numpy().reshape(3, 3)

@@ -143,16 +143,50 @@ test('a case keeps its loads in the form, and problems stand at what they are ab
   assert.deepEqual(sent.loading, { ...submitted.loading, endAtRest: 0.25 });
 });
 
-test('a note from the form stands beside the title, and is no other label', async () => {
+test('a note from the form is edited by keyboard, and no other caller is overwritten unread', async () => {
   await page.goto(daemon.url + '/new');
   await page.getByText('Note, labels and priority').click();
   await page.getByLabel('Note').fill('after the repair');
   await page.getByRole('button', { name: 'Start the job' }).click();
   await page.waitForURL((url) => /jobs/.test(url.pathname));
+  const name = new URL(page.url()).pathname.slice(1);
+  const note = async () => (await daemon.call('Jobs/GetJob', { name })).note;
   await page.locator('.job-note', { hasText: 'after the repair' }).waitFor();
-  assert.equal(await page.getByText('labels note').count(), 0);
+  await page.getByText('succeeded').first().waitFor();
+  await page.getByRole('button', { name: 'Edit the note' }).press('Enter');
+  await page.getByLabel('Note').fill('x'.repeat(2001));
+  assert.deepEqual(await seriousFindings(page), []);
+  await page.keyboard.press('Control+Enter');
+  await page.getByText('job.note has 2001 bytes. Use at most 2000.').waitFor();
+  await page.getByLabel('Note').fill('buckled left');
+  const update = { job: { name, note: 'from elsewhere' }, updateMask: 'note', previousNote: 'after the repair' };
+  await daemon.call('Jobs/UpdateJob', update);
+  await page.getByText('Meanwhile it has become “from elsewhere”. Save replaces that.').waitFor();
+  assert.equal(await page.getByLabel('Note').inputValue(), 'buckled left');
+  await page.getByLabel('Note').press('End');
+  await page.keyboard.type(' first');
+  await page.getByRole('button', { name: 'Save', exact: true }).press('Enter');
+  await page.locator('.job-note', { hasText: 'buckled left first' }).waitFor();
+  assert.equal(await note(), 'buckled left first');
+  await page.getByRole('button', { name: 'Edit the note' }).press('Enter');
+  await page.getByLabel('Note').fill('discarded');
+  await page.keyboard.press('Escape');
+  assert.equal(await note(), 'buckled left first');
   await page.getByRole('link', { name: 'Jobs' }).click();
-  await page.locator('.jobs .job-note', { hasText: 'after the repair' }).waitFor();
+  await page.locator('.jobs .job-note', { hasText: 'buckled left first' }).waitFor();
+});
+
+test('a sweep has a note, which the list shows too', async () => {
+  await page.goto(daemon.url + '/sweeps/1');
+  await page.getByRole('button', { name: 'Add a note' }).click();
+  await page.getByLabel('Note').fill('two seeds');
+  await page.keyboard.press('Control+Enter');
+  await page.locator('.job-note', { hasText: 'two seeds' }).waitFor();
+  await page.getByRole('link', { name: 'Jobs' }).click();
+  await page.locator('.sweep-table .job-note', { hasText: 'two seeds' }).waitFor();
+  await daemon.call('Sweeps/UpdateSweep',
+                    { sweep: { name: 'sweeps/1', note: 'three' }, updateMask: 'note', previousNote: 'two seeds' });
+  await page.locator('.sweep-table .job-note', { hasText: 'three' }).waitFor();
 });
 
 test('the page of the server shows its workers and its queue', async () => {

@@ -35,6 +35,18 @@ TEST_F(HttpGatewayTest, AUnaryCallIsAnsweredInJsonAndInBinary) {
   EXPECT_EQ(got.name(), job);
 }
 
+TEST_F(HttpGatewayTest, ANoteIsWrittenInPlaceOfTheOneThatWasRead) {
+  const std::string job = client().create(endless_case());
+  const auto write = [&](const std::string& note, const std::string& previous) {
+    return call("UpdateJob", "application/json",
+                R"({"job":{"name":")" + job + R"(","note":")" + note + R"("},"updateMask":"note","previousNote":")" +
+                    previous + "\"}");
+  };
+  EXPECT_THAT(write("first", ""), AllOf(StartsWith("HTTP/1.1 200"), HasSubstr("\"note\":\"first\"")));
+  EXPECT_THAT(write("second", ""), AllOf(StartsWith("HTTP/1.1 409"), HasSubstr("aborted"), HasSubstr("first")));
+  EXPECT_THAT(write("second", "first"), HasSubstr("\"note\":\"second\""));
+}
+
 TEST_F(HttpGatewayTest, ErrorsHaveTheirStatusCodeAndDetails) {
   const std::string missing = call("GetJob", "application/json", R"({"name":"jobs/99"})");
   EXPECT_THAT(missing, StartsWith("HTTP/1.1 404"));

@@ -1,12 +1,14 @@
 // The head of a job's page: title, state, progress, cause of a failure, actions.
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
+import { api } from "../api/clients";
 import { isExported } from "../api/exported";
 import { h, replaceChildren, setBanner, setText } from "../dom/element";
 import { clock, count, duration, fullTime, idOf, pathOf, strainText } from "../dom/format";
 import { icon } from "../dom/icons";
 import { actionsOf, attempt } from "../jobs/actions";
-import { causeWords, hasEnded, kNote, noteOf, setChip, stateChip, titleOf, whereOf } from "../jobs/states";
+import { NoteEditor } from "../jobs/note";
+import { causeWords, hasEnded, setChip, stateChip, titleOf, whereOf } from "../jobs/states";
 import type { JobStore } from "../jobs/store";
 import { go } from "../router";
 
@@ -19,7 +21,11 @@ export class JobHeader {
   readonly element: HTMLElement;
   private readonly title = h("h1");
   private readonly chip = stateChip();
-  private readonly note = h("p", { class: "job-note" });
+  private readonly note = new NoteEditor(async (note, previousNote) => {
+    const job = { name: this.name, note };
+    this.store.put(await api.jobs.updateJob({ job, updateMask: { paths: ["note"] }, previousNote }));
+  });
+  private name = "";
   private readonly about = h("p", { class: "faint about" });
   private readonly bar = h("progress", { max: 1, "aria-label": "progress" });
   private readonly progress = h("span", { class: "faint" });
@@ -32,13 +38,15 @@ export class JobHeader {
   constructor(private readonly store: JobStore) {
     this.element = h("header", { class: "job-header" },
       h("div", { class: "title-row" }, this.title, this.chip, h("span", { class: "spacer" }), this.actions),
-      this.note, h("div", { class: "about-row" }, this.about, this.progressRow), this.cause);
+      this.note.element, h("div", { class: "about-row" }, this.about, this.progressRow), this.cause);
   }
 
   /** `entry` is the place of a waiting job in the queue. */
   update(job: Job, entry: Queue_Entry | undefined): void {
     setText(this.title, titleOf(job));
     setChip(this.chip, job.state);
+    this.name = job.name;
+    this.note.update(job.note);
     this.updateAbout(job);
     this.updateProgress(job, entry);
     this.updateCause(job);
@@ -51,9 +59,7 @@ export class JobHeader {
   }
 
   private updateAbout(job: Job): void {
-    setText(this.note, noteOf(job));
-    const labels = Object.entries(job.labels).filter(([key]) => key !== kNote)
-      .map(([key, value]) => `${key}=${value}`).join(", ");
+    const labels = Object.entries(job.labels).map(([key, value]) => `${key}=${value}`).join(", ");
     const where = whereOf(job);
     const key = [job.sweep, labels, job.owner, job.retryOf, job.attempt, job.state, where].join("\n");
     if (key === this.aboutKey) return;

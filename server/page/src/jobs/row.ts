@@ -6,7 +6,7 @@ import { clock, duration, fullTime, idOf, pathOf, quantity, strainText } from ".
 import { iconButton } from "../dom/icons";
 import { kMeasures, textWithUnit } from "../job/measures";
 import { actionsOf, attempt } from "./actions";
-import { elsewhere, hasEnded, noteOf, sceneWords, setChip, stateChip, titleOf, tookText, whereOf } from "./states";
+import { elsewhere, hasEnded, sceneWords, setChip, stateChip, titleOf, tookText, whereOf } from "./states";
 import type { JobStore } from "./store";
 
 function stateNote(job: Job, entry: Queue_Entry | undefined): string {
@@ -84,7 +84,7 @@ export class JobRow {
     this.select.disabled = job.state === Job_State.PENDING;
     setChip(this.chip, job.state);
     setText(this.note, stateNote(job, entry));
-    setText(this.ownNote, noteOf(job));
+    setText(this.ownNote, job.note);
     this.note.title = [job.causeMessage, job.remedy].filter(Boolean).join(" ");
     this.updateProgress(job);
     this.updateTime(job, entry);

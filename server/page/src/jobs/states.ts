@@ -54,10 +54,6 @@ export function titleOf(job: Job): string {
   return job.title || job.case?.title || `Job ${idOf(job.name)}`;
 }
 
-/** The label that says in words what a job is about. */
-export const kNote = "note";
-export const noteOf = (job: Job): string => job.labels[kNote] ?? "";
-
 /** Name of an executor other than the daemon's machine; empty for that machine, and from daemons without executors. */
 export function elsewhere(executor: string): string {
   return executor === "local" ? "" : executor;

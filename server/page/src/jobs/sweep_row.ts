@@ -17,6 +17,7 @@ export class SweepRow {
   readonly element: HTMLTableSectionElement;
   private readonly fold: HTMLButtonElement;
   private readonly title = h("a", { class: "job-title" });
+  private readonly note = h("div", { class: "job-note" });
   private readonly under = h("div", { class: "under faint" });
   private readonly states = h("td", { class: "states" });
   private readonly done = h("td", { class: "done" });
@@ -31,13 +32,14 @@ export class SweepRow {
     this.fold = h("button", { type: "button", class: "icon-button fold", "aria-expanded": "false",
                               click: () => this.toggle(this.data === undefined) }, icon("next"));
     this.element = h("tbody", {}, h("tr", {},
-      h("td", { class: "what" }, h("div", { class: "foldable" }, this.fold, h("div", {}, this.title, this.under))),
+      h("td", { class: "what" }, h("div", { class: "foldable" }, this.fold, h("div", {}, this.title, this.note, this.under))),
       this.states, this.done, this.owner, this.created), this.insideRow);
     if (unfolded.has(name)) this.toggle(true);
   }
 
   update(sweep: Sweep, running: Job[], isShown: Set<string>): void {
     setText(this.title, titleOfSweep(sweep));
+    setText(this.note, sweep.note);
     this.fold.setAttribute("aria-label", `Jobs of sweep ${idOf(this.name)}`);
     setText(this.under, `sweep ${idOf(this.name)} over ${variedFields(sweep).join(", ") || "points"}`);
     const words = kStates.filter((state) => sweep.stateCounts[Job_State[state]])

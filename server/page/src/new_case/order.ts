@@ -1,6 +1,5 @@
 // Note, labels and priority of a new job or sweep.
 import { h, labelled } from "../dom/element";
-import { kNote } from "../jobs/states";
 import { showHint } from "./field_input";
 
 /** The labels that a text such as "series=a, batch=2" gives, or what is wrong with the text. */
@@ -16,11 +15,11 @@ export function labelsOf(text: string): Record<string, string> | string {
   return labels;
 }
 
-export interface Order { labels: Record<string, string>; priority: number }
+export interface Order { note: string; labels: Record<string, string>; priority: number }
 
 export class OrderInput {
   readonly element: HTMLElement;
-  private readonly note = h("input", { type: "text", autocomplete: "off", maxlength: 120 });
+  private readonly note = h("input", { type: "text", autocomplete: "off" });
   private readonly labels = h("input", { type: "text", autocomplete: "off", spellcheck: "false",
                                          placeholder: "series=a, batch=2" });
   private readonly priority = h("input", { type: "number", min: -100, max: 100, step: 1, value: 0 });
@@ -31,7 +30,7 @@ export class OrderInput {
     for (const input of [this.note, this.labels, this.priority]) input.addEventListener("input", changed);
     this.element = h("details", { class: "order" }, h("summary", {}, "Note, labels and priority"),
       h("div", { class: "fields" }, labelled("Note", this.note, h("div", { class: "limits" },
-        "shown beside the title; stored as the label “note”")), labelled("Labels", this.labels, this.labelsHint),
+        "shown below the title; can be changed later")), labelled("Labels", this.labels, this.labelsHint),
         labelled("Priority", this.priority, this.priorityHint)));
     this.read();
   }
@@ -39,14 +38,12 @@ export class OrderInput {
   /** Undefined while a text cannot be read. */
   read(): Order | undefined {
     const labels = labelsOf(this.labels.value);
-    const note = this.note.value.trim();
-    if (note && typeof labels !== "string") labels[kNote] ??= note;
     const areLabels = typeof labels !== "string";
     showHint(this.labelsHint, areLabels ? "key=value, to filter the job list" : labels, areLabels);
     const priority = Number(this.priority.value);
     const isPriority = Number.isInteger(priority) && Math.abs(priority) <= 100;
     showHint(this.priorityHint, isPriority ? "-100 to 100; higher starts first." : "A whole number, -100 to 100.",
              isPriority);
-    return areLabels && isPriority ? { labels, priority } : undefined;
+    return areLabels && isPriority ? { note: this.note.value.trim(), labels, priority } : undefined;
   }
 }

@@ -9,7 +9,7 @@ const kParts: [string, [string, string][]][] = [
     ["Columns", "The menu above a table chooses them. The browser remembers the choice."],
     ["Filter", "Part of a title; or state = FAILED, owner = \"NAME\", label.KEY = \"VALUE\", joined by AND."],
     ["Compare", "Select two to six jobs. The table lists what differs in cases and results."],
-    ["Note", "A sentence beside the job’s title. Enter it under “Note, labels and priority” of a new case."],
+    ["Note", "Your words below the title of a job or a sweep. “Add a note” opens the editor; Ctrl-Enter saves."],
   ]],
   ["Charts", [
     ["Zoom", "Drag a box, turn the wheel, or press + and -."],

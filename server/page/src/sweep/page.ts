@@ -10,6 +10,7 @@ import { clock, idOf, plural } from "../dom/format";
 import { icon, type IconName } from "../dom/icons";
 import { kMeasures } from "../job/measures";
 import { attempt } from "../jobs/actions";
+import { NoteEditor } from "../jobs/note";
 import { hasEnded, kStates, stateBar, stateWord, titleOfSweep, variedFields } from "../jobs/states";
 import { placeIn } from "../picture/player";
 import { go, keepInUrl, setTitle, type View } from "../router";
@@ -28,6 +29,10 @@ export class SweepPage implements View {
   readonly element = h("div", { class: "page sweep-page" });
   private readonly heading = h("h1");
   private readonly about = h("p", { class: "faint about" });
+  private readonly note = new NoteEditor(async (note, previousNote) => {
+    await api.sweeps.updateSweep({ sweep: { name: this.name, note }, updateMask: { paths: ["note"] }, previousNote });
+    await this.data.load();
+  });
   private readonly states = h("div", { class: "sweep-states" });
   private readonly actions = h("div", { class: "buttons" });
   private readonly problem = h("div", { class: "banner error", hidden: true });
@@ -53,8 +58,8 @@ export class SweepPage implements View {
                         saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`));
     replaceChildren(this.element,
       h("header", { class: "job-header" },
-        h("div", { class: "title-row" }, this.heading, h("span", { class: "spacer" }), this.actions), this.about,
-        this.states),
+        h("div", { class: "title-row" }, this.heading, h("span", { class: "spacer" }), this.actions),
+        this.note.element, this.about, this.states),
       this.problem, h("section", { class: "card" }, this.chart.element, this.overlay.element),
       this.map.element, this.crushes.element,
       h("div", { class: "toolbar table-head" }, h("h2", {}, "Jobs"), h("span", { class: "spacer" }), this.table.menu,
@@ -87,6 +92,7 @@ export class SweepPage implements View {
     this.title = titleOfSweep(sweep);
     setText(this.heading, this.title);
     setTitle(this.title);
+    this.note.update(sweep.note);
     setText(this.about, [`Sweep ${idOf(sweep.name)} over ${variedFields(sweep).join(", ")}`,
       plural(sweep.jobs.length, "job"), sweep.words?.lattice ?? "",
       `created ${clock(sweep.createTime)}${sweep.owner ? ` by ${sweep.owner}` : ""}`].filter(Boolean).join(", "));
