@@ -1,7 +1,7 @@
 // The list: sweeps with their jobs folded in, columns to sort by and to choose.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { seriousFindings, stage } from './browser.mjs';
+import { axeFindings, stage } from './browser.mjs';
 
 let page;
 let errors;
@@ -48,7 +48,7 @@ test('chosen columns stay chosen', async () => {
   await page.reload();
   await page.getByRole('button', { name: 'Jobs of sweep 1' }).click();
   await head.waitFor();
-  assert.deepEqual(await seriousFindings(page), []);
+  assert.deepEqual(await axeFindings(page), []);
 });
 
 test('no script has failed', () => assert.deepEqual(errors, []));

@@ -63,7 +63,7 @@ export class SweepMap {
     const drawing = contours(cells.map((row) => row.map(({ mean }) => mean)), levels);
     const title = titleOfMeasure(measure, unit);
     replaceChildren(this.map,
-      h("div", { class: "picture-head" }, h("h3", {}, title), h("span", { class: "spacer" }),
+      h("div", { class: "picture-head" }, h("h2", {}, title), h("span", { class: "spacer" }),
         levels.length > 1 && h("span", { class: "faint" },
           `contours every ${given(levels[1] - levels[0])} ${unit.name}`),
         known.length > 0 && legend(low, high)),
