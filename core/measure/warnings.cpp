@@ -1,6 +1,8 @@
 #include "measure/warnings.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "contact/thickening.h"
@@ -12,6 +14,13 @@ namespace {
 
 constexpr const char* kCompareShorterStep =
     "Use a shorter numerics.time_step_s, or 0 for an automatic step, and check whether the stresses change.";
+
+/// A time or a coordinate in six digits.
+std::string in_six_digits(double value) {
+  std::array<char, 32> buffer{};
+  char* const begin = buffer.data();
+  return {begin, std::to_chars(begin, begin + buffer.size(), value, std::chars_format::general, 6).ptr};
+}
 
 /// Overlap of the touching pair `t`, over the thickness of the thinner wall.
 double depth_of(const Scene& scene, const State& state, const TouchMemory& touching, std::size_t t) {
@@ -176,12 +185,12 @@ std::string words_of(const DensestLayer& layer) {
 }
 
 std::string moment_of(std::int64_t step, double time) {
-  return "step " + std::to_string(step) + ", t = " + to_text(time) + " s";
+  return "step " + std::to_string(step) + ", t = " + in_six_digits(time) + " s";
 }
 
 std::string place_of(const Scene& scene, std::size_t particle) {
-  return "particle " + std::to_string(particle) + ", at (" + to_text(scene.position[particle].x()) + ", " +
-         to_text(scene.position[particle].y()) + ") mm before loading";
+  return "particle " + std::to_string(particle) + ", at (" + in_six_digits(scene.position[particle].x()) +
+         ", " + in_six_digits(scene.position[particle].y()) + ") mm before loading";
 }
 
 std::string percent_of(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }

@@ -86,7 +86,8 @@ route(/^\/server$/, () => new ServerPage());
 route(/^\/help$/, () => new HelpPage());
 route(/^/, () => ({
   title: "Not found", destroy: () => undefined,
-  element: h("div", { class: "page" }, h("h1", {}, "There is no such page"), h("a", { href: "/" }, "All jobs")),
+  element: h("div", { class: "page" }, h("h1", {}, "There is no such page"),
+    h("p", { class: "empty" }, h("a", { href: "/" }, "All jobs"))),
 }));
 
 startTheme();

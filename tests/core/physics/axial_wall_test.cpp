@@ -84,8 +84,10 @@ TEST(PulledWall, StretchedByMoreThanItsThicknessIsReportedWithItsPlace) {
   const std::vector<Warning> warnings = warnings_of(1.2, 0.0);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings.front().kind, Warning::Kind::walls_neck);
-  EXPECT_NE(warnings.front().message.find("starts at particle 0, at (0, 0) mm"), std::string::npos)
-      << warnings.front().message;
+  const std::string& message = warnings.front().message;
+  EXPECT_NE(message.find("starts at particle 0, at (0, 0) mm"), std::string::npos) << message;
+  const std::size_t time = message.find("t = ") + 4;
+  EXPECT_LE(message.find(" s", time) - time, 11U) << "in six digits: " << message;
 }
 
 // With H = 2 sigma_y the force of a wall grows up to a strain of 1/2 (Considere).

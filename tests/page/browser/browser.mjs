@@ -41,11 +41,11 @@ export function stage(prepare, flags = []) {
   return daemon;
 }
 
-export async function seriousFindings(page) {
+// What stands in the way of people who cannot see or point, as axe finds it.
+export async function axeFindings(page) {
   await page.evaluate(axe);
-  const found = await page.evaluate(() => globalThis.axe.run());
-  const serious = found.violations.filter((each) => each.impact === 'serious' || each.impact === 'critical');
-  return serious.map((each) => `${each.id}: ${each.nodes.map((node) => node.html).join(' ')}`);
+  const { violations } = await page.evaluate(() => globalThis.axe.run());
+  return violations.map((each) => `${each.id}: ${each.nodes.map((node) => node.html).join(' ')}`);
 }
 
 // How far two pictures of one size are apart, and the first one from the colour of its corner: means over the pixels

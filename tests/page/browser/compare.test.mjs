@@ -1,7 +1,7 @@
 // The comparison tells in which of all fields the cases of jobs differ, and in which results.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { seriousFindings, stage } from './browser.mjs';
+import { axeFindings, stage } from './browser.mjs';
 
 let page;
 let errors;
@@ -35,13 +35,15 @@ test('only the fields that differ are listed, or all', async () => {
   await compare([1, 2]);
   // The step is chosen by the speed.
   assert.deepEqual(await rowsOf('Case'), ['plates.friction', 'loading.speed_m_per_s', 'numerics.time_step_s']);
+  const steps = await page.locator('tr', { hasText: 'time_step_s' }).locator('td').allTextContents();
+  for (const step of steps) assert.match(step, /^[\d.]{1,7}e-\d+$/, 'in six digits');
   const differing = await rowsOf('Result');
   assert.ok(differing.some((name) => name.startsWith('Absorbed energy')), differing.join());
   await page.getByLabel('all fields').check();
   const all = await rowsOf('Case');
   assert.ok(all.length > 15, all.join());
   assert.ok((await rowsOf('Result')).length > differing.length);
-  assert.deepEqual(await seriousFindings(page), []);
+  assert.deepEqual(await axeFindings(page), []);
 });
 
 test('jobs of equal cases differ in nothing', async () => {

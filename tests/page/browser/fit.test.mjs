@@ -10,7 +10,7 @@ const daemon = stage(async (its) => {
   ({ page, errors } = its);
   for (const direction of ['X', 'Y']) {
     const submitted = await daemon.presetCase('hexagon-small', (each) => {
-      Object.assign(each.loading, { direction, speedMPerS: 20, endStrain: 0.7 });
+      Object.assign(each.loading, { direction, speedMPerS: 60, endStrain: 0.7 });
       each.lattice.hexagon.columns = 8;
     });
     jobs[direction] = (await daemon.call('Jobs/CreateJob', { case: submitted })).name;

@@ -1,7 +1,7 @@
 // Everything by keyboard alone: a case is changed and started, its crush scrubbed, and two jobs are compared.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { paintedShare, seriousFindings, stage } from './browser.mjs';
+import { paintedShare, axeFindings, stage } from './browser.mjs';
 
 let page;
 let errors;
@@ -75,7 +75,7 @@ test('two jobs are compared at one strain', async () => {
   for (let i = 0; i < 100; ++i) await page.keyboard.press('ArrowRight');
   await page.waitForTimeout(500);
   for (const picture of pictures) assert.ok(await paintedShare(page, picture) > 0.02);
-  assert.deepEqual(await seriousFindings(page), []);
+  assert.deepEqual(await axeFindings(page), []);
 });
 
 test('no script has failed', () => assert.deepEqual(errors, []));

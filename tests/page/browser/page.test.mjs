@@ -1,7 +1,7 @@
 // The web page in Debian's Chromium, against a real daemon that crushes real scenes.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { seriousFindings, settledShare, stage } from './browser.mjs';
+import { axeFindings, settledShare, stage } from './browser.mjs';
 
 let page;
 let errors;
@@ -130,7 +130,7 @@ test('a case keeps its loads in the form, and problems stand at what they are ab
   await page.goto(`${daemon.url}/new?from=${name}`);
   assert.equal(await page.getByLabel('Gravity along y').inputValue(), '-9.5');
   await page.getByText('id ram x_mm 160 y_mm 20').waitFor();
-  assert.deepEqual(await seriousFindings(page), []);
+  assert.deepEqual(await axeFindings(page), []);
   await page.getByLabel('Side').fill('8');
   await page.locator('.beside', { hasText: 'Rigid walls' }).getByText('[1]').waitFor();
   await page.getByLabel('Side').fill('4');
@@ -197,7 +197,7 @@ test('the page of the server shows its workers and its queue', async () => {
   await page.getByText('1 of 1 job').waitFor();
   await page.getByRole('heading', { name: 'Waiting: 1' }).waitFor();
   await page.getByText('The only worker is busy').or(page.getByText('workers are busy')).first().waitFor();
-  assert.deepEqual(await seriousFindings(page), []);
+  assert.deepEqual(await axeFindings(page), []);
   for (const name of names.reverse()) await daemon.call('Jobs/CancelJob', { name });
   await page.getByText('0 of 1 job').waitFor();
 });
@@ -214,13 +214,14 @@ test('the chosen theme is kept', async () => {
   assert.equal(await background(), automatic);
 });
 
-test('nothing serious stands in the way of people who cannot see or point', async () => {
-  for (const colorScheme of ['light', 'dark']) {
+test('nothing stands in the way of people who cannot see or point', async () => {
+  for (const [colorScheme, width] of [['light', 1440], ['dark', 390]]) {
     await page.emulateMedia({ colorScheme });
-    for (const path of ['/', '/jobs/1', '/new', '/help', '/compare?jobs=1,2']) {
+    await page.setViewportSize({ width, height: 900 });
+    for (const path of ['/', '/jobs/1', '/sweeps/1', '/compare?jobs=1,2', '/new', '/server', '/help']) {
       await page.goto(daemon.url + path);
       await page.waitForTimeout(800);
-      assert.deepEqual(await seriousFindings(page), [], `${path}, ${colorScheme}`);
+      assert.deepEqual(await axeFindings(page), [], `${path}, ${colorScheme}`);
     }
   }
 });

@@ -53,7 +53,7 @@ export class Chart {
   /** `scrub` is called with the x to which the user moves the playhead. */
   constructor(title: string, private readonly scrub?: (x: number) => void) {
     this.element = h("figure", { class: "chart" },
-      h("figcaption", {}, h("h3", {}, title), this.tools), this.legend, this.place, this.note);
+      h("figcaption", {}, h("h2", {}, title), this.tools), this.legend, this.place, this.note);
     this.scales.addEventListener("change", () => {
       const { x, y } = kScales[Number(this.scales.value)];
       this.view = { xLog: x, yLog: y };
@@ -63,7 +63,7 @@ export class Chart {
   }
 
   setTitle(title: string): void {
-    setText(this.element.querySelector("h3")!, title);
+    setText(this.element.querySelector("h2")!, title);
   }
 
   /** Adds what saves or changes the chart, beside its title. */
@@ -200,7 +200,7 @@ export class Chart {
   }
 
   private addGestures(plot: uPlot): void {
-    plot.over.setAttribute("aria-label", `${this.element.querySelector("h3")!.textContent}: + and - zoom, 0 shows all`);
+    plot.over.setAttribute("aria-label", `${this.element.querySelector("h2")!.textContent}: + and - zoom, 0 shows all`);
     plot.over.setAttribute("role", "img");
     if (this.scrub) plot.over.classList.add("scrub");
     addChartGestures(plot, {

@@ -1,10 +1,11 @@
-// Bands behind the curves of a chart; points, levels, spreads and marked places over them: as shapes that the screen
-// and an SVG file draw alike.
+// Bands behind the curves of a chart; points, levels, spreads, marked places and all labels over them: as shapes that
+// the screen and an SVG file draw alike.
 import type uPlot from "uplot";
 import { themeColour } from "../picture/colours";
 import { markPath, type ChartData } from "./chart_data";
 
 const kPointRadius = 4; // CSS pixels
+export const kHalo = 3; // of labels over curves
 
 /** Where a chart is drawn: from values to its pixels, of which `unit` are one CSS pixel. */
 export interface Place {
@@ -22,16 +23,18 @@ export type Shape = { colour: string } & (
   { path: string; fill?: boolean; width?: number; dash?: number[] } |
   { text: string; x: number; y: number; anchor: "start" | "middle" | "end" });
 
-export function bandShapes(data: ChartData, { left, top, width, height, unit, x }: Place): Shape[] {
-  return (data.bands ?? []).flatMap((band): Shape[] => {
-    const [x0, x1] = [Math.max(x(band.from), left), Math.min(x(band.to), left + width)];
-    return x1 <= x0 ? [] : [
-      { path: `M${x0},${top}H${x1}v${height}H${x0}Z`, fill: true, colour: "band" },
-      { text: band.label, x: 0.5 * (x0 + x1), y: top + 13 * unit, anchor: "middle", colour: "ink-3" }];
-  });
+// The bands that are in view, from left to right.
+const bandsIn = ({ bands = [] }: ChartData, { left, width, x }: Place): (readonly [number, number, string])[] =>
+  bands.map(({ from, to, label }) => [Math.max(x(from), left), Math.min(x(to), left + width), label] as const)
+    .filter(([x0, x1]) => x1 > x0);
+
+export function bandShapes(data: ChartData, place: Place): Shape[] {
+  return bandsIn(data, place).map(([x0, x1]) =>
+    ({ path: `M${x0},${place.top}H${x1}v${place.height}H${x0}Z`, fill: true, colour: "band" }));
 }
 
-export function markShapes(data: ChartData, { left, top, width, height, unit, x, y }: Place): Shape[] {
+export function markShapes(data: ChartData, place: Place): Shape[] {
+  const { left, top, width, height, unit, x, y } = place;
   const shapes: Shape[] = [];
   data.series.forEach(({ points, mark, colour }, i) => {
     if (points) data.columns[i + 1].forEach((value, k) => {
@@ -50,6 +53,9 @@ export function markShapes(data: ChartData, { left, top, width, height, unit, x,
     const half = 5 * unit;
     const bar = `M${x(at) - half},${y(low)}h${2 * half}m${-half},0V${y(high)}m${-half},0h${2 * half}`;
     shapes.push({ path: bar, colour, width: 1.5 });
+  }
+  for (const [x0, x1, text] of bandsIn(data, place)) {
+    shapes.push({ text, x: 0.5 * (x0 + x1), y: top + 13 * unit, anchor: "middle", colour: "ink-3" });
   }
   for (const [i, mark] of (data.marks ?? []).entries()) {
     const at = x(mark.at);
@@ -76,6 +82,11 @@ export function drawShapes(plot: uPlot, data: ChartData, shapesOf: typeof bandSh
     if ("text" in shape) {
       ctx.font = `${11 * unit}px ${themeColour("font")}`;
       ctx.textAlign = shape.anchor === "middle" ? "center" : shape.anchor;
+      ctx.strokeStyle = themeColour("card");
+      ctx.lineWidth = kHalo * unit;
+      ctx.lineJoin = "round";
+      ctx.setLineDash([]);
+      ctx.strokeText(shape.text, shape.x, shape.y);
       ctx.fillText(shape.text, shape.x, shape.y);
     } else if (shape.fill) {
       ctx.fill(new Path2D(shape.path));

@@ -33,7 +33,7 @@ class Compared {
     const swatch = h("i", { class: "swatch" });
     swatch.style.setProperty("--colour", `var(--series-${index})`);
     this.element = h("section", { class: "card compared" },
-      h("div", { class: "compared-head" }, swatch, h("h3", {}, this.title), h("span", { class: "spacer" }), this.place,
+      h("div", { class: "compared-head" }, swatch, h("h2", {}, this.title), h("span", { class: "spacer" }), this.place,
         iconButton("minus", `Remove job ${idOf(data.name)}`, remove)),
       this.about, h("div", { class: "picture-box" }, this.frames.picture.element));
   }

@@ -4,7 +4,7 @@ import type { ChartData, Series } from "../charts/chart_data";
 import { indexBefore, strainAxis } from "../charts/curves";
 import { kSmoothing, smoothedStress, stressTop, type StressCurves } from "../charts/stress";
 import { h } from "../dom/element";
-import { idOf, pathOf, unitBySize } from "../dom/format";
+import { given, idOf, pathOf, unitBySize } from "../dom/format";
 import type { JobData } from "../job/job_data";
 import { kFirstMeasures, kMeasures, measureText, titleOfMeasure, unitFor } from "../job/measures";
 import { caseValues } from "../new_case/fields";
@@ -43,7 +43,13 @@ export function comparisonChart(jobs: JobData[], names: string[], end: number): 
 }
 
 const kLongest = 60; // characters of a list, such as the nodes of a frame
-const shortened = (text: string): string => (text.length > kLongest ? `${text.slice(0, kLongest)}…` : text);
+const kLongNumber = 10;
+
+// Of a long number six digits; the title has all.
+function shortened(text: string): string {
+  if (text.length > kLongNumber && /[.e]/.test(text) && !Number.isNaN(Number(text))) return given(Number(text));
+  return text.length > kLongest ? `${text.slice(0, kLongest)}…` : text;
+}
 
 interface Line { name: string; values: (string | undefined)[] }
 const differs = ({ values }: Line): boolean => new Set(values).size > 1;

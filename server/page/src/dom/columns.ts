@@ -7,7 +7,7 @@ export interface Column<T> {
   name: string;
   /** A number, at the right. */
   figure?: boolean;
-  /** What the rows are sorted by; without it the column has a plain head. */
+  /** What the rows are sorted by; without it the head is only read aloud. */
   value?(row: T): number | string | undefined;
   /** Whether it is shown until the user chooses; "always" leaves no choice. Default true. */
   shown?: boolean | "always";
@@ -93,7 +93,10 @@ export class Columns<T> {
     const direction = this.order?.key === key ? this.order.direction : 0;
     const cell = h("th", { scope: "col", class: figure ? "figure" : "", "data-column": key,
                            "aria-sort": direction === 1 ? "ascending" : direction === -1 ? "descending" : null });
-    if (!value) return Object.assign(cell, { textContent: name });
+    if (!value) {
+      cell.append(h("span", { class: "unseen" }, name));
+      return cell;
+    }
     const sort = h("button", { type: "button", class: "sort", click: () => this.sortBy(key, direction) }, name,
                    h("span", { "aria-hidden": "true" }, direction === 1 ? "▲" : direction === -1 ? "▼" : ""));
     cell.append(sort);

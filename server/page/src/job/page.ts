@@ -235,15 +235,15 @@ export class JobPage implements View {
         `${warning.message} ${warning.remedy}`)));
     this.numbers.hidden = !summary;
     const note = job.words?.theoryNote ?? "";
-    if (summary) replaceChildren(this.numbers, h("h3", {}, "Result"), resultsList(summary, note));
+    if (summary) replaceChildren(this.numbers, h("h2", {}, "Result"), resultsList(summary, note));
     const words = check?.words ?? job.words;
     this.facts.hidden = !words;
     if (words) {
-      replaceChildren(this.facts, h("h3", {}, "Case"), h("p", {}, sceneWords(words)), h("dl", { class: "facts" },
+      replaceChildren(this.facts, h("h2", {}, "Case"), h("p", {}, sceneWords(words)), h("dl", { class: "facts" },
         ...words.facts.map(({ heading, text }) => h("div", {}, h("dt", {}, heading), h("dd", {}, text)))));
     }
     this.modelled.hidden = !check?.modelled.length;
-    replaceChildren(this.modelled, h("h3", {}, "What was modelled"),
+    replaceChildren(this.modelled, h("h2", {}, "What was modelled"),
       h("ul", {}, ...(check?.modelled ?? []).map((sentence) => h("li", {}, sentence))));
   }
 

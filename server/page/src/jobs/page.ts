@@ -59,7 +59,7 @@ export class JobsPage implements View {
     this.state.addEventListener("change", () => this.filtering.afresh(0));
     this.withSweeps.addEventListener("change", () => this.filtering.afresh(0));
     this.element.append(
-      this.queue.element,
+      h("h1", { class: "unseen" }, "Jobs and sweeps"), this.queue.element,
       h("div", { class: "toolbar" }, this.text, this.counts), this.sweeps.element,
       h("section", {},
         h("div", { class: "toolbar" }, h("h2", {}, "Jobs"), this.state,

@@ -11,7 +11,7 @@ import type { JobStore } from "./store";
 const kMostWaiting = 100;
 
 const kColumns: Column<Job>[] = [
-  { key: "select", name: "", shown: "always" },
+  { key: "select", name: "Selection", shown: "always" },
   { key: "what", name: "Job", shown: "always", value: titleOf },
   { key: "state", name: "State", shown: "always", value: ({ state }) => state },
   { key: "done", name: "Progress", value: (job) => (hasEnded(job) ? undefined : job.progress?.fraction) },
@@ -23,7 +23,7 @@ const kColumns: Column<Job>[] = [
   { key: "owner", name: "Owner", value: ({ owner }) => owner || undefined },
   { key: "created", name: "Created", figure: true,
     value: ({ createTime }) => createTime && milliseconds(createTime) },
-  { key: "actions", name: "", shown: "always" },
+  { key: "actions", name: "Actions", shown: "always" },
 ];
 
 export class JobTable {

@@ -13,7 +13,7 @@ export class Forecast {
   private readonly notes = h("div", { class: "forecast-notes" });
 
   constructor() {
-    this.element.append(h("h3", {}, "Before it runs"), h("dl", { class: "facts" }, ...kRows.map((name, i) =>
+    this.element.append(h("h2", {}, "Before it runs"), h("dl", { class: "facts" }, ...kRows.map((name, i) =>
       h("div", {}, h("dt", {}, name), this.values[i]))), this.notes);
   }
 

@@ -92,7 +92,7 @@ export class NewCasePage implements View {
               h("label", {}, this.asSweep, " a sweep")),
             this.sweepInput.element, this.executor.element, this.order.element, this.problem,
             h("div", { class: "start-row" }, this.start, this.cost)),
-          h("section", { class: "card help-card" }, h("h3", {}, "The field"), this.help))));
+          h("section", { class: "card help-card" }, h("h2", {}, "The field"), this.help))));
     const from = query.get("from") ?? `preset:${kFirstPreset}`;
     void this.listSources(from);
     void this.load(from);

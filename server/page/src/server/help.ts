@@ -17,7 +17,8 @@ const kParts: [string, [string, string][]][] = [
     ["Playhead", "Click, or drag the line. Picture and charts move together."],
     ["Scales and measures", "The menus above a chart choose linear or logarithmic axes, and the quantity to plot."],
     ["A point of a sweep", "Click it to open its job; for a mean, to list its jobs."],
-    ["The map of two fields", "Click a cell to open its job; with several seeds, to compare them."],
+    ["The map of two fields", "Click a cell to open its job; with several seeds, to compare them. Lines are contours " +
+      "between the points. Of more fields, the menus choose two, and values for the others."],
   ]],
   ["Picture", [
     ["Play", "Space plays and pauses; the arrow keys step through frames; Home and End go to the ends."],

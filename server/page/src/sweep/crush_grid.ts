@@ -43,7 +43,7 @@ export class CrushGrid {
     });
     this.player.changes.add(() => this.showPlace());
     this.element.addEventListener("keydown", (event) => this.bar.key(event));
-    this.element.append(h("div", { class: "picture-head" }, h("h3", {}, "Deformed shapes at equal strain"),
+    this.element.append(h("div", { class: "picture-head" }, h("h2", {}, "Deformed shapes at equal strain"),
       h("span", { class: "spacer" }), colourLegend()), this.bar.element, this.grid, this.note);
     this.again = window.setInterval(() => this.loadNext(), kAgainMs);
   }

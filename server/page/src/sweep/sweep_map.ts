@@ -14,6 +14,8 @@ import { axisName } from "./points";
 import { byPoint, jobsLink, keyOf, meanOfField } from "./seed_means";
 import type { TableData } from "./table";
 
+const [kHeadWidth, kLeastWidth] = [92, 40]; // pixels: of the heads of the rows, and of a cell
+
 interface Cell { rows: SweepTable_Row[]; mean: number | undefined }
 
 // Black or white, whichever contrasts more (WCAG 2).
@@ -62,22 +64,24 @@ export class SweepMap {
     const levels = ticksOf(low, high, kMostLevels);
     const drawing = contours(cells.map((row) => row.map(({ mean }) => mean)), levels);
     const title = titleOfMeasure(measure, unit);
+    const table = h("table", { class: "map", "aria-label": title },
+      h("tbody", {}, ...ys.map((value, i) => h("tr", {},
+        i === 0 && h("th", { scope: "rowgroup", rowspan: ys.length, class: "y-name" }, h("span", {},
+          axisName(fields[y]))),
+        h("th", { scope: "row", class: "figure" }, given(value)),
+        ...cells[i].map((cell, at) => h("td", {}, i + at === 0 && drawing,
+          linkOf(cell, (mean) => (mean - low) / (high - low || 1))))))),
+      h("tfoot", {},
+        h("tr", {}, h("td", { colspan: 2 }), ...xs.map((value) => h("th", { scope: "col" }, given(value)))),
+        h("tr", {}, h("td", { colspan: 2 }), h("th", { scope: "colgroup", colspan: xs.length },
+          axisName(fields[x])))));
+    table.style.minWidth = `${kHeadWidth + kLeastWidth * xs.length}px`;
     replaceChildren(this.map,
-      h("div", { class: "picture-head" }, h("h3", {}, title), h("span", { class: "spacer" }),
+      h("div", { class: "picture-head" }, h("h2", {}, title), h("span", { class: "spacer" }),
         levels.length > 1 && h("span", { class: "faint" },
           `contours every ${given(levels[1] - levels[0])} ${unit.name}`),
         known.length > 0 && legend(low, high)),
-      h("div", { class: "table-scroll" }, h("table", { class: "map", "aria-label": title },
-        h("tbody", {}, ...ys.map((value, i) => h("tr", {},
-          i === 0 && h("th", { scope: "rowgroup", rowspan: ys.length, class: "y-name" }, h("span", {},
-            axisName(fields[y]))),
-          h("th", { scope: "row", class: "figure" }, given(value)),
-          ...cells[i].map((cell, at) => h("td", {}, i + at === 0 && drawing,
-            linkOf(cell, (mean) => (mean - low) / (high - low || 1))))))),
-        h("tfoot", {},
-          h("tr", {}, h("td", { colspan: 2 }), ...xs.map((value) => h("th", { scope: "col" }, given(value)))),
-          h("tr", {}, h("td", { colspan: 2 }), h("th", { scope: "colgroup", colspan: xs.length },
-            axisName(fields[x])))))));
+      h("div", { class: "table-scroll" }, table));
   }
 
   destroy(): void {

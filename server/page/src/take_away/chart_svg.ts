@@ -1,7 +1,7 @@
 // A chart as an SVG file for a paper: black on white, in the colours of the light theme.
-import { ticksOf } from "../charts/curves";
-import { bandShapes, markShapes, type Place, type Shape } from "../charts/chart_marks";
 import { legendOf, markPath, type ChartData, type Series } from "../charts/chart_data";
+import { bandShapes, kHalo, markShapes, type Place, type Shape } from "../charts/chart_marks";
+import { ticksOf } from "../charts/curves";
 import { themeColour } from "../picture/colours";
 import { svg } from "../dom/element";
 
@@ -58,7 +58,8 @@ const kPaper: Record<string, string> = { band: "#f0ede4", ink: "#444", "ink-2": 
 function drawn(shape: Shape): SVGElement {
   const colour = kPaper[shape.colour] ?? themeColour(shape.colour);
   if ("text" in shape) {
-    return svg("text", { x: shape.x, y: shape.y, "text-anchor": shape.anchor, ...kFont, fill: colour }, shape.text);
+    return svg("text", { x: shape.x, y: shape.y, "text-anchor": shape.anchor, ...kFont, fill: colour, stroke: "#fff",
+                         "stroke-width": kHalo, "paint-order": "stroke" }, shape.text);
   }
   const { path, fill, width, dash } = shape;
   return svg("path", fill ? { d: path, fill: colour } : {
