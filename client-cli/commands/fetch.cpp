@@ -143,9 +143,12 @@ std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string
     const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), kNodesStarts);
     const bool is_walls = name == "rigid_walls.csv" && begins_with_one_of(entry->path(), kRigidWallsStarts);
     const bool is_vtk = begins_with_one_of(entry->path(), {kVtkStart});
-    const bool is_frame =
-        (is_other_job && name.starts_with("frame_") && (is_vtk || begins_with_one_of(entry->path(), kFrameStarts))) ||
-        (is_vtk && (series.contains(name) || (is_other_job && name == kCollection)));
+    // Those that are being written now have temporary endings.
+    const std::string ending = entry->path().extension().string();
+    const bool is_written = is_vtk ? ending == ".vtp" || ending == ".vtu"
+                                   : ending == ".csv" && begins_with_one_of(entry->path(), kFrameStarts);
+    const bool is_frame = (is_other_job && is_written && name.starts_with("frame_")) ||
+                          (is_vtk && (series.contains(name) || (is_other_job && name == kCollection)));
     const bool is_kept = std::ranges::find(written, entry->path()) != written.end();
     if ((is_nodes || is_walls || is_frame) && !is_kept) stale.push_back(entry->path());
   }

@@ -171,6 +171,12 @@ TEST(Fetch, AVtkSeriesReplacesAnEarlierLongerOne) {
   EXPECT_TRUE(fs::exists(folder / "mine.vtp"));
   ASSERT_EQ(fetch(server, folder, {"--vtu"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder / "frame_0000.vtp"));
+  script.job.mutable_case_()->set_depth_mm(7.0);
+  const FakeServer other(script);
+  const ProgramResult replaced = fetch(other, folder, {"--vtk", "--frame", "0"});
+  EXPECT_EQ(replaced.exit_code, 0) << replaced.errors;
+  EXPECT_FALSE(fs::exists(folder / "frame_0000.vtu"));
+  EXPECT_TRUE(fs::exists(folder / "frame_0000.vtp"));
 }
 
 TEST(Fetch, WritesTheWatchedNodesAndRigidWallsOfSamplesThatHaveAny) {
