@@ -236,7 +236,10 @@ class Run {
         fmt::format("The job reached its time limit of {:.4g} s at step {} of {} ({:.3g} %).", order_.time_limit_s(),
                     simulation_.step(), facts_.step_count, 100.0 * share),
         order_.limit_is_daemons()
-            ? fmt::format("Start the daemon with --max-job-time {:.0f} or more, or submit the case {}", needed, smaller)
+            ? fmt::format(
+                  "Start the daemon with --max-job-time {0:.0f} or more (cellcrush run: --time-limit {0:.0f}s), "
+                  "or submit the case {1}",
+                  needed, smaller)
             : fmt::format("Submit the case with time_limit_s {:.0f} or more, {}", needed, smaller));
   }
 

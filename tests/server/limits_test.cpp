@@ -263,7 +263,8 @@ TEST_F(TimeLimitTest, TheDaemonsLimitHoldsForThoseWithoutOneAndMoreIsRefused) {
   const std::string limited_by_daemon = create_limited(client, 0.0);
   ASSERT_TRUE(client.wait_for_state(limited_by_daemon, v1::Job::FAILED));
   EXPECT_THAT(client.get(limited_by_daemon).cause_message(), HasSubstr("its time limit of"));
-  EXPECT_THAT(client.get(limited_by_daemon).remedy(), HasSubstr("Start the daemon with --max-job-time"));
+  EXPECT_THAT(client.get(limited_by_daemon).remedy(),
+              ::testing::AllOf(HasSubstr("Start the daemon with --max-job-time"), HasSubstr("--time-limit")));
   const auto refused = client.try_to(limited(2.0));
   EXPECT_THAT(refused, Fails(grpc::StatusCode::INVALID_ARGUMENT, "time_limit_s"));
   EXPECT_THAT(refused.error_message(), HasSubstr("--max-job-time"));
