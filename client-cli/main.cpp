@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "command_error.h"
 #include "commands/commands.h"
@@ -30,11 +31,13 @@ constexpr const char* kFooter =
     "3 no connection; 4 connection lost before the end; 5 not found; 130 interrupted by Ctrl-C (a job of the daemon "
     "continues; a run stops at a checkpoint).";
 
-ExitCode run_action(const Session& session) {
+ExitCode run_action(const Session& session, const std::vector<std::string>& words) {
   try {
     return session.action();
   } catch (const CommandError& error) {
-    print_error(error, session.json);
+    const bool is_absent = error.code() == ExitCode::not_found || error.code() == ExitCode::no_connection;
+    const std::string hint = is_absent ? file_hint(words) : "";
+    print_error(hint.empty() ? error : CommandError(error.code(), error.message() + ' ' + hint), session.json);
     return error.code();
   } catch (const std::exception& error) {
     print_error(CommandError(ExitCode::refused, error.what()), session.json);
@@ -81,7 +84,7 @@ ExitCode run_command_line(int argc, char** argv) {
     print_error(CommandError(ExitCode::refused, usage_message(app, error)), session.json);
     return ExitCode::refused;
   }
-  const ExitCode code = run_action(session);
+  const ExitCode code = run_action(session, {argv + 1, argv + argc});
   if (std::fflush(stdout) != 0 && code == ExitCode::done) return ExitCode::refused;
   return code;
 }

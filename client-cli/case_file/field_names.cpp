@@ -27,7 +27,44 @@ void collect_enums(const Descriptor& type, std::string_view field, std::set<cons
   }
 }
 
+void append_paths(const Descriptor& type, const std::string& prefix, std::vector<std::string>& paths) {
+  for (int i = 0; i < type.field_count(); ++i) {
+    const auto& field = *type.field(i);
+    paths.push_back(prefix + field.name());
+    if (field.message_type() != nullptr) append_paths(*field.message_type(), paths.back() + ".", paths);
+  }
+}
+
+std::string name_of(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+// The path with the fewest groups to a field of this name, the first of several; empty if there is none.
+std::string find_path_to(std::string_view field) {
+  const auto groups_of = [](const std::string& path) { return std::ranges::count(path, '.'); };
+  std::string shortest;
+  for (const std::string& path : case_paths()) {
+    if (name_of(path) == field && (shortest.empty() || groups_of(path) < groups_of(shortest))) shortest = path;
+  }
+  return shortest;
+}
+
+// The field of a case, or the path to it, that a name stands for that `type` does not have; empty if none is near.
+std::string find_meant(std::string_view field, const std::vector<std::string>& names) {
+  if (std::string path = find_path_to(field); !path.empty()) return path;
+  if (std::string nearest = find_nearest(field, names); !nearest.empty()) return nearest;
+  constexpr std::size_t kTelling = 4;  // letters; shorter names are near to many others
+  if (field.size() < kTelling) return {};
+  std::vector<std::string> all;
+  for (const std::string& path : case_paths()) all.push_back(name_of(path));
+  return find_path_to(find_nearest(field, all));
+}
+
 }  // namespace
+
+std::vector<std::string> case_paths() {
+  std::vector<std::string> paths;
+  append_paths(*v1::Case::descriptor(), "", paths);
+  return paths;
+}
 
 std::vector<std::string> field_names(const google::protobuf::Descriptor& type) {
   std::vector<std::string> names;
@@ -38,7 +75,7 @@ std::vector<std::string> field_names(const google::protobuf::Descriptor& type) {
 
 std::string unknown_field_message(std::string_view field, const google::protobuf::Descriptor& type) {
   const std::vector<std::string> names = field_names(type);
-  const std::string nearest = find_nearest(field, names);
+  const std::string nearest = find_meant(field, names);
   const std::string message = fmt::format("{} has no field \"{}\"", type.name(), field);
   return nearest.empty() ? fmt::format("{}; it has: {}. A field of a newer server needs the cellcrush of its version",
                                        message, fmt::join(names, ", "))

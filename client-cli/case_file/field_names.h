@@ -11,8 +11,12 @@ namespace cellcrush::client {
 /// Names of the fields of a message, in order of declaration.
 std::vector<std::string> field_names(const google::protobuf::Descriptor& type);
 
-/// The message for a field that `type` does not have: a sentence with the nearest name, or with all names if none is
-/// near.
+/// Paths of all fields of a case, including messages, each before its own fields.
+std::vector<std::string> case_paths();
+
+/// The message for a field that `type` does not have: a sentence with the shortest path to a field of that name, else
+/// with the nearest name of `type`, else with the path to the nearest name of all; or with all names of `type` if none
+/// is near.
 std::string unknown_field_message(std::string_view field, const google::protobuf::Descriptor& type);
 
 /// The message for a value that `type` does not have: a sentence with all its names.

@@ -49,8 +49,8 @@ Ticks find_ticks(double low, double high, int most);
 std::string tick_label(double value, double step);
 
 /// Two to `most` ticks of a logarithmic axis: powers of ten, with 2 and 5 times these if at most `most` in total; over
-/// many decades only every second power, third and so on; those of find_ticks() on an axis with fewer than two of these.
-/// REQUIRES: 0 < low < high, both finite, most >= 2.
+/// many decades only every second power, third and so on; on an axis with fewer than two of these, those of
+/// find_ticks(). REQUIRES: 0 < low < high, both finite, most >= 2.
 Ticks find_logarithmic_ticks(double low, double high, int most);
 
 /// A value of a logarithmic axis, with all its digits.

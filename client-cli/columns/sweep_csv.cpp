@@ -22,7 +22,7 @@ void add_heading(CsvText& text, const v1::SweepTable& table, bool has_means) {
   for (const ResultColumn& column : result_columns()) {
     text.add(column.field);
     if (!has_means) continue;
-    text.add(std::string(column.field) + "_interval");
+    text.add(std::string(column.field) + "_ci95");
     text.add(std::string(column.field) + "_count");
   }
   text.add("crush_mode");

@@ -28,6 +28,11 @@ std::string with_prefix(const std::string& name, const char* prefix) {
 }
 
 [[noreturn]] void refuse_beside_file(const std::string& name, const std::string& file) {
+  if (names_sweep(name))
+    refuse(
+        fmt::format("{} is a sweep on a server and {} a file; one command cannot read both. Name only one sweep, or "
+                    "only results.",
+                    name, file));
   refuse(
       fmt::format("{} is a job on a server and {} a file; one command cannot read both. Save the job first, "
                   "`cellcrush fetch {} -o FOLDER`, and name that folder.",
@@ -142,6 +147,17 @@ bool names_file(const std::string& name) {
   std::error_code error;
   return std::filesystem::exists(name, error) || name.ends_with(".h5") || name.starts_with('.') ||
          name.starts_with('/');
+}
+
+std::string file_hint(const std::vector<std::string>& words) {
+  std::error_code error;
+  for (const std::string& word : words) {
+    const bool is_name =
+        word.find_first_not_of("0123456789") == std::string::npos || word.starts_with(kJobs) || names_sweep(word);
+    if (is_name && !names_file(word) && std::filesystem::exists(word, error))
+      return fmt::format("To read the file or folder {0}, name it ./{0}.", word);
+  }
+  return {};
 }
 
 std::string job_name(const std::string& name) {

@@ -120,6 +120,10 @@ bool names_sweep(const std::string& name);
 /// path. jobs/12 and 12 are a job even so.
 bool names_file(const std::string& name);
 
+/// A sentence on how to name the first of these words that is also a file or folder here, but taken for the name of a
+/// job or sweep; empty if none is.
+std::string file_hint(const std::vector<std::string>& words);
+
 struct ResultTable {
   v1::SweepTable table;
   std::string note;  ///< in what else the cases differ; empty if in nothing

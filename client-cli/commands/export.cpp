@@ -48,6 +48,7 @@ Exported download_page(Connection& connection, const v1::ExportJobRequest& reque
 }
 
 ExitCode run_export(Session& session, const ExportOptions& options) {
+  check_ending(options.file, {".html", ".htm"});
   check_may_overwrite(options.file, {kExportSignature});
   v1::ExportJobRequest request;
   request.set_name(session.find_job(options.name));

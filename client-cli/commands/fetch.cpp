@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
 #include <thread>
 
 #include "columns/history_csv.h"
@@ -26,6 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kResultSeal = "CELLCRUSH RESULT ";
 constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
 
+constexpr const char* kCollection = "crush.pvd";
 constexpr std::string_view kCaseSignature = "# Case of jobs/";
 using Starts = std::initializer_list<std::string_view>;
 constexpr Starts kResultStarts = {kResultSeal, kHdf5Signature};
@@ -111,21 +115,40 @@ void download_result(Connection& connection, const std::string& name, OutputFile
   }
 }
 
-// Files that this command wrote for another job and does not overwrite now; they would pass for the new job's. The case
-// tells whether the folder belongs to the same job.
+// The files that a collection of this command names.
+std::set<std::string> files_of_collection(const fs::path& collection) {
+  std::set<std::string> files;
+  if (!begins_with_one_of(collection, {kVtkStart})) return files;
+  const std::regex name("file=\"([^\"/]+)\"");
+  std::ifstream file(collection);
+  for (std::string line; std::getline(file, line);) {
+    if (std::smatch found; std::regex_search(line, found, name)) files.insert(found[1]);
+  }
+  return files;
+}
+
+// Files that this command wrote before and does not overwrite now: those of another job would pass for this one's, and
+// frames that the new crush.pvd no longer names for a part of its series. The case tells whether the folder belongs to
+// the same job.
 std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string& case_text,
                                        const std::vector<fs::path>& written) {
   const fs::path case_file = folder / "case.txtpb";
   std::error_code error;
   const bool is_other_job = begins_with_one_of(case_file, {kCaseSignature}) && !holds_text(case_file, case_text);
+  const bool has_series = std::ranges::find(written, folder / kCollection) != written.end();
+  const auto series = has_series ? files_of_collection(folder / kCollection) : std::set<std::string>();
   std::vector<fs::path> stale;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), kNodesStarts);
     const bool is_walls = name == "rigid_walls.csv" && begins_with_one_of(entry->path(), kRigidWallsStarts);
-    const bool is_frame =
-        is_other_job && name.starts_with("frame_") &&
-        (begins_with_one_of(entry->path(), kFrameStarts) || begins_with_one_of(entry->path(), {kVtkStart}));
+    const bool is_vtk = begins_with_one_of(entry->path(), {kVtkStart});
+    // Those that are being written now have temporary endings.
+    const std::string ending = entry->path().extension().string();
+    const bool is_written = is_vtk ? ending == ".vtp" || ending == ".vtu"
+                                   : ending == ".csv" && begins_with_one_of(entry->path(), kFrameStarts);
+    const bool is_frame = (is_other_job && is_written && name.starts_with("frame_")) ||
+                          (is_vtk && (series.contains(name) || (is_other_job && name == kCollection)));
     const bool is_kept = std::ranges::find(written, entry->path()) != written.end();
     if ((is_nodes || is_walls || is_frame) && !is_kept) stale.push_back(entry->path());
   }
@@ -150,7 +173,7 @@ void add_vtk(Connection& connection, const std::string& job, const fs::path& fol
     file.write(vtk_frame(frame, undeformed, kind));
     file.finish();  // lest all are open at once
   }
-  files.add(folder / "crush.pvd", {kVtkStart}).write(vtk_collection(written));
+  files.add(folder / kCollection, {kVtkStart}).write(vtk_collection(written));
 }
 
 ExitCode run_fetch(Session& session, const FetchOptions& options) {
@@ -167,7 +190,7 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
   for (const fs::path& path : files.written) {
     fmt::print("{}  {}\n", path.string(), size_text(static_cast<std::int64_t>(fs::file_size(path))));
   }
-  for (const fs::path& path : files.removed) fmt::print("{}  removed (from another job)\n", path.string());
+  for (const fs::path& path : files.removed) fmt::print("{}  removed (of an earlier fetch)\n", path.string());
   return ExitCode::done;
 }
 
@@ -182,7 +205,7 @@ void check_may_write_results(const fs::path& folder) {
 }
 
 ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::path& folder, const ResultForm& form) {
-  make_folder(folder);
+  const OutputFolder made(folder);  // outlives the files
   FetchedFiles files;
   OutputFile& result = files.add(folder / "result.h5", kResultStarts);
   const std::string case_text = case_file_text(job.case_(), "Case of " + job.name());

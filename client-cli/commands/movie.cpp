@@ -57,9 +57,7 @@ void encode_movie(const std::filesystem::path& frames, int frames_per_second, co
   const int failure = posix_spawnp(&process, "ffmpeg", nullptr, nullptr, arguments.data(), environ);
   if (failure == 0) waitpid(process, &status, 0);
   if (failure == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  refuse(
-      "movie: ffmpeg could not write the movie; give -o a name that ends in .mp4, .webm or .gif, or "
-      "write the frames with --frames DIR");
+  refuse("movie: ffmpeg could not write the movie; write the frames with --frames DIR");
 }
 
 namespace fs = std::filesystem;
@@ -90,6 +88,8 @@ class TemporaryFolder {
   std::string path_;
 };
 
+fs::path frame_path(const fs::path& folder, int index) { return folder / fmt::format("frame_{:05}.png", index); }
+
 // Draws all frames of a job as frame_00000.png and so on; returns their number. Fetches them twice, for the common box
 // and for drawing, because the frames of a large lattice do not fit into memory together.
 int draw_frames(Session& session, const std::string& job, const fs::path& folder) {
@@ -105,14 +105,16 @@ int draw_frames(Session& session, const std::string& job, const fs::path& folder
   }
   for (int i = 0; i < count; ++i) {
     const MeshFrame frame = i + 1 < count ? fetch_frame(connection, name, i) : last;
-    write_file(folder / fmt::format("frame_{:05}.png", i), render_movie_frame(lattice_stage(frame), box));
+    write_file(frame_path(folder, i), render_movie_frame(lattice_stage(frame), box));
   }
   return count;
 }
 
 void keep_frames(Session& session, const MovieOptions& options) {
-  make_folder(options.folder);
+  const OutputFolder folder(options.folder);
   const int count = draw_frames(session, options.name, options.folder);
+  // Those of an earlier, longer series would pass for frames of this one.
+  for (int i = count; fs::remove(frame_path(options.folder, i)); ++i) continue;
   session.json ? print_file_json(options.folder, {{"frame_count", count}})
                : fmt::print("{}  {} frames\n", options.folder, count);
 }
@@ -133,6 +135,7 @@ ExitCode run_movie(Session& session, const MovieOptions& options) {
   if (options.file.empty() == options.folder.empty()) {
     refuse("movie: give either -o FILE.mp4, FILE.webm or FILE.gif, or --frames DIR");
   }
+  if (options.folder.empty()) check_ending(options.file, {".mp4", ".webm", ".gif"});
   options.folder.empty() ? make_movie(session, options) : keep_frames(session, options);
   return ExitCode::done;
 }

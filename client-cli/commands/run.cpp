@@ -34,8 +34,8 @@ struct RunOptions {
 // Deleted on destruction, unless it is kept or existed before.
 class PrivateData {
  public:
-  explicit PrivateData(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)), is_kept_(was_there_) {
-    make_folder(path_);
+  explicit PrivateData(fs::path path)
+      : path_(std::move(path)), was_there_(fs::exists(path_)), is_kept_(was_there_), folder_(path_) {
     std::error_code error;
     fs::permissions(path_, fs::perms::owner_all, error);
   }
@@ -54,6 +54,7 @@ class PrivateData {
   fs::path path_;
   bool was_there_;
   bool is_kept_;
+  OutputFolder folder_;
 };
 
 std::optional<v1::Job> find_unfinished(Connection& connection) {

@@ -134,10 +134,11 @@ void add_submit_commands(CLI::App& app, Session& session) {
   const auto [sweep, grid] = add_command<SweepOptions>(app, session, kJobCommands, "sweep",
                                                        "Queue one job for each combination of field values", run_sweep);
   add_submit_options(*sweep, *grid, "sweep", "Follow the sweep to its end, then print its table and a chart");
-  add_option(*sweep, kCaseOptions, "--over", grid->axes,
-             "Values of a field: PATH=V1,V2,...; PATH=FIRST:LAST:COUNT, evenly spaced; PATH=FIRST:LAST:COUNT:log, "
-             "logarithmically spaced; PATH=seeds:N, 1 to N (may be repeated, for up to 32 fields; at most 100000 "
-             "jobs in all)")
+  add_option(
+      *sweep, kCaseOptions, "--over", grid->axes,
+      "Values of a field: PATH=V1,V2,...; PATH=FIRST:LAST:COUNT, evenly spaced; PATH=FIRST:LAST:COUNT:log, "
+      "logarithmically spaced; lattice.imperfection.seed=seeds:N, 1 to N (may be repeated, for up to 32 fields; at "
+      "most 100000 jobs in all)")
       ->required()
       ->allow_extra_args(false);
   add_option(*sweep, kScheduleOptions, "--max-parallel", grid->max_parallel,

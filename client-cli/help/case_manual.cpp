@@ -9,7 +9,6 @@
 #include "columns/field_text.h"
 #include "command_error.h"
 #include "help/field_rules.h"
-#include "usage/suggestion.h"
 
 namespace cellcrush::client {
 
@@ -44,29 +43,10 @@ std::vector<std::pair<std::string, std::string>> list_fields(const Descriptor& t
   return fields;
 }
 
-void append_paths(const Descriptor& type, const std::string& prefix, std::vector<std::string>& paths) {
-  for (int i = 0; i < type.field_count(); ++i) {
-    const FieldDescriptor& field = *type.field(i);
-    paths.push_back(prefix + field.name());
-    if (field.message_type() != nullptr) append_paths(*field.message_type(), paths.back() + ".", paths);
-  }
-}
-
-// A path whose last name is `word`, for names without their groups. Empty if there is none.
-std::string find_path_to(const std::string& word) {
-  for (const std::string& path : case_paths()) {
-    if (path.ends_with("." + word)) return path;
-  }
-  return {};
-}
-
 const FieldDescriptor& find_in(const Descriptor& type, const std::string& name, const std::string& path) {
   const FieldDescriptor* field = type.FindFieldByName(name);
   if (field != nullptr) return *field;
-  const std::string elsewhere = find_path_to(name);
-  refuse(path + ": " +
-         (elsewhere.empty() ? unknown_field_message(name, type)
-                            : with_suggestion(type.name() + " has no field \"" + name + "\"", elsewhere)));
+  refuse(path + ": " + unknown_field_message(name, type));
 }
 
 const FieldDescriptor& find_field_at(const std::string& path) {
@@ -106,12 +86,6 @@ FieldManual find_field_manual(const std::string& path) {
     if (value.number() != 0) manual.values.emplace_back(value.name(), comment_above(value));
   }
   return manual;
-}
-
-std::vector<std::string> case_paths() {
-  std::vector<std::string> paths;
-  append_paths(case_type(), "", paths);
-  return paths;
 }
 
 }  // namespace cellcrush::client

@@ -22,7 +22,4 @@ struct FieldManual {
 /// an unknown path, with the nearest one.
 FieldManual find_field_manual(const std::string& path);
 
-/// Paths of all fields, including messages, each before its own fields.
-std::vector<std::string> case_paths();
-
 }  // namespace cellcrush::client

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "help/case_manual.h"
+#include "case_file/field_names.h"
 #include "help/shell_files.h"
 #include "usage/command_entries.h"
 

@@ -192,6 +192,16 @@ void fit_axes(Chart& chart) {
   chart.x = {0.0, end > 0.0 ? end : 1.0, "time (ms)"};
 }
 
+std::string with_speed(const v1::Job& job, const std::string& title) {
+  std::string name = title.empty() ? job.name() : title;
+  if (!job.case_().loading().has_speed_m_per_s()) return name;
+  const std::string speed = short_text(job.case_().loading().speed_m_per_s()) + " m/s";
+  return name.find(speed) == std::string::npos ? name + ", " + speed : name;
+}
+
+// Without the values that a sweep has appended to the title: what differs stands behind the name.
+std::string comparison_name(const v1::Job& job) { return with_speed(job, base_title(job.case_().title())); }
+
 }  // namespace
 
 Chart build_energy_chart(const JobHistory& history) {
@@ -229,13 +239,7 @@ Chart build_energy_chart(const JobHistory& history) {
   return chart;
 }
 
-std::string picture_name(const v1::Job& job) {
-  const std::string& title = job.case_().title();
-  std::string name = title.empty() ? job.name() : title;
-  if (!job.case_().loading().has_speed_m_per_s()) return name;
-  const std::string speed = short_text(job.case_().loading().speed_m_per_s()) + " m/s";
-  return name.find(speed) == std::string::npos ? name + ", " + speed : name;
-}
+std::string picture_name(const v1::Job& job) { return with_speed(job, job.case_().title()); }
 
 Chart build_job_chart(const JobHistory& history) {
   const PlateCurves raw = curves_of(history);
@@ -293,7 +297,7 @@ Chart build_job_chart(const JobHistory& history) {
 
 Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
   std::map<std::string, std::vector<const v1::Case*>> cases;  // of each name
-  for (const JobHistory& history : histories) cases[picture_name(history.job)].push_back(&history.job.case_());
+  for (const JobHistory& history : histories) cases[comparison_name(history.job)].push_back(&history.job.case_());
   std::vector<Curve> curves;
   double strain = 0.0;
   double top = 0.0;
@@ -303,7 +307,7 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
     const PlateCurves raw = curves_of(histories[i]);
     const PlateCurves smooth = smoothed(raw);
     const Colour colour = kSeriesColours[i % kSeriesColours.size()];
-    std::string name = picture_name(job);
+    std::string name = comparison_name(job);
     if (const auto& same = cases.at(name); same.size() > 1) {
       const std::string values = field_values_text(job.case_(), find_differences(same));
       name += (values.empty() ? "" : ", " + values) + " (" + job.name() + ")";

@@ -29,6 +29,7 @@ constexpr double kChartGap = 14.0;
 constexpr double kPrintedPageMm = 240.0;  // the height between the margins of a page
 constexpr double kStagesShare = 0.24;     // of the height of a printed picture that has two charts
 constexpr double kStressShare = 0.56;     // of the height of the two charts
+constexpr double kLeastCharts = 560.0;    // height of the two charts
 const TextStyle kTitleStyle{.size = 18.0, .bold = true};
 const TextStyle kSubtitleStyle{.size = 12.5, .colour = kMutedInk};
 
@@ -116,9 +117,11 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
       stages.empty() ? StagePanels{.bottom = page.top} : lay_stages(stages, page.margin, page.top, page.inner(), most);
   const double chart_top = panels.bottom + bar_room;
   const double room = page.height - (chart_top - page.top) - kChartGap;  // of the charts
-  const double chart_height = std::min(page.chart_height(kChartHeight), (plates ? kStressShare : 1.0) * room);
+  const bool has_ledger = plates && room >= kLeastCharts;
+  const double chart_height = std::min(page.chart_height(kChartHeight), (has_ledger ? kStressShare : 1.0) * room);
   const double energy_top = chart_top + chart_height + kChartGap;
-  const double energy_height = plates ? std::min(page.chart_height(kEnergyHeight), (1.0 - kStressShare) * room) : 0.0;
+  const double energy_height =
+      has_ledger ? std::min(page.chart_height(kEnergyHeight), (1.0 - kStressShare) * room) : 0.0;
   return render_picture(
       format, page.width, energy_top + energy_height + page.margin,
       [&](cairo_t* context) {
@@ -130,7 +133,7 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
         }
         draw_chart(context, {page.margin, chart_top, page.inner(), chart_height},
                    plates ? build_job_chart(history) : build_node_chart(history));
-        if (plates) {
+        if (has_ledger) {
           draw_chart(context, {page.margin, energy_top, page.inner(), energy_height}, build_energy_chart(history));
         }
       },

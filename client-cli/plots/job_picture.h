@@ -16,7 +16,7 @@ namespace cellcrush::client {
 LatticeStage lattice_stage(const MeshFrame& frame);
 
 /// The picture of one job: the lattice at each of `stages` (may be empty), at one scale, above its curves. For a crush
-/// these are the stresses and the energy ledger.
+/// these are the stresses and the energy ledger, which a page in print without room for it lacks.
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages,
                                const PrintSize& print = {});
 

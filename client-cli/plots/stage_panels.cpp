@@ -112,13 +112,10 @@ void draw_scale_bar(cairo_t* context, double right, double y, double scale) {
 }  // namespace
 
 StagePanels lay_stages(const std::vector<LatticeStage>& stages, double left, double top, double width, double height) {
-  StagePanels panels{.boxes = find_boxes(stages),
-                     .places = {},
-                     .bar_right = left + width,
-                     .bottom = top,
-                     .has_times = width >= kNarrowWidth};
+  StagePanels panels{.boxes = find_boxes(stages), .places = {}, .bar_right = left + width, .bottom = top};
   const std::vector<Box>& boxes = panels.boxes;
   const Rows rows = find_rows(boxes, width, height);
+  panels.has_times = width >= kNarrowWidth || rows.counts.size() == boxes.size();
   const std::vector<double> heights = row_heights(boxes, rows);
   std::size_t i = 0;
   for (std::size_t row = 0; row < heights.size(); ++row) {

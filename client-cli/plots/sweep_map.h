@@ -25,7 +25,8 @@ struct SweepMap {
 };
 
 /// The map of a charted_table(). Nothing unless it varies two fields other than the seed, each with two values, and has
-/// a row for every pair. Throws CommandError (refused) if no row has a plateau yet, or if an axis cannot be logarithmic.
+/// a row for every pair. Throws CommandError (refused) if no row has a plateau yet, or if an axis cannot be
+/// logarithmic.
 std::optional<SweepMap> build_sweep_map(const v1::SweepTable& table, const LogarithmicAxes& logarithmic);
 
 /// Draws the map into `place`: a cell of colour around each point with its value and mode where they fit, contour lines

@@ -11,7 +11,7 @@
 
 namespace cellcrush::client {
 
-/// Half of the 95 % confidence interval of a mean; nothing if it is unknown or within round-off.
+/// Half-width of the 95 % confidence interval of a mean; nothing if it is unknown or within round-off.
 std::optional<double> find_interval(const v1::SweepTable::SeedMeans& means, std::string_view path);
 
 /// Why a theory is missing beside a plateau stress, such as "Eq. 52: no front"; empty if none is.

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -67,12 +68,29 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   file.commit();
 }
 
-void make_folder(const std::filesystem::path& folder) {
+OutputFolder::OutputFolder(const std::filesystem::path& folder) {
   std::error_code error;
+  for (auto path = folder; !path.empty() && !std::filesystem::exists(path, error); path = path.parent_path()) {
+    created_.push_back(path);
+  }
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder, error)) {
     refuse(folder.string() + ": cannot create this folder: " + error.message());
   }
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code not_empty;
+  for (const auto& path : created_) std::filesystem::remove(path, not_empty);
+}
+
+void check_ending(const std::filesystem::path& file, const std::vector<std::string>& endings) {
+  std::string ending = file.extension().string();
+  for (char& letter : ending) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  if (std::ranges::find(endings, ending) != endings.end()) return;
+  std::string known = endings.front();
+  for (std::size_t i = 1; i < endings.size(); ++i) known += (i + 1 < endings.size() ? ", " : " or ") + endings[i];
+  refuse(file.string() + ": not a format of this command; give -o a name that ends in " + known);
 }
 
 bool begins_with_one_of(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures) {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cellcrush::client {
 
@@ -34,8 +35,21 @@ class OutputFile {
 /// Writes a whole file of that kind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Creates a folder and those that it is in. Throws CommandError (refused) if it cannot.
-void make_folder(const std::filesystem::path& folder);
+/// A folder with those that it is in. Creates the missing ones, and deletes these again with the object if they are
+/// still empty. Throws CommandError (refused) if it cannot create them.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::filesystem::path& folder);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> created_;  ///< the innermost first
+};
+
+/// Throws CommandError (refused) unless the name of `file` ends in one of `endings`, such as ".html", in any case.
+void check_ending(const std::filesystem::path& file, const std::vector<std::string>& endings);
 
 /// Whether `path` is a regular file that begins with one of `signatures`.
 bool begins_with_one_of(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures);

@@ -77,8 +77,6 @@ void JobView::apply(const v1::JobEvent& event) {
         *job_.mutable_case_() = known.case_();
         *job_.mutable_words() = known.words();
       }
-      // The last progress was reported a moment before the end.
-      if (job_.state() == v1::Job::SUCCEEDED) job_.mutable_progress()->set_fraction(1.0);
       break;
     }
     case v1::JobEvent::kProgress: *job_.mutable_progress() = event.progress(); break;
@@ -92,6 +90,8 @@ void JobView::apply(const v1::JobEvent& event) {
     }
     default: break;
   }
+  // The last progress was reported a moment before the end, and a snapshot of an ended job has none.
+  if (job_.state() == v1::Job::SUCCEEDED) job_.mutable_progress()->set_fraction(1.0);
 }
 
 std::string bar_text(double fraction, int width, const Terminal& terminal) {

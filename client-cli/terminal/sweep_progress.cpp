@@ -181,6 +181,12 @@ int SweepView::count_ended() const {
   return count(v1::Job::SUCCEEDED) + count(v1::Job::FAILED) + count(v1::Job::CANCELLED);
 }
 
+bool SweepView::is_known() const {
+  return !sweep_.name().empty() && std::ranges::all_of(jobs_, [](const Entry& entry) {
+    return entry.view.job().state() != v1::Job::JOB_STATE_UNSPECIFIED;
+  });
+}
+
 double SweepView::fraction() const {
   double done = 0.0;
   for (const Entry& entry : jobs_) done += is_final(entry.state()) ? 1.0 : entry.view.progress().fraction();

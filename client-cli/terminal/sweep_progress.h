@@ -29,6 +29,8 @@ class SweepView {
   [[nodiscard]] int count(v1::Job::State state) const;
   /// Number of jobs in a final state.
   [[nodiscard]] int count_ended() const;
+  /// Whether the states of all jobs have arrived.
+  [[nodiscard]] bool is_known() const;
 
   /// Completed share of the sweep: the mean over its jobs, with an ended job counting as complete.
   [[nodiscard]] double fraction() const;

@@ -185,7 +185,7 @@ std::string means_text(const v1::SweepTable& results, int width) {
   }
   std::string text =
       '\n' + wrapped(
-                 "Means over the seeds ± half of the 95 % confidence interval (Student's t), of the jobs "
+                 "Means over the seeds ± the half-width of the 95 % confidence interval (Student's t), of the jobs "
                  "that have succeeded. --each prints one row per job.",
                  width, "", "  ");
   if (failed > 0) text += wrapped(fmt::format("{} FAILED; --each says why.", run_count_text(failed)), width);

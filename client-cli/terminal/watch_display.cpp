@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cstdio>
 #include <string>
+#include <utility>
 
+#include "command_error.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
@@ -21,6 +23,14 @@ const std::string& name_of(const SweepView& view) { return view.sweep().name(); 
 
 v1::Job::State state_of(const JobView& view) { return view.job().state(); }
 v1::Job::State state_of(const SweepView&) { return v1::Job::JOB_STATE_UNSPECIFIED; }
+
+// Whether the states of all jobs have come; the first events bring them.
+bool is_known(const JobView& view) { return state_of(view) != v1::Job::JOB_STATE_UNSPECIFIED; }
+bool is_known(const SweepView& view) { return view.is_known(); }
+
+// Whether what follows the display says the same: the outcome of a job does, the table of a sweep does not.
+bool is_told_later(const JobView& view) { return is_final(state_of(view)); }
+bool is_told_later(const SweepView&) { return false; }
 
 bool is_bookmark(const v1::JobEvent& event) { return event.has_bookmark(); }
 bool is_bookmark(const v1::WatchSweepResponse& response) { return response.event().has_bookmark(); }
@@ -56,7 +66,10 @@ class JsonDisplay : public Display<Event, View> {
   void finish() override {}
 };
 
-// A line when the state changes, and otherwise at most one a second.
+// Waits for the first states, but not longer than this.
+constexpr auto kFirstStates = 1s;
+
+// A line when the state changes, and otherwise at most one a second; none of what is told later.
 template <typename Event, typename View>
 class LineDisplay : public Display<Event, View> {
  public:
@@ -64,6 +77,7 @@ class LineDisplay : public Display<Event, View> {
     const v1::Job::State before = state_of(this->view_);
     this->view_.apply(event);
     pending_ = pending_ || !is_bookmark(event);
+    if (Clock::now() - begun_ < kFirstStates && !is_known(this->view_)) return;
     if (state_of(this->view_) != before || (pending_ && Clock::now() - printed_ >= 1s)) print();
   }
   void on_break(const std::string& reason) override {
@@ -76,13 +90,17 @@ class LineDisplay : public Display<Event, View> {
 
  private:
   void print() {
-    fmt::print("{}\n", line_of(this->view_));
-    std::fflush(stdout);
     printed_ = Clock::now();
     pending_ = false;
+    const std::string line = is_told_later(this->view_) ? last_ : line_of(this->view_);
+    if (std::exchange(last_, line) == line) return;
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
   }
 
+  Clock::time_point begun_ = Clock::now();
   Clock::time_point printed_;
+  std::string last_;
   bool pending_ = false;  ///< something came since the last line
 };
 
@@ -99,6 +117,7 @@ class LiveDisplay : public Display<Event, View> {
     const std::string heading = headed_ ? "" : heading_of(this->view_);
     if (!heading.empty()) fmt::print("{}\n", cut(heading, terminal_width() - 1));
     headed_ = true;
+    if (Clock::now() - begun_ < kFirstStates && !is_known(this->view_)) return;
     if (state_of(this->view_) != before || Clock::now() - drawn_ >= 100ms) finish();
   }
   void on_break(const std::string& reason) override {
@@ -112,6 +131,7 @@ class LiveDisplay : public Display<Event, View> {
  private:
   Terminal terminal_;
   Redraw redraw_;
+  Clock::time_point begun_ = Clock::now();
   Clock::time_point drawn_;
   bool headed_ = false;
 };

@@ -181,7 +181,8 @@ Caller Gate::caller_of_token(const Metadata& metadata) const {
   constexpr std::string_view kBearer = "Bearer ";
   const auto [first, last] = metadata.equal_range("authorization");
   if (first == last) {
-    refuse_caller(std::string("This server requires a token, and this call has none. Name a file that holds it, with "
+    refuse_caller(std::string("This server requires a token, and this call has none. Send it as the header "
+                              "\"Authorization: Bearer TOKEN\"; for cellcrush, name a file that holds it, with "
                               "--token-file FILE or CELLCRUSH_TOKEN_FILE. ") +
                   kAskForToken);
   }

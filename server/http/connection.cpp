@@ -22,6 +22,7 @@ using Field = bhttp::field;
 constexpr std::uint64_t kLargestBody = 4 * 1024 * 1024 + 5;  // a message of gRPC's largest size in its envelope
 constexpr std::uint32_t kLargestHeader = 16 * 1024;
 constexpr std::chrono::seconds kFarewell{1};
+constexpr const char* kText = "text/plain; charset=utf-8";
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
     "media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors ";
@@ -127,7 +128,12 @@ asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
 
 asio::awaitable<void> Connection::answer(const Request& request) {
   if (const auto refusal = refusal_of(request)) {
-    co_await send_error(refusal->http_status, refusal->error);
+    // Only calls have an error as JSON.
+    if (request.method() == bhttp::verb::get) {
+      co_await send(refusal->http_status, kText, refusal->error.error_message() + '\n');
+    } else {
+      co_await send_error(refusal->http_status, refusal->error);
+    }
   } else if (request.method() != bhttp::verb::post) {
     if (is_download({request.target().data(), request.target().size()})) {
       co_await answer_download(request);
@@ -169,7 +175,10 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
     if (method != nullptr) return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls."}};
     if (!is_download({request.target().data(), request.target().size()}) &&
         web::find_page_file(request.target()) == nullptr)
-      return Refusal{404, {StatusCode::NOT_FOUND, "There is no such file."}};
+      return Refusal{404,
+                     {StatusCode::NOT_FOUND,
+                      "There is no such file. A job has /jobs/NUMBER/history.csv and /jobs/NUMBER/result.h5, a sweep "
+                      "has /sweeps/NUMBER.csv."}};
     return std::nullopt;
   }
   if (request.method() != bhttp::verb::post)
@@ -319,7 +328,7 @@ asio::awaitable<void> Connection::answer_download(const Request& request) {
     if (!wants_body || !download->has_more()) break;
   }
   if (!has_begun) {
-    co_await send(http_status(status.error_code()), "text/plain; charset=utf-8", status.error_message() + '\n');
+    co_await send(http_status(status.error_code()), kText, status.error_message() + '\n');
   } else if (!status.ok()) {
     keep_alive_ = false;
   } else if (wants_body) {

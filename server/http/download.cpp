@@ -134,7 +134,11 @@ std::shared_ptr<Download> open_download(std::string_view target) {
     return std::make_shared<SweepDownload>(id, read_form(query, true));
   const auto id = between(path, "/jobs/", "/result.h5");
   if (id.empty()) return nullptr;
-  if (!query.empty()) throw ServiceError(ServiceError::Kind::invalid, "result.h5 has no parameters.");
+  if (!query.empty()) {
+    throw ServiceError(
+        ServiceError::Kind::invalid,
+        fmt::format("The parameter \"{}\" is not valid: result.h5 has no parameters. Leave it out.", query));
+  }
   return std::make_shared<ResultDownload>(id);
 }
 

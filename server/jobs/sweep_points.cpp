@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <set>
 
 #include "error.h"
+#include "jobs/case_field.h"
+#include "jobs/seed_means.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -83,6 +86,9 @@ void check_axis(const v1::Sweep& sweep, int i, std::set<std::string>& seen) {
   if (!seen.insert(axis.field()).second)
     throw InvalidField(axis_field(i) + ".field", "is " + axis.field() + ", which an earlier axis already varies.",
                        "Put all its values on one axis.");
+  if (axis.values_case() == v1::SweepAxis::kSeedCount && axis.field() != kSeedField)
+    throw InvalidField(axis_field(i) + ".seed_count", "counts seeds, but the field is " + axis.field() + ".",
+                       std::string("Use it for ") + kSeedField + ". Give other fields a list or a range of values.");
   if (i == 0 && axis.with_previous())
     throw InvalidField(axis_field(i) + ".with_previous", "is true, but no axis is before this one.",
                        "Set it for the second axis of the two that advance together.");
@@ -98,6 +104,28 @@ void append(Points& steps, const std::vector<double>& values, const std::string&
                        "Give both as many values, or leave out with_previous to combine them.");
   }
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i].push_back(values[i]);
+}
+
+// Equal points of these fields would be the same job twice. `name_of` says what the point at an index is called.
+void check_distinct(const Points& points, const std::vector<std::string>& fields,
+                    const std::function<std::string(std::size_t)>& name_of) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // A number that is not finite is refused with its field.
+    if (std::ranges::all_of(points[i], [](double value) { return std::isfinite(value); })) order.push_back(i);
+  }
+  const auto point_at = [&points](std::size_t i) -> const std::vector<double>& { return points[i]; };
+  std::ranges::stable_sort(order, {}, point_at);
+  const auto first = std::ranges::adjacent_find(order, {}, point_at);
+  if (first == order.end()) return;
+  const std::size_t second = *std::next(first);
+  std::string values;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    values += (i == 0 ? "" : ", ") + fields[i] + " = " + text_of(points[second][i]);
+  throw InvalidField(name_of(second),
+                     "has " + values + " twice, at the places " + std::to_string(*first + 1) + " and " +
+                         std::to_string(second + 1) + ".",
+                     "Give each value once; equal cases have equal results.");
 }
 
 Points combinations(const Points& points, const Points& steps) {
@@ -121,12 +149,16 @@ Points grid(const v1::Sweep& sweep) {
   std::set<std::string> seen;
   for (int i = 0; i < sweep.axes_size();) {
     check_axis(sweep, i, seen);
+    const std::string name = axis_field(i);
+    std::vector<std::string> fields = {sweep.axes(i).field()};
     Points steps;
     for (const double value : values_of(sweep.axes(i), axis_field(i))) steps.push_back({value});
     for (++i; i < sweep.axes_size() && sweep.axes(i).with_previous(); ++i) {
       check_axis(sweep, i, seen);
       append(steps, values_of(sweep.axes(i), axis_field(i)), axis_field(i));
+      fields.push_back(sweep.axes(i).field());
     }
+    check_distinct(steps, fields, [&name](std::size_t) { return name; });
     points = combinations(points, steps);
   }
   return points;
@@ -147,6 +179,7 @@ std::vector<std::vector<double>> listed(const v1::Sweep& sweep, const std::vecto
                          "Give every point values for the same fields, at least one.");
     }
   }
+  check_distinct(out, fields, [](std::size_t i) { return "sweep.points[" + std::to_string(i) + "].fields"; });
   return out;
 }
 

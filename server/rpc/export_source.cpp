@@ -52,6 +52,11 @@ ExportSource::ExportSource(const Parts& parts, store::StoredJob job, const v1::E
                        job_.job.name() + " is " + v1::Job::State_Name(job_.job.state()) +
                            " and cannot be exported yet. Wait until it has ended, or cancel it.");
   }
+  if (job_.samples == 0 && !job_.job.has_start_time()) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       job_.job.name() + " was " + v1::Job::State_Name(job_.job.state()) +
+                           " before it ran, so there is nothing to export. Submit its case again.");
+  }
   parts_.exports.take();
 }
 

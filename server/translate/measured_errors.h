@@ -13,7 +13,7 @@ namespace cellcrush::translate {
 struct MeasuredError {
   std::string measure;       ///< the quantity, the preset and the speeds, in words
   double error = 0.0;        ///< of the mean; of the finest mesh itself: its difference from the next coarser one
-  double uncertainty = 0.0;  ///< half of the 95 % confidence interval of the error; a smaller error is not significant
+  double uncertainty = 0.0;  ///< half-width of its 95 % confidence interval; a smaller error is not significant
   double scatter = 0.0;      ///< standard deviation of one crush, relative to its mean
 };
 

@@ -233,11 +233,13 @@ class Run {
     const std::string smaller = "with a lower fidelity or a lower end_strain.";
     return failure(
         v1::Job::TIME_LIMIT,
-        fmt::format("The job reached {} of {:.4g} s at step {} of {} ({:.3g} %).",
-                    order_.limit_is_daemons() ? "the daemon's time limit" : "its time limit", order_.time_limit_s(),
+        fmt::format("The job reached its time limit of {:.4g} s at step {} of {} ({:.3g} %).", order_.time_limit_s(),
                     simulation_.step(), facts_.step_count, 100.0 * share),
         order_.limit_is_daemons()
-            ? fmt::format("Start the daemon with --max-job-time {:.0f} or more, or submit the case {}", needed, smaller)
+            ? fmt::format(
+                  "Start the daemon with --max-job-time {0:.0f} or more (cellcrush run: --time-limit {0:.0f}s), "
+                  "or submit the case {1}",
+                  needed, smaller)
             : fmt::format("Submit the case with time_limit_s {:.0f} or more, {}", needed, smaller));
   }
 

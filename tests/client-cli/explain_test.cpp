@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
 
+#include "case_file/field_names.h"
 #include "columns/field_text.h"
 #include "help/case_manual.h"
 #include "help/field_rules.h"
@@ -39,9 +40,11 @@ TEST(Explain, PrintsAFieldWithoutADaemon) {
 }
 
 TEST(Explain, AnUnknownPathIsRefusedWithTheNearest) {
-  for (const auto& [path, answer] : {std::pair("loading.ramp_strian", "did you mean \"ramp_strain\"?"),
-                                     std::pair("ramp_strain", "did you mean \"loading.ramp_strain\"?"),
-                                     std::pair("depth_mm.x", "is a single value")}) {
+  for (const auto& [path, answer] :
+       {std::pair("loading.ramp_strian", "did you mean \"ramp_strain\"?"),
+        std::pair("ramp_strain", "did you mean \"loading.ramp_strain\"?"),
+        std::pair("speed_m_per_s", "did you mean \"loading.speed_m_per_s\"?"),
+        std::pair("friction", "did you mean \"contact.friction\"?"), std::pair("depth_mm.x", "is a single value")}) {
     const ProgramResult result = run_program({"explain", path});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.errors, HasSubstr(answer));

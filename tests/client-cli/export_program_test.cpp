@@ -59,6 +59,13 @@ TEST(Export, ReplacesItsOwnFilesAndNoOthers) {
   EXPECT_EQ(text_of_file(file), "<!doctype html>\n<title>mine</title>\n");
 }
 
+TEST(Export, ToAnotherFormatIsRefused) {
+  const FakeServer server(script_with_page());
+  const ProgramResult result = server.run({"export", "jobs/1", "-o", server.folder() / "a.txt"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.errors, HasSubstr("a.txt: not a format of this command; give -o a name that ends in .html"));
+}
+
 TEST(Export, AStreamThatBreaksOffLeavesNoFile) {
   Script script = script_with_page();
   script.cut_export = true;

@@ -92,7 +92,7 @@ TEST(Fetch, ACutDownloadGoesOnWhereItStopped) {
   script.cut_downloads = 1000;
   const FakeServer other(script);
   EXPECT_EQ(fetch(other, other.folder() / "run").exit_code, 4);
-  EXPECT_TRUE(fs::is_empty(other.folder() / "run"));
+  EXPECT_FALSE(fs::exists(other.folder() / "run"));
 }
 
 TEST(Fetch, AFullDiskLeavesTheFolderAsItWas) {
@@ -137,7 +137,7 @@ TEST(Fetch, RemovesTheFramesAndNodesThatItWroteForAnotherJob) {
   const FakeServer server(script);
   const ProgramResult result = fetch(server, folder);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_THAT(result.output, HasSubstr("frame_0000.csv  removed (from another job)\n"));
+  EXPECT_THAT(result.output, HasSubstr("frame_0000.csv  removed (of an earlier fetch)\n"));
   EXPECT_FALSE(fs::exists(folder / "frame_0000.csv"));
   EXPECT_FALSE(fs::exists(folder / "nodes.csv"));
   EXPECT_TRUE(fs::exists(folder / "frame_mine.csv"));
@@ -148,9 +148,35 @@ TEST(Fetch, AJobWithoutAResultIsRefused) {
   Script script = finished_script();
   script.result.clear();
   const FakeServer server(script);
-  const ProgramResult result = fetch(server, server.folder() / "run");
+  const ProgramResult result = fetch(server, server.folder() / "out" / "run");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.errors, HasSubstr("the job has no result yet"));
+  EXPECT_FALSE(fs::exists(server.folder() / "out")) << "no empty folder is left";
+}
+
+TEST(Fetch, AVtkSeriesReplacesAnEarlierLongerOne) {
+  Script script = finished_script();
+  for (std::size_t i = 0; i < script.stages.size(); ++i) script.stages[i].frame.set_index(static_cast<int>(i));
+  const FakeServer longer(script);
+  const fs::path folder = longer.folder() / "out";
+  ASSERT_EQ(fetch(longer, folder, {"--vtk"}).exit_code, 0);
+  fs::copy(folder / "frame_0003.vtp", folder / "mine.vtp");
+  ASSERT_EQ(fetch(longer, folder).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "frame_0003.vtp")) << "the series is still named";
+  script.stages.resize(2);
+  const FakeServer server(script);
+  const ProgramResult result = fetch(server, folder, {"--vtk"});
+  EXPECT_THAT(result.output, HasSubstr("frame_0003.vtp  removed"));
+  EXPECT_FALSE(fs::exists(folder / "frame_0002.vtp"));
+  EXPECT_TRUE(fs::exists(folder / "mine.vtp"));
+  ASSERT_EQ(fetch(server, folder, {"--vtu"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "frame_0000.vtp"));
+  script.job.mutable_case_()->set_depth_mm(7.0);
+  const FakeServer other(script);
+  const ProgramResult replaced = fetch(other, folder, {"--vtk", "--frame", "0"});
+  EXPECT_EQ(replaced.exit_code, 0) << replaced.errors;
+  EXPECT_FALSE(fs::exists(folder / "frame_0000.vtu"));
+  EXPECT_TRUE(fs::exists(folder / "frame_0000.vtp"));
 }
 
 TEST(Fetch, WritesTheWatchedNodesAndRigidWallsOfSamplesThatHaveAny) {
@@ -236,6 +262,11 @@ TEST(Movie, KeepsEveryFrameAsAPngOfOneSizeAndSaysWhatToDoWithoutFfmpeg) {
   for (const char* name : {"frame_00001.png", "frame_00002.png", "frame_00003.png"}) {
     EXPECT_EQ(text_of_file(folder / name).substr(16, 8), size) << name;
   }
+  script.stages.resize(2);
+  const FakeServer shorter(script);
+  ASSERT_EQ(shorter.run({"movie", "test", "--frames", folder}).exit_code, 0);
+  EXPECT_EQ(file_count(folder), 2);
+  EXPECT_THAT(shorter.run({"movie", "test", "-o", "a.avi"}).errors, HasSubstr("ends in .mp4, .webm or .gif"));
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder.c_str(), 1);
   const ProgramResult refused = server.run({"movie", "test", "-o", server.folder() / "a.mp4"});

@@ -65,6 +65,13 @@ TEST(Progress, APendingJobSaysThatItWaits) {
   EXPECT_EQ(progress_lines(view, 80, {}).front(), "waiting for a worker");
 }
 
+TEST(Progress, OfAJobThatHasSucceededIsWhole) {
+  JobView view;
+  view.apply(from_text<v1::JobEvent>("snapshot { job { name: 'jobs/a' state: SUCCEEDED } }"));
+  view.apply(from_text<v1::JobEvent>("progress { fraction: 0.99 }"));
+  EXPECT_EQ(view.progress().fraction(), 1.0);
+}
+
 TEST(Progress, SamplesAndStatesKeepWhatIsKnown) {
   JobView view = running_view();
   view.apply(from_text<v1::JobEvent>("sample { strain: 0.4 stress_impact_mpa: 5 }"));

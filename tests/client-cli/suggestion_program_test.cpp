@@ -87,6 +87,15 @@ TEST(Suggestion, OfAFieldToSetOrToVary) {
                      2,
                      place + "; did you mean \"speed_m_per_s\"?"}},
                    {"--server", server.address()});
+    for (const auto& [word, meant] : {std::pair("speed_m_per_s", "loading.speed_m_per_s"),
+                                      {"speed", "loading.speed_m_per_s"},
+                                      {"loading.wall_thickness_mm", "lattice.hexagon.wall_thickness_mm"},
+                                      {"yeld_stress_mpa", "material.yield_stress_mpa"}}) {
+      expect_answers({{{"sweep", "preset:type-i", "--over", "depth_mm=4,5", option, std::string(word) + "=50"},
+                       2,
+                       "; did you mean \"" + std::string(meant) + "\"?"}},
+                     {"--server", server.address()});
+    }
   }
 }
 
@@ -112,6 +121,19 @@ TEST(Suggestion, IsNotTheFileItselfThatCannotBeRead) {
   expect_answers({{{"list", "--token-file", server.folder()}, 2, server.folder().string() + ": is a folder"}},
                  {"--server", "127.0.0.1:1"});
   EXPECT_THAT(server.run({"check", loop}).errors, Not(HasSubstr("did you mean")));
+}
+
+TEST(Suggestion, OfTheFolderThatHasTheNameOfAJob) {
+  const FakeServer server(script_of_one_job());
+  const auto before = std::filesystem::current_path();
+  std::filesystem::create_directories(server.folder() / "jobs" / "88");
+  std::filesystem::create_directory(server.folder() / "12");
+  std::filesystem::current_path(server.folder());
+  expect_answers({{{"show", "12"}, 5, "To read the file or folder 12, name it ./12."},
+                  {{"fetch", "jobs/88", "-o", "x"}, 5, "name it ./jobs/88."},
+                  {{"table", "sweeps/5", "./12"}, 2, "sweeps/5 is a sweep on a server and ./12 a file"}},
+                 {"--server", server.address()});
+  std::filesystem::current_path(before);
 }
 
 TEST(Suggestion, NoArgumentsAtAllPrintTheHelp) {

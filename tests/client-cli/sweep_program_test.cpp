@@ -104,8 +104,19 @@ TEST(SweepWatch, EndsWithTheTableAndZeroWhenAllSucceeded) {
   EXPECT_EQ(result.output.find("sweeps/test\n"), 0U);
   expect_parts_in(result.output,
                   {"3 of 3 jobs ended", "speed  job", "jobs/test-3", "quadratic through the three points: 0.3"});
+  EXPECT_EQ(count_of(result.output, "  0.0 %"), 0) << "the states of ended jobs come first\n" << result.output;
   EXPECT_LE(count_of(result.output, "jobs ended"), 4) << "at most a line a second\n" << result.output;
   EXPECT_EQ(result.output.find('\x1b'), std::string::npos);
+}
+
+TEST(SweepWatch, OfAnEndedSweepIsOneLineAndItsTable) {
+  Script script = sweep_script(kThreeSucceed);
+  std::erase_if(script.sweeps.responses, [](const auto& response) { return !response.event().has_snapshot(); });
+  for (auto& response : script.sweeps.responses)
+    response.mutable_event()->mutable_snapshot()->mutable_job()->set_state(v1::Job::SUCCEEDED);
+  const FakeServer server(script);
+  const ProgramResult result = server.run({"watch", "sweeps/test"});
+  EXPECT_EQ(result.output.find("sweeps/test  100.0 %  3 of 3 jobs ended\n\nspeed"), 0U) << result.output;
 }
 
 TEST(SweepWatch, EndsWithOneWhenAJobFailedOrWasCancelled) {
@@ -153,12 +164,12 @@ TEST(SweepWatch, AStreamThatEndsBeforeItsJobsIsNotTakenForTheEnd) {
 }
 
 TEST(SweepWatch, CtrlCLeavesTheSweepRunningAndSaysSo) {
-  Script script = sweep_script(kThreeSucceed);
+  Script script = sweep_script({v1::Job::SUCCEEDED});
   script.sweeps.responses.resize(4);
   script.sweeps.hold = true;
   const FakeServer server(script);
   Program program({"watch", "sweeps/test", "--server", server.address()});
-  ASSERT_TRUE(program.wait_for_output("0 of 3 jobs ended"));
+  ASSERT_TRUE(program.wait_for_output("0 of 1 jobs ended"));
   program.interrupt();
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exit_code, 130);

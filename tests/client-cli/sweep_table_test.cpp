@@ -123,7 +123,7 @@ TEST(SweepTable, AsCsvOfMeansHasIntervalsAndCounts) {
   const auto lines = lines_of(sweep_table_csv(shown_table(make_averaged_table(), false)));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].find("loading.speed_m_per_s,jobs,succeeded,failed,plateau_stress_impact_mpa,"
-                          "plateau_stress_impact_mpa_interval,plateau_stress_impact_mpa_count,"),
+                          "plateau_stress_impact_mpa_ci95,plateau_stress_impact_mpa_count,"),
             0U);
   EXPECT_EQ(lines[1].find("0.30000000000000004,3,3,0,0.0341,0.0049,3,0.025,"), 0U) << lines[1];
   EXPECT_TRUE(lines[2].ends_with(",V,2")) << lines[2];

@@ -116,7 +116,7 @@ TEST_F(Run, ResumedItHasTheTimeLimitOfThatCommand) {
   const Outcome ended = run(command, kCrushLimit);
   EXPECT_EQ(ended.exit_code, 1) << ended.all();
   EXPECT_THAT(ended.output, HasSubstr("TIME_LIMIT"));
-  EXPECT_THAT(ended.output, HasSubstr("--time-limit"));
+  EXPECT_THAT(ended.output, ::testing::AllOf(HasSubstr("its time limit of 0.01 s"), HasSubstr("--time-limit")));
 }
 
 TEST_F(Run, WhoseDaemonDiesSaysHowToContinue) {

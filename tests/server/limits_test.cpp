@@ -105,7 +105,8 @@ TEST_F(LimitsTest, ASweepThatMaxFailuresStopsFreesItsPlacesAtOnce) {
 
 TEST_F(LimitsTest, ASweepWhoseLabelsWouldFillTheJournalIsRefused) {
   auto client = this->client();
-  auto request = sweep_of(small_case(), "plates.friction", std::vector<double>(10'000, 0.1));
+  auto request = sweep_of(small_case(), "plates.friction", {});
+  for (int i = 0; i < 10'000; ++i) request.mutable_sweep()->mutable_axes(0)->mutable_list()->add_values(1e-5 * i);
   for (int i = 0; i < 64; ++i)
     (*request.mutable_sweep()->mutable_labels())["key-" + std::to_string(i)] = std::string(255, 'x');
   request.set_validate_only(true);
@@ -261,8 +262,9 @@ TEST_F(TimeLimitTest, TheDaemonsLimitHoldsForThoseWithoutOneAndMoreIsRefused) {
   auto client = this->client();
   const std::string limited_by_daemon = create_limited(client, 0.0);
   ASSERT_TRUE(client.wait_for_state(limited_by_daemon, v1::Job::FAILED));
-  EXPECT_THAT(client.get(limited_by_daemon).cause_message(), HasSubstr("the daemon's time limit of"));
-  EXPECT_THAT(client.get(limited_by_daemon).remedy(), HasSubstr("--max-job-time"));
+  EXPECT_THAT(client.get(limited_by_daemon).cause_message(), HasSubstr("its time limit of"));
+  EXPECT_THAT(client.get(limited_by_daemon).remedy(),
+              ::testing::AllOf(HasSubstr("Start the daemon with --max-job-time"), HasSubstr("--time-limit")));
   const auto refused = client.try_to(limited(2.0));
   EXPECT_THAT(refused, Fails(grpc::StatusCode::INVALID_ARGUMENT, "time_limit_s"));
   EXPECT_THAT(refused.error_message(), HasSubstr("--max-job-time"));

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -85,10 +86,10 @@ TEST(SweepPoints, AGridHasEveryCombinationAndTheLastAxisChangesFastest) {
   v1::Sweep sweep;
   add_list(sweep, "a", {1.0, 2.0});
   auto& seeds = *sweep.add_axes();
-  seeds.set_field("s");
+  seeds.set_field("lattice.imperfection.seed");
   seeds.set_seed_count(3);
   const auto points = expand(sweep);
-  EXPECT_THAT(points.fields, ElementsAre("a", "s"));
+  EXPECT_THAT(points.fields, ElementsAre("a", "lattice.imperfection.seed"));
   EXPECT_EQ(points.values, (Values{{1, 1}, {1, 2}, {1, 3}, {2, 1}, {2, 2}, {2, 3}}));
 }
 
@@ -132,12 +133,34 @@ TEST(SweepPoints, WhatCannotBeASweepIsRefusedByField) {
         {"axes { field: 'a' linear { count: 100001 } }", "sweep.axes[0].linear.count"},
         {"axes { field: 'a' linear { count: 2 last: inf } }", "sweep.axes[0].linear"},
         {"axes { field: 'a' logarithmic { count: 2 } }", "sweep.axes[0].logarithmic"},
-        {"axes { field: 'a' seed_count: -1 }", "sweep.axes[0].seed_count"},
-        {"axes { field: 'a' seed_count: 1000 } axes { field: 'a' list { values: 1 } }", "sweep.axes[1].field"},
-        {"axes { field: 'a' seed_count: 1000 } axes { field: 'b' seed_count: 101 }", "sweep.axes"}})
+        {"axes { field: 'lattice.imperfection.seed' seed_count: -1 }", "sweep.axes[0].seed_count"},
+        {"axes { field: 'loading.speed_m_per_s' seed_count: 3 }", "sweep.axes[0].seed_count"},
+        {"axes { field: 'a' list { values: [10, 20, 10] } }", "sweep.axes[0]"},
+        {"axes { field: 'a' linear { first: 5 last: 5 count: 2 } }", "sweep.axes[0]"},
+        {"axes { field: 'a' list { values: [1, 1, 1] } } axes { field: 'b' list { values: [2, 3, 2] } with_previous: "
+         "true }",
+         "sweep.axes[0]"},
+        {"points { fields { key: 'a' value: 1 } } points { fields { key: 'a' value: 1 } }", "sweep.points[1].fields"},
+        {"axes { field: 'a' list { values: 2 } } axes { field: 'a' list { values: 1 } }", "sweep.axes[1].field"},
+        {"axes { field: 'lattice.imperfection.seed' seed_count: 1000 }"
+         "axes { field: 'b' linear { last: 1 count: 101 } }",
+         "sweep.axes"}})
     EXPECT_EQ(refused_field(over(axes)), field) << axes;
-  EXPECT_EQ(expand(over("axes { field: 'a' seed_count: 1000 } axes { field: 'b' seed_count: 100 }")).values.size(),
+  EXPECT_EQ(expand(over("axes { field: 'lattice.imperfection.seed' seed_count: 1000 }"
+                        "axes { field: 'b' linear { last: 1 count: 100 } }"))
+                .values.size(),
             kMostPoints);
+}
+
+TEST(SweepPoints, AValueGivenTwiceIsNamed) {
+  try {
+    expand(
+        over("axes { field: 'depth_mm' list { values: [1, 2, 3] } }"
+             "axes { field: 'loading.speed_m_per_s' list { values: [10, 20, 10] } }"));
+    ADD_FAILURE();
+  } catch (const InvalidField& refused) {
+    EXPECT_THAT(refused.message(), HasSubstr("has loading.speed_m_per_s = 10 twice, at the places 1 and 3"));
+  }
 }
 
 TEST(SweepPoints, AxesThatAdvanceTogetherListPointsAndCombineWithTheOthers) {
@@ -157,7 +180,9 @@ TEST(SweepPoints, AxesThatAdvanceTogetherListPointsAndCombineWithTheOthers) {
 TEST(SweepPoints, AHundredThousandExplicitPointsOfThreeFieldsFitInOneMessage) {
   v1::Sweep sweep;
   for (const char* field : {"loading.speed_m_per_s", "plates.friction", "lattice.hexagon.wall_thickness_mm"}) {
-    auto& axis = add_list(sweep, field, std::vector<double>(kMostPoints, 1.0 / 3.0));
+    std::vector<double> values(kMostPoints);
+    std::iota(values.begin(), values.end(), 1.0 / 3.0);
+    auto& axis = add_list(sweep, field, values);
     axis.set_with_previous(sweep.axes_size() > 1);
   }
   EXPECT_EQ(expand(sweep).values.size(), kMostPoints);

@@ -70,7 +70,9 @@ TEST_F(HttpDownloadTest, ErrorsAreTextWithTheirStatus) {
   EXPECT_THAT(get("/jobs/99/history.csv"), AllOf(StartsWith("HTTP/1.1 404"), HasSubstr("text/plain")));
   EXPECT_THAT(get("/jobs/99/result.h5"), StartsWith("HTTP/1.1 404"));
   EXPECT_THAT(get("/sweeps/99.csv"), StartsWith("HTTP/1.1 404"));
-  EXPECT_THAT(get("/jobs/1/other.csv"), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(get("/jobs/1/other.csv"),
+              AllOf(StartsWith("HTTP/1.1 404"), HasSubstr("text/plain"), HasSubstr("/jobs/NUMBER/history.csv")));
+  EXPECT_THAT(get("/jobs/1/result.h5?each=1"), AllOf(StartsWith("HTTP/1.1 400"), HasSubstr("\"each=1\" is not valid")));
   EXPECT_THAT(get("/jobs/x/history.csv"), StartsWith("HTTP/1.1 404"));
   EXPECT_THAT(get("/jobs/1/history.csv?decimal=semicolon"),
               AllOf(StartsWith("HTTP/1.1 400"), HasSubstr("decimal=comma or decimal=point")));
@@ -80,7 +82,7 @@ TEST_F(HttpDownloadTest, ErrorsAreTextWithTheirStatus) {
 
 TEST_F(HttpDownloadTest, TokensAreAskedForAsForCalls) {
   start(with_tokens(http_options()));
-  EXPECT_THAT(get("/jobs/1/history.csv"), StartsWith("HTTP/1.1 401"));
+  EXPECT_THAT(get("/jobs/1/history.csv"), AllOf(StartsWith("HTTP/1.1 401"), HasSubstr("Authorization: Bearer TOKEN")));
   EXPECT_THAT(get("/jobs/1/history.csv", token_of("reader")), StartsWith("HTTP/1.1 404"));
 }
 
