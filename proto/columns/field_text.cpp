@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::string meaning_of(const google::protobuf::FieldDescriptor& field) {
   return text;
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush
