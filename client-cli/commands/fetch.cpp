@@ -88,7 +88,7 @@ grpc::Status download_from(Connection& connection, v1::DownloadResultRequest& re
     return true;
   };
   const v1::DownloadResultRequest from = request;
-  const grpc::Status status =
+  grpc::Status status =
       connection.read(connection.jobs(), &v1::Jobs::Stub::DownloadResult, from, std::chrono::minutes(10), take);
   if (is_whole) return status;
   return {grpc::StatusCode::DATA_LOSS, fmt::format("bytes are missing from offset {}", request.offset())};

@@ -73,6 +73,7 @@ std::string render_jobs(Connection& connection, PictureFormat format, const std:
     return render_stages_picture(format, fetch_stages(connection, first.name, options), options.print);
   }
   std::vector<JobHistory> histories;
+  histories.reserve(jobs.size());
   for (const NamedJob& job : jobs) histories.push_back(fetch_drawable_history(connection, job));
   if (histories.size() > 1) return render_comparison_picture(format, histories, options.print);
   const std::vector<MeshFrame> stages = fetch_stages(connection, first.name, options);

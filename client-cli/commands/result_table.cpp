@@ -24,6 +24,7 @@ ResultTable tabulate_results(Session& session, const std::vector<std::string>& f
   std::vector<v1::Job> jobs;
   for (const std::string& name : session.find_jobs(files)) jobs.push_back(fetch_job(session.connection(), name));
   std::vector<const v1::Case*> cases;
+  cases.reserve(jobs.size());
   for (const v1::Job& job : jobs) cases.push_back(&job.case_());
   ResultTable out;
   v1::SweepTable& table = out.table;

@@ -1,5 +1,6 @@
 #include "help/case_manual.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
 #include <sstream>
@@ -37,6 +38,7 @@ std::string type_of(const FieldDescriptor& field) {
 
 std::vector<std::pair<std::string, std::string>> list_fields(const Descriptor& type) {
   std::vector<std::pair<std::string, std::string>> fields;
+  fields.reserve(static_cast<std::size_t>(type.field_count()));
   for (int i = 0; i < type.field_count(); ++i) {
     fields.emplace_back(type.field(i)->name(), first_sentence(comment_of(*type.field(i))));
   }
@@ -55,7 +57,7 @@ const FieldDescriptor& find_field_at(const std::string& path) {
   std::istringstream names(path);
   for (std::string name; std::getline(names, name, '.');) {
     if (type == nullptr) {
-      refuse(path + ": \"" + field->name() + "\" is a single value and has no field \"" + name + "\"");
+      refuse(fmt::format("{}: \"{}\" is a single value and has no field \"{}\"", path, field->name(), name));
     }
     field = &find_in(*type, name.substr(0, name.find('[')), path);
     type = field->message_type();

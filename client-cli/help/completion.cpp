@@ -265,7 +265,7 @@ end
                         with_backslashes(command->get_description(), "\\'"));
     ArgumentWords known = argument_words(*command);
     for (std::string& word : known.words) {
-      if (word.ends_with('/')) word = "(__cellcrush_names " + word + ")";
+      if (word.ends_with('/')) word = fmt::format("(__cellcrush_names {})", word);
     }
     if (!known.words.empty())
       text +=

@@ -121,7 +121,7 @@ void trace_level(cairo_t* context, const std::array<std::pair<double, double>, 4
   }
   const double middle = 0.25 * (stress[0] + stress[1] + stress[2] + stress[3]);
   if (crossings.size() == 4 && (middle < level) != (stress[0] < level)) {
-    std::ranges::rotate(crossings, crossings.begin() + 1);
+    std::rotate(crossings.begin(), crossings.begin() + 1, crossings.end());
   }
   for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
     cairo_move_to(context, crossings[i].first, crossings[i].second);

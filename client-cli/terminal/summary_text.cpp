@@ -135,7 +135,6 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
 
 }  // namespace
 
-
 std::string summary_text(const v1::Job& job, int width) {
   const v1::Summary& summary = job.summary();
   const bool plates = job.words().plates();

@@ -31,8 +31,8 @@ struct OwnNumber {
 /// case.proto. Where a function gets a spec, it is one of a lattice of this kind; all but `check` REQUIRE a checked
 /// one.
 struct LatticeKind {
-  std::string_view name;    ///< of the field of the case: lattice.NAME
-  std::string_view plural;  ///< in sentences
+  std::string_view name;        ///< of the field of the case: lattice.NAME
+  std::string_view plural;      ///< in sentences
   double walls_per_cell = 0.0;  ///< of a large lattice; the walls along its edges are additional
   /// Whether walls lie along the crush and are stacked, in either direction. Their contacts then limit the step.
   bool has_walls_along_crush = false;

@@ -15,7 +15,6 @@
 namespace cellcrush::http {
 namespace {
 
-using client::Decimal;
 using google::protobuf::Message;
 
 constexpr const char* kCsv = "text/csv; charset=utf-8";
@@ -49,7 +48,7 @@ class HistoryDownload final : public Download {
   void ask(Message& request) const override { request.CopyFrom(next_); }
   void write(const Message& answer, std::string& to) override {
     const auto& page = static_cast<const v1::GetHistoryResponse&>(answer);
-    to += client::history_csv(page.samples(), decimal_, next_.page_token().empty());
+    to += history_csv(page.samples(), decimal_, next_.page_token().empty());
     next_.set_page_token(page.next_page_token());
   }
   [[nodiscard]] bool has_more() const override { return !next_.page_token().empty(); }
@@ -82,10 +81,10 @@ class SweepDownload final : public Download {
     next_.set_page_token(page.next_page_token());
     if (!next_.page_token().empty()) return;
     // After the rows of the jobs, the means over their seeds, if they vary.
-    const bool seeds = std::ranges::find(table_.fields(), client::kSeedField) != table_.fields().end();
+    const bool seeds = std::ranges::find(table_.fields(), kSeedField) != table_.fields().end();
     has_more_ = seeds && !form_.each && !next_.mean_over_seeds();
     next_.set_mean_over_seeds(has_more_);
-    if (!has_more_) to += client::sweep_table_csv(client::shown_table(table_, form_.each), form_.decimal);
+    if (!has_more_) to += sweep_table_csv(shown_table(table_, form_.each), form_.decimal);
   }
   [[nodiscard]] bool has_more() const override { return has_more_; }
 
@@ -103,7 +102,7 @@ CsvForm read_form(std::string_view query, bool is_sweep) {
     const std::string_view part = query.substr(0, query.find('&'));
     query.remove_prefix(std::min(query.size(), part.size() + 1));
     if (part == "decimal=comma" || part == "decimal=point") {
-      out.decimal = client::decimal_of(part == "decimal=comma");
+      out.decimal = decimal_of(part == "decimal=comma");
     } else if (is_sweep && (part == "each=0" || part == "each=1")) {
       out.each = part == "each=1";
     } else {

@@ -94,7 +94,7 @@ void ResultWriter::make_columns(const v1::Sample& sample) {
   for (std::size_t i = columns_.size(); i < columns.size(); ++i) {
     const HistoryColumn& column = columns[i];
     auto dataset = make_growing_dataset(file_.id(), column.path, column.type(), {}, {kHistoryChunkRows});
-    describe(dataset.id(), client::unit_of(column.field->name()), client::meaning_of(*column.field));
+    describe(dataset.id(), unit_of(column.field->name()), meaning_of(*column.field));
     if (i == 0) {
       make_scale(dataset.id(), "time_s");
     } else if (i < kMostScaled) {

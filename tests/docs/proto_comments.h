@@ -19,7 +19,7 @@ const google::protobuf::FileDescriptor& find_proto(const std::string& name);
 template <typename Declaration>
 std::string comment_above(const Declaration& declaration) {
   google::protobuf::SourceLocation location;
-  return declaration.GetSourceLocation(&location) ? client::join_comment(location.leading_comments) : std::string();
+  return declaration.GetSourceLocation(&location) ? join_comment(location.leading_comments) : std::string();
 }
 
 /// Name of a message or enum without the package: "Lattice.Hexagon".

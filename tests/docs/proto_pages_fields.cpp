@@ -69,7 +69,7 @@ std::string row_of(const pb::FieldDescriptor& field, const std::vector<Group>& g
   const std::string limits = field.real_containing_oneof() != nullptr
                                  ? "one of `" + field.real_containing_oneof()->name() + "`"
                                  : client::limits_of(field);
-  return "| `" + field.name() + "` | " + type_of(field, groups) + " | " + client::unit_of(field.name()) + " | " +
+  return "| `" + field.name() + "` | " + type_of(field, groups) + " | " + unit_of(field.name()) + " | " +
          cell(own.empty() && field.message_type() == nullptr ? "none" : own) + " | " + cell(limits) + " | " +
          cell(comment_above(field)) + " |\n";
 }
@@ -106,7 +106,7 @@ void list_limits(const pb::Descriptor& type, const std::string& path, std::map<s
     const bool is_number = field.cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE ||
                            field.cpp_type() == pb::FieldDescriptor::CPPTYPE_INT32;
     if (!is_number || field.is_repeated() || !rules.has_minimum() || !rules.has_maximum()) continue;
-    const std::string unit = rules.counts().empty() ? client::unit_of(field.name()) : rules.counts();
+    const std::string unit = rules.counts().empty() ? unit_of(field.name()) : rules.counts();
     lines[at] = fmt::format("{{\"{}\", {{{}, {}, {}}}, \"{}{}\"}},\n", at, rules.minimum(), rules.maximum(),
                             rules.below(), unit.empty() ? "" : " ", unit);
   }

@@ -83,6 +83,7 @@ TEST_F(PlantedTree, WhatAFolderMayNotIncludeIsFound) {
       {"core/include/cellcrush/bad.h", "\"step/advance.h\"", "core/include takes only"},
       {"server/worker/bad.cpp", "\"step/advance.h\"", "server includes no header of core but"},
       {"server/worker/bad.cpp", "\"connection/pages.h\"", "server includes no header of client-cli but"},
+      {"proto/columns/bad.cpp", "\"connection/pages.h\"", "proto includes nothing outside proto"},
       {"client-cli/bad.cpp", "<cellcrush/scene.h>", "client-cli includes no header of core or server"},
       {"client-cli/bad.cpp", "\"store/journal.h\"", "client-cli includes no header of core or server"},
       {"server/worker/bad.cpp", "\"cellcrush/scene.h\"\n#include \"cellcrush/v1/case.pb.h\"",

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "measure/crush_mode.h"
-#include "measure/crush_mode.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/presets.h"

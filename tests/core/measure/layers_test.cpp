@@ -1,10 +1,11 @@
+#include "measure/layers.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "measure/crush_mode.h"
-#include "measure/layers.h"
 #include "measure/theory.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"

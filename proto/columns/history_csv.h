@@ -7,7 +7,7 @@
 #include "cellcrush/v1/sample.pb.h"
 #include "columns/csv_text.h"
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 using Samples = google::protobuf::RepeatedPtrField<v1::Sample>;
 
@@ -24,4 +24,4 @@ std::string rigid_walls_csv(const Samples& samples, Decimal decimal = Decimal::p
 /// A frame as CSV, one line per element: its ends, thickness and plastic fraction. REQUIRES: plain numbers.
 std::string frame_csv(const v1::Mesh& mesh, const v1::FieldFrame& frame, Decimal decimal = Decimal::point);
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 namespace {
 
@@ -59,7 +59,7 @@ std::string join_comment(const std::string& lines) {
 }
 
 const google::protobuf::DescriptorPool& commented_protos() {
-  static const google::protobuf::DescriptorPool* const pool = [] {
+  static const google::protobuf::DescriptorPool* const kPool = [] {
     google::protobuf::FileDescriptorSet files;
     const std::string_view bytes = proto_descriptors();
     if (!files.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
@@ -68,7 +68,7 @@ const google::protobuf::DescriptorPool& commented_protos() {
     for (const auto& file : files.file()) built->BuildFile(file);
     return built;
   }();
-  return *pool;
+  return *kPool;
 }
 
 std::string meaning_of(const google::protobuf::FieldDescriptor& field) {
@@ -79,4 +79,4 @@ std::string meaning_of(const google::protobuf::FieldDescriptor& field) {
   return text;
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

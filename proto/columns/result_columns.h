@@ -8,7 +8,7 @@
 
 #include "cellcrush/v1/sweep.pb.h"
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 /// The field over which means are taken.
 inline constexpr std::string_view kSeedField = "lattice.imperfection.seed";
@@ -43,4 +43,4 @@ std::optional<double> result_of(const v1::SweepTable& table, int row, const Resu
 /// "V" of CRUSH_MODE_V; empty if unspecified.
 std::string crush_mode_code(v1::Summary::CrushMode mode);
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

@@ -5,7 +5,7 @@ string(REPEAT "." 80 line)
 string(REGEX REPLACE "(${line})" "\\1\n  " bytes "${bytes}")
 file(WRITE ${OUTPUT} "#include \"${HEADER}\"
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 std::string_view ${FUNCTION}() {
   static constexpr unsigned char kBytes[] = {
@@ -14,5 +14,5 @@ std::string_view ${FUNCTION}() {
   return {reinterpret_cast<const char*>(kBytes), sizeof(kBytes)};
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush
 ")

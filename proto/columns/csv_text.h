@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 /// How a table's numbers are written: 3.41 between commas, or 3,41 between semicolons, which spreadsheets of many
 /// languages expect.
@@ -44,4 +44,4 @@ class CsvText {
   bool in_row_ = false;
 };
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 namespace {
 
@@ -141,4 +141,4 @@ std::string crush_mode_code(v1::Summary::CrushMode mode) {
   return name.substr(kPrefix.size());
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

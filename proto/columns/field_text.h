@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 /// What a field is in: the unit at the end of its name, such as m/s for "_m_per_s" of "speed_m_per_s"; empty if there
 /// is none.
@@ -35,4 +35,4 @@ std::string meaning_of(const google::protobuf::FieldDescriptor& field);
 /// The files of commented_protos(), compiled by protoc at build time: a serialized google.protobuf.FileDescriptorSet.
 std::string_view proto_descriptors();
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 void CsvText::begin_cell() {
   if (in_row_) text_ += decimal_ == Decimal::comma ? ';' : ',';
@@ -43,4 +43,4 @@ void CsvText::end_row() {
   in_row_ = false;
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 namespace {
 
@@ -110,4 +110,4 @@ std::string frame_csv(const v1::Mesh& mesh, const v1::FieldFrame& frame, Decimal
   return text.take();
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush

@@ -5,7 +5,7 @@
 
 #include "columns/result_columns.h"
 
-namespace cellcrush::client {
+namespace cellcrush {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::string sweep_table_csv(const v1::SweepTable& table, Decimal decimal) {
   return text.take();
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush
