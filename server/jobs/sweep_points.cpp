@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <set>
 
@@ -106,9 +105,8 @@ void append(Points& steps, const std::vector<double>& values, const std::string&
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i].push_back(values[i]);
 }
 
-// Equal points of these fields would be the same job twice. `name_of` says what the point at an index is called.
-void check_distinct(const Points& points, const std::vector<std::string>& fields,
-                    const std::function<std::string(std::size_t)>& name_of) {
+// Equal steps of an axis would be the same jobs twice.
+void check_distinct(const Points& points, const std::vector<std::string>& fields, const std::string& axis) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < points.size(); ++i) {
     // A number that is not finite is refused with its field.
@@ -122,7 +120,7 @@ void check_distinct(const Points& points, const std::vector<std::string>& fields
   std::string values;
   for (std::size_t i = 0; i < fields.size(); ++i)
     values += (i == 0 ? "" : ", ") + fields[i] + " = " + text_of(points[second][i]);
-  throw InvalidField(name_of(second),
+  throw InvalidField(axis,
                      "has " + values + " twice, at the places " + std::to_string(*first + 1) + " and " +
                          std::to_string(second + 1) + ".",
                      "Give each value once; equal cases have equal results.");
@@ -158,7 +156,7 @@ Points grid(const v1::Sweep& sweep) {
       append(steps, values_of(sweep.axes(i), axis_field(i)), axis_field(i));
       fields.push_back(sweep.axes(i).field());
     }
-    check_distinct(steps, fields, [&name](std::size_t) { return name; });
+    check_distinct(steps, fields, name);
     points = combinations(points, steps);
   }
   return points;
@@ -179,7 +177,6 @@ std::vector<std::vector<double>> listed(const v1::Sweep& sweep, const std::vecto
                          "Give every point values for the same fields, at least one.");
     }
   }
-  check_distinct(out, fields, [](std::size_t i) { return "sweep.points[" + std::to_string(i) + "].fields"; });
   return out;
 }
 

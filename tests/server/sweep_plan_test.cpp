@@ -140,7 +140,6 @@ TEST(SweepPoints, WhatCannotBeASweepIsRefusedByField) {
         {"axes { field: 'a' list { values: [1, 1, 1] } } axes { field: 'b' list { values: [2, 3, 2] } with_previous: "
          "true }",
          "sweep.axes[0]"},
-        {"points { fields { key: 'a' value: 1 } } points { fields { key: 'a' value: 1 } }", "sweep.points[1].fields"},
         {"axes { field: 'a' list { values: 2 } } axes { field: 'a' list { values: 1 } }", "sweep.axes[1].field"},
         {"axes { field: 'lattice.imperfection.seed' seed_count: 1000 }"
          "axes { field: 'b' linear { last: 1 count: 101 } }",

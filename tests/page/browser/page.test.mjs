@@ -155,7 +155,7 @@ test('a note from the form is edited by keyboard, and no other caller is overwri
   await page.getByText('succeeded').first().waitFor();
   await page.getByRole('button', { name: 'Edit the note' }).press('Enter');
   await page.getByLabel('Note').fill('x'.repeat(2001));
-  assert.deepEqual(await seriousFindings(page), []);
+  assert.deepEqual(await axeFindings(page), []);
   await page.keyboard.press('Control+Enter');
   await page.getByText('job.note has 2001 bytes. Use at most 2000.').waitFor();
   await page.getByLabel('Note').fill('buckled left');
