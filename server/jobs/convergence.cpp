@@ -52,6 +52,7 @@ std::vector<MeshEstimate> estimates_of(const Measure& measure, const std::vector
       results[elements].values.push_back(*value);
   }
   std::vector<MeshResult> list;
+  list.reserve(results.size());
   for (auto& [elements, result] : results) list.push_back(std::move(result));
   return estimate_mesh_errors(std::move(list));
 }

@@ -276,8 +276,7 @@ void Queues::cancel_waiting(const std::vector<std::int64_t>& jobs) {
     // Those that could not be cancelled wait as before.
     std::map<std::string, std::vector<store::QueuedJob>> left;
     for (const std::int64_t job : jobs) {
-      if (auto queued = parts_.reader.queued_job(job, v1::Job::PENDING))
-        left[queued->executor].push_back(*std::move(queued));
+      if (auto queued = parts_.reader.queued_job(job, v1::Job::PENDING)) left[queued->executor].push_back(*queued);
     }
     for (auto& [executor, waiting] : left) {
       if (Queue* queue = find(executor)) queue->scheduler.requeue(waiting);

@@ -42,6 +42,7 @@ int start_process(std::vector<std::string> command, const std::vector<int>& bloc
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (auto& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const int error = posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 #include <spdlog/spdlog.h>
 
@@ -133,7 +134,7 @@ class AdminCalls {
       if (place.empty()) {
         jobs.waiting.push_back(std::move(job));
       } else {
-        add_entry(job, executor + " has it: " + place + ".", out);
+        add_entry(job, fmt::format("{} has it: {}.", executor, place), out);
         jobs.running.push_back(running_job(job, v1::Job::PENDING));
       }
     }

@@ -4,6 +4,7 @@
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_join.h>
 #include <absl/strings/str_split.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
@@ -46,7 +47,7 @@ void check_name(const std::string& name) {
 using Setter = std::function<void(ClusterOptions&, const std::string& key, const std::string& value)>;
 
 const std::map<std::string, Setter>& setters() {
-  static const std::map<std::string, Setter> out = {
+  static const std::map<std::string, Setter> kSetters = {
       {"folder", [](auto& to, const auto& key, const auto& value) { to.folder = absolute_path(key, value); }},
       {"program", [](auto& to, const auto& key, const auto& value) { to.program = absolute_path(key, value); }},
       {"commands", [](auto& to, const auto& key, const auto& value) { to.commands = absolute_path(key, value); }},
@@ -56,7 +57,7 @@ const std::map<std::string, Setter>& setters() {
          for (const char* own :
               {"--array", "--clusters", "--job-name", "--output", "--test-only", "--wait", "--wrap"}) {
            if (value.rfind(own, 0) == 0)
-             refuse(key + " is '" + value + "'; the daemon itself decides about " + own + ".");
+             refuse(fmt::format("{} is '{}'; the daemon itself decides about {}.", key, value, own));
          }
          if (value.rfind("--", 0) != 0)
            refuse(key + " is '" + value + "'; it must be a long option of sbatch, such as --partition=short.");
@@ -73,7 +74,7 @@ const std::map<std::string, Setter>& setters() {
          to.longest = std::chrono::seconds(whole_number(key, value, 60, 100'000'000));
        }},
   };
-  return out;
+  return kSetters;
 }
 
 }  // namespace

@@ -225,7 +225,7 @@ std::optional<TaskReport> parse_sacct_line(const std::string& line) {
 }
 
 Meaning meaning_of(const std::string& state) {
-  static const std::map<std::string, Meaning> known = {
+  static const std::map<std::string, Meaning> kKnown = {
       {"PENDING", Meaning::waits},           {"CONFIGURING", Meaning::waits},
       {"REQUEUED", Meaning::waits},          {"REQUEUE_HOLD", Meaning::waits},
       {"REQUEUE_FED", Meaning::waits},       {"RESV_DEL_HOLD", Meaning::waits},
@@ -240,8 +240,8 @@ Meaning meaning_of(const std::string& state) {
       {"BOOT_FAIL", Meaning::displaced},     {"LAUNCH_FAILED", Meaning::displaced},
       {"RECONFIG_FAIL", Meaning::displaced}, {"OUT_OF_MEMORY", Meaning::no_memory},
   };
-  const auto found = known.find(state);
-  return found == known.end() ? Meaning::unknown : found->second;
+  const auto found = kKnown.find(state);
+  return found == kKnown.end() ? Meaning::unknown : found->second;
 }
 
 }  // namespace cellcrush::slurm

@@ -1,5 +1,6 @@
 #include "store/result_layout.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/message.h>
 
 #include <cmath>
@@ -84,7 +85,8 @@ void add_part_columns(const std::string& group, int owner_number, const v1::Samp
   for (int part = 0; part < reflection.FieldSize(sample, owner); ++part) {
     const Message& message = reflection.GetRepeatedMessage(sample, owner, part);
     const std::string id = message.GetReflection()->GetString(message, message.GetDescriptor()->field(0));
-    add_columns(group + "/" + id + "/", *owner->message_type(), FieldDescriptor::CPPTYPE_DOUBLE, owner, part, out);
+    add_columns(fmt::format("{}/{}/", group, id), *owner->message_type(), FieldDescriptor::CPPTYPE_DOUBLE, owner, part,
+                out);
   }
 }
 

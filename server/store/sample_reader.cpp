@@ -126,7 +126,7 @@ std::shared_ptr<const SampleReader::Block> SampleReader::block_of(const ResultRe
     const auto found = std::ranges::find_if(blocks_, is_it);
     if (found != blocks_.end()) return *found;
   }
-  const auto out =
+  auto out =
       std::make_shared<const Block>(Block{file.value_or(FileIdentity{}), first, result.history(first, kBlockSamples)});
   const auto bytes = std::transform_reduce(out->samples.begin(), out->samples.end(), std::size_t{0}, std::plus<>(),
                                            [](const v1::Sample& sample) { return sample.ByteSizeLong(); });

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <system_error>
@@ -292,8 +293,9 @@ void expect_shown(const std::string& path, Reader reader, const std::map<std::st
     ASSERT_NE(step, steps.end()) << path << " has no command with " << words;
     step->command.replace(step->command.find(words), words.size(), typed);
   }
-  for (auto command = before.rbegin(); command != before.rend(); ++command)
-    steps.insert(steps.begin(), Step{0, *command, {}});
+  std::transform(before.begin(), before.end(), std::inserter(steps, steps.begin()), [](const std::string& command) {
+    return Step{0, command, {}};
+  });
   fs::create_directory_symlink(CELLCRUSH_SOURCE_ROOT, home / "cellcrush");
   const std::vector<StepOutcome> outcomes = run_session(steps, home, home / ".local/bin", kSessionLimit, reader);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {

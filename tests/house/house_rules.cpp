@@ -72,7 +72,7 @@ std::vector<Violation> FolderArrows::find_cycles() const {
     }
     named.insert(way.begin(), way.end());
     const auto& [file, line] = *arrows_.at(way[0]).at(way[1]).begin();
-    violations.push_back({file, line, rule + ", by" + lines});
+    violations.push_back({file, line, rule.append(", by").append(lines)});
   }
   return violations;
 }
