@@ -81,7 +81,7 @@ class JsonFormatter final : public spdlog::formatter {
   [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return make_json_formatter(); }
 };
 
-// spdlog's default form. A message may contain a caller's text, which must not look like a line of the daemon.
+// The local time with its zone, the program, the level. A message may contain a caller's text, which must not look like a line of the daemon.
 class TextFormatter final : public spdlog::formatter {
  public:
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
@@ -99,7 +99,7 @@ class TextFormatter final : public spdlog::formatter {
   [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return make_text_formatter(); }
 
  private:
-  spdlog::pattern_formatter form_;
+  spdlog::pattern_formatter form_{"[%Y-%m-%d %H:%M:%S.%e %z] [%n] [%^%l%$] %v"};
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 // cellcrushd: parses flags, serves until a signal asks it to end. Exit codes: 0 ended in order, 1 could not start, 2
 // usage.
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "access/token_file.h"
@@ -20,6 +20,7 @@
 #include "command_line/store_commands.h"
 #include "daemon.h"
 #include "log_format.h"
+#include "log_writer.h"
 #include "revision.h"
 #include "slurm/task.h"
 #include "usage/help_formatter.h"
@@ -31,7 +32,7 @@ namespace {
 
 constexpr const char* kFooter =
     "SIGTERM and SIGINT stop the daemon: running jobs are checkpointed, and the next daemon resumes them.\n"
-    "SIGHUP reloads certificates and tokens.\n"
+    "SIGHUP reloads certificates and tokens, and opens the log file again.\n"
     "Exit codes: 0 stopped by a signal, or the command is done; 1 failed; 2 usage error.\n"
     "Environment: CELLCRUSH_SIMD names the SIMD kernel to use instead of the fastest one.";
 
@@ -82,13 +83,31 @@ int print_token(const std::string& name, const std::string& scope) {
   }
 }
 
-int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
+std::shared_ptr<cellcrush::LogWriter> open_log(const std::filesystem::path& file) {
+  try {
+    return std::make_shared<cellcrush::LogWriter>(file);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cellcrushd: --log-file: %s\n", error.what());
+    return nullptr;
+  }
+}
+
+void read_files_again(cellcrush::Daemon& daemon, cellcrush::LogWriter& log) {
+  try {
+    log.reopen();
+  } catch (const std::exception& error) {
+    spdlog::error("The log stays in the file that is open: {}", error.what());
+  }
+  daemon.read_files_again();
+}
+
+int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals, cellcrush::LogWriter& log) {
   try {
     cellcrush::Daemon daemon(options);
     for (const auto& address : daemon.addresses()) std::printf("cellcrushd is listening on %s\n", address.c_str());
     std::fflush(stdout);
     int received = 0;
-    while (sigwait(&signals, &received) == 0 && received == SIGHUP) daemon.read_files_again();
+    while (sigwait(&signals, &received) == 0 && received == SIGHUP) read_files_again(daemon, log);
     spdlog::info("stopping on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
     daemon.stop();
     return 0;
@@ -154,7 +173,9 @@ int main(int argc, char** argv) {
   umask(0077);
   if (worker->parsed()) cellcrush::worker::worker_main(job_folder, parent);
   cellcrush::DaemonOptions options = flags.options();
-  spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
+  const auto log = open_log(flags.log_file());
+  if (!log) return 1;
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("cellcrushd", log));
   spdlog::set_formatter(flags.log_format() == "json" ? cellcrush::make_json_formatter()
                                                      : cellcrush::make_text_formatter());
   if (task->parsed()) {
@@ -168,5 +189,5 @@ int main(int argc, char** argv) {
   }
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   const sigset_t signals = block_signals();
-  return serve(options, signals);
+  return serve(options, signals, *log);
 }

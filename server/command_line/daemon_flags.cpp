@@ -107,6 +107,9 @@ DaemonFlags::DaemonFlags(CLI::App& app) {
   begin_group("Options");
   app.add_option("--log-format", log_format_, "Log format: text, or json with one object per line (default: text)")
       ->check(CLI::IsMember({"text", "json"}));
+  app.add_option("--log-file", log_file_,
+                 "File to which the log is appended; SIGHUP opens it again by its name (default: standard error)")
+      ->type_name("FILE");
   app.config_formatter(std::make_shared<CheckedConfig>(app));
   app.set_config("--config", "",
                  "TOML file of options, one per line, by their long names without the leading dashes, such as "

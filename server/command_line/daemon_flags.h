@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ class DaemonFlags {
 
   /// "text" or "json".
   [[nodiscard]] const std::string& log_format() const { return log_format_; }
+  /// Empty: stderr.
+  [[nodiscard]] const std::filesystem::path& log_file() const { return log_file_; }
 
  private:
   void add_addresses(CLI::App& app);
@@ -35,6 +38,7 @@ class DaemonFlags {
   std::vector<std::string> clusters_;
   std::string certificate_scope_ = "submit";
   std::string log_format_ = "text";
+  std::filesystem::path log_file_;
   std::int64_t call_memory_mib_ = 256;
   std::int64_t memory_mib_ = 0;
   std::int64_t free_mib_ = 256;

@@ -1,5 +1,6 @@
 #include "metrics/metrics.h"
 
+#include <prometheus/collectable.h>
 #include <prometheus/counter.h>
 #include <prometheus/exposer.h>
 #include <prometheus/gauge.h>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "error.h"
+#include "log_writer.h"
 #include "mutex.h"
 
 namespace cellcrush::metrics {
@@ -57,6 +59,19 @@ void visit_stages(const v1::StageTimes& times, const Visit& visit) {
 }  // namespace
 
 struct Metrics::Impl {
+  // Counted by the process before there are metrics, and read when they are.
+  class LostLines final : public prometheus::Collectable {
+   public:
+    [[nodiscard]] std::vector<prometheus::MetricFamily> Collect() const override {
+      prometheus::MetricFamily lost{.name = "cellcrush_log_lines_lost_total",
+                                    .help = "Lines of the log that came faster than it was read, or were not written.",
+                                    .type = prometheus::MetricType::Counter,
+                                    .metric = std::vector<prometheus::ClientMetric>(1)};
+      lost.metric[0].counter.value = static_cast<double>(LogWriter::lost_lines());
+      return {lost};
+    }
+  };
+
   Impl() {
     // All are there from the start, at 0.
     add_stages({});
@@ -74,6 +89,7 @@ struct Metrics::Impl {
     });
   }
 
+  std::shared_ptr<LostLines> lost_lines = std::make_shared<LostLines>();
   std::shared_ptr<prometheus::Registry> registry = std::make_shared<prometheus::Registry>();
   prometheus::Gauge& waiting = gauge(*registry, "cellcrush_jobs_waiting", "Jobs waiting in the queue.");
   prometheus::Gauge& running = gauge(*registry, "cellcrush_jobs_running", "Jobs running, or accepted by an executor.");
@@ -124,6 +140,7 @@ ListenAddress Metrics::serve(const ListenAddress& address) {
                            ": the address is in use or not permitted. Give another address with --metrics.");
   }
   impl_->exposer->RegisterCollectable(impl_->registry);
+  impl_->exposer->RegisterCollectable(impl_->lost_lines);
   return bound;
 }
 
