@@ -81,7 +81,8 @@ class JsonFormatter final : public spdlog::formatter {
   [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return make_json_formatter(); }
 };
 
-// The local time with its zone, the program, the level. A message may contain a caller's text, which must not look like a line of the daemon.
+// The local time with its zone, the program, the level. A message may contain a caller's text, which must not look like
+// a line of the daemon.
 class TextFormatter final : public spdlog::formatter {
  public:
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {

@@ -31,7 +31,8 @@ constexpr const char* kName = "cellcrushd";
 std::atomic<std::int64_t> lost_lines_of_process = 0;
 
 std::shared_ptr<OpenFile> open_log(const std::filesystem::path& path) {
-  return std::make_shared<OpenFile>(store::open_file(path, O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK | O_NOCTTY, "opened"));
+  constexpr int kFlags = O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK | O_NOCTTY;
+  return std::make_shared<OpenFile>(store::open_file(path, kFlags, "opened"));
 }
 
 const char* color_of(spdlog::level::level_enum level) {

@@ -158,8 +158,10 @@ TEST(ExportSource, AJobThatIsDeletedMeanwhileIsAnErrorNotAFileWithoutItsResults)
   *created.mutable_case_() = testing::small_case();
   const std::int64_t job = journal.create_job(created, "", "").job;
   store::StateChange change;
-  change.state = v1::Job::CANCELLED;
-  journal.change_state(job, change);
+  for (const auto state : {v1::Job::RUNNING, v1::Job::FAILED}) {
+    change.state = state;
+    journal.change_state(job, change);
+  }
   v1::ExportJobRequest request;
   request.set_name(store::name_of(job));
   const auto stored = reader.find_job(job);

@@ -240,13 +240,13 @@ class Means(unittest.TestCase):
             direct = urllib.request.build_opener(urllib.request.ProxyHandler({}))
             theirs = pandas.read_csv(direct.open(f"{pages}/{sweep.name}.csv"))
             ours = sweep.table(mean_over="seed")
-        results = [name.removesuffix("_interval") for name in theirs if name.endswith("_interval")]
+        results = [name.removesuffix("_ci95") for name in theirs if name.endswith("_ci95")]
         self.assertEqual((len(results), list(ours["densification_strain_count"])), (10, [1, 3]))
         for name in results:
             np.testing.assert_allclose(ours[name], theirs[name], rtol=1e-6, err_msg=name)
             np.testing.assert_array_equal(ours.get(f"{name}_count", theirs[f"{name}_count"]), theirs[f"{name}_count"])
             if f"{name}_ci95" in ours:  # Student's factor of the daemon has four digits
-                np.testing.assert_allclose(ours[f"{name}_ci95"], theirs[f"{name}_interval"], rtol=2e-5, err_msg=name)
+                np.testing.assert_allclose(ours[f"{name}_ci95"], theirs[f"{name}_ci95"], rtol=2e-5, err_msg=name)
 
 if __name__ == "__main__":
     unittest.main()
