@@ -68,7 +68,7 @@ class Long(Example):
 
 
 @unittest.skipUnless(is_long and importlib.util.find_spec("scipy"),
-                     "no scipy: Debian's requires libboost1.74-dev, which conflicts with the build's libboost1.81-dev")
+                     "no scipy: deploy/install-packages examples unpacks it")
 class Scipy(Example):
     def test_a_root_finds_a_thickness(self):
         self.assertRegex(self.run_example("thickness_scipy.py", 0.5), r"wall thickness 0\.\d+ mm for 0.5 MPa")
