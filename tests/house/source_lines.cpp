@@ -67,7 +67,10 @@ bool is_standard_header(const std::string& target) {
 bool has_bounded_lines(const std::filesystem::path& file) {
   static const std::set<std::string> kExtensions{".h", ".hpp", ".inl", ".cpp", ".cc", ".proto", ".cmake", ".sh", ".py"};
   const bool is_script = *file.begin() == "deploy" && !file.has_extension();
-  return is_script || file.filename() == "CMakeLists.txt" || kExtensions.contains(file.extension().string());
+  // Beside it lie folders that the page's build fills.
+  const bool is_of_page = file.extension() == ".ts" && file.generic_string().starts_with("server/page/src/");
+  return is_script || is_of_page || file.filename() == "CMakeLists.txt" ||
+         kExtensions.contains(file.extension().string());
 }
 
 std::vector<int> find_wide_lines(const std::filesystem::path& file) {

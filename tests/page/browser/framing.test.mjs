@@ -11,7 +11,8 @@ const daemon = stage(async (its) => {
   job = (await daemon.call('Jobs/CreateJob', { case: await daemon.presetCase('hexagon-small') })).name;
 });
 const site = createServer((_, answer) => answer.writeHead(200, { 'Content-Type': 'text/html' })
-  .end(`<!doctype html><title>A dashboard</title><iframe width="900" height="600" src="${daemon.url}/${job}"></iframe>`));
+  .end('<!doctype html><title>A dashboard</title>' +
+    `<iframe width="900" height="600" src="${daemon.url}/${job}"></iframe>`));
 await new Promise((resolve) => site.listen(0, '127.0.0.1', resolve));
 after(() => site.close());
 const origins = ['localhost', '127.0.0.1'].map((host) => `http://${host}:${site.address().port}`);

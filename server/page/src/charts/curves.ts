@@ -86,7 +86,7 @@ export function thin(y: number[], most: number): number[] {
   return kept;
 }
 
-/** The round numbers from low to high, no more than `most`: 1, 2 or 5 times a power of ten apart. As the command line's. */
+/** The round numbers from low to high, at most `most`: 1, 2 or 5 times a power of ten apart, as in the command line. */
 export function ticksOf(low: number, high: number, most: number): number[] {
   if (!(high > low)) return [];
   const kSlack = 1e-9;

@@ -12,7 +12,8 @@ export class NoteEditor {
   private readonly form = h("form", { hidden: true, submit: (event: Event) => void this.submit(event),
                                       keydown: (event: KeyboardEvent) => this.key(event) },
     labelled("Note", this.input, this.hint),
-    h("div", { class: "buttons" }, h("button", { class: "primary" }, "Save"), button("Discard", () => this.open(false))));
+    h("div", { class: "buttons" }, h("button", { class: "primary" }, "Save"),
+      button("Discard", () => this.open(false))));
   private note = "";
 
   /** `save` writes a note in place of the one that was shown. */

@@ -32,7 +32,8 @@ export class SweepRow {
     this.fold = h("button", { type: "button", class: "icon-button fold", "aria-expanded": "false",
                               click: () => this.toggle(this.data === undefined) }, icon("next"));
     this.element = h("tbody", {}, h("tr", {},
-      h("td", { class: "what" }, h("div", { class: "foldable" }, this.fold, h("div", {}, this.title, this.note, this.under))),
+      h("td", { class: "what" },
+        h("div", { class: "foldable" }, this.fold, h("div", {}, this.title, this.note, this.under))),
       this.states, this.done, this.owner, this.created), this.insideRow);
     if (unfolded.has(name)) this.toggle(true);
   }
