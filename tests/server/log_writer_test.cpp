@@ -85,6 +85,7 @@ TEST_F(LogWriterTest, AFileThatWasMovedAwayIsOpenedAgain) {
   DaemonProcess daemon({"--data", path("data"), "--listen", "unix:" + path("s").string(), "--log-file", path("log")});
   Client client(daemon.wait_for_addresses(1).at(0));
   client.create(small_case(), v1::Job::SUCCEEDED);
+  EXPECT_TRUE(wait_until([&] { return text_of_file(path("log")).find("jobs/1 SUCCEEDED") != std::string::npos; }));
   std::filesystem::rename(path("log"), path("log.1"));
   daemon.send_signal(SIGHUP);
   EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(path("log")); }));
