@@ -98,11 +98,17 @@ class Gateway::TlsContext {
 // Members are used on the thread, except in the constructor and the destructor.
 struct Gateway::Impl {
   Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-       const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins)
+       const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
+       const std::vector<std::string>& framing_origins)
       : tls(gate),
         port(address, "--http"),
-        parts{
-            gate, methods, limits, absl::StrJoin(framing_origins, " "), port.address().port, tls.current() != nullptr},
+        parts{gate,
+              methods,
+              board,
+              limits,
+              absl::StrJoin(framing_origins, " "),
+              port.address().port,
+              tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
@@ -187,12 +193,15 @@ struct Gateway::Impl {
 };
 
 Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-                 const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins)
-    : impl_(std::make_unique<Impl>(address, gate, methods, limits, framing_origins)) {}
+                 const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
+                 const std::vector<std::string>& framing_origins)
+    : impl_(std::make_unique<Impl>(address, gate, methods, board, limits, framing_origins)) {}
 
 Gateway::~Gateway() { stop(); }
 
 const std::string& Gateway::url() const { return impl_->url; }
+
+void Gateway::post(std::function<void()> work) { asio::post(impl_->io, std::move(work)); }
 
 void Gateway::stop() { impl_->stop(); }
 
