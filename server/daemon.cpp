@@ -150,6 +150,10 @@ struct Daemon::Impl {
     serve_http();
     service.start();
     for (const char* name : kServices) service.board.set(name, true);
+    heartbeats.emplace(loops(), options.heartbeats, [this](const std::string& stuck) {
+      service.board.set_stuck(stuck);
+      if (stuck.empty() && options.on_progress) options.on_progress();
+    });
   }
 
   ~Impl() { stop(); }
@@ -223,7 +227,7 @@ struct Daemon::Impl {
   void serve_http() {
     if (!wanted_http) return;
     try {
-      gateway.emplace(*wanted_http, gate, service.methods, options.connections, options.framing_origins);
+      gateway.emplace(*wanted_http, gate, service.methods, service.board, options.connections, options.framing_origins);
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
       warn_without_http(error);
@@ -233,16 +237,34 @@ struct Daemon::Impl {
     spdlog::info("serving HTTP on {}", http_url);
   }
 
+  std::vector<Heartbeats::Loop> loops() {
+    using Beat = Heartbeats::Beat;
+    std::vector<Heartbeats::Loop> out;
+    out.push_back({"The scheduler", [this](const Beat& beat) {
+                     static_cast<void>(service.queues.waiting_count());
+                     beat();
+                   }});
+    out.push_back({"The journal", [this](const Beat& beat) {
+                     service.journal.await_turn();
+                     beat();
+                   }});
+    out.push_back({"The loop of watches", [this](Beat beat) { service.pump.post(std::move(beat)); }});
+    out.push_back({"The loop of watches over HTTP", [this](Beat beat) { service.http_pump.post(std::move(beat)); }});
+    if (gateway) out.push_back({"The loop of HTTP", [this](Beat beat) { gateway->post(std::move(beat)); }});
+    return out;
+  }
+
   void drain() {
-    service.board.set_all(false);
+    service.board.drain();
     if (options.on_drain) options.on_drain();
   }
 
   void stop() {
     if (std::exchange(stopped, true)) return;
     service.admission.drain();
-    service.board.set_all(false);
+    service.board.drain();
     service.stop();
+    heartbeats.reset();
     probe.reset();
     acceptor->stop();
     if (gateway) gateway->stop();
@@ -271,6 +293,7 @@ struct Daemon::Impl {
   std::optional<net::Acceptor> acceptor;
   std::optional<net::PortProbe> probe;
   std::optional<http::Gateway> gateway;
+  std::optional<Heartbeats> heartbeats;
   bool stopped = false;
 };
 

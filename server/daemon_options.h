@@ -10,6 +10,7 @@
 
 #include "access/gate.h"
 #include "clocks.h"
+#include "heartbeats.h"
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/executor.h"
@@ -57,6 +58,10 @@ struct DaemonOptions {
   /// Called after a client has asked the daemon to drain. The callee then stops it.
   std::function<void()> on_drain;
   watch::WatchTimes watch_times;
+  /// How often the loops of the daemon beat.
+  Heartbeats::Times heartbeats;
+  /// Called at each beat while all loops make progress.
+  std::function<void()> on_progress;
 
   /// `workers`, or the number of cores if that is 0.
   [[nodiscard]] int worker_count() const {

@@ -1,11 +1,16 @@
 #include "error_table.h"
 
+#include <absl/strings/str_join.h>
+#include <absl/strings/str_split.h>
 #include <spdlog/spdlog.h>
 
 #include <new>
+#include <string>
+#include <vector>
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "log_format.h"
 
 namespace cellcrush {
 namespace {
@@ -40,6 +45,13 @@ std::string shorten(const std::string& text, std::size_t most) {
   return text.size() <= most ? text : cut_text(text, most) + "...";
 }
 
+// A message as callers get it: line by line printable, since it may hold bytes of a request or of a file's name.
+std::string message_of(const std::string& text) {
+  const std::vector<std::string> lines = absl::StrSplit(text, '\n');
+  const auto append = [](std::string* out, const std::string& line) { *out += printable(line); };
+  return shorten(absl::StrJoin(lines, "\n", append), kMostMessage);
+}
+
 std::string sentence_of(const ProblemList& problems, const std::string& subject) {
   std::string out = "The " + subject + " has ";
   out += problems.size() == 1 ? "a problem: " : std::to_string(problems.size()) + " problems: ";
@@ -48,7 +60,7 @@ std::string sentence_of(const ProblemList& problems, const std::string& subject)
     out += (first ? "" : " ") + problem.field() + " " + problem.message();
     first = false;
   }
-  return shorten(out, kMostMessage);
+  return message_of(out);
 }
 
 std::string details_of(const std::string& message, const ProblemList& problems) {
@@ -110,7 +122,7 @@ grpc::Status status_of(const ProblemList& problems, const std::string& subject) 
 grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy) {
   ProblemList problems;
   *problems.Add() = invalid_problem(field, message, remedy);
-  const std::string sentence = shorten(field + " " + message + " " + remedy, kMostMessage);
+  const std::string sentence = message_of(field + " " + message + " " + remedy);
   return {grpc::StatusCode::INVALID_ARGUMENT, sentence, bounded_details(sentence, problems, "request")};
 }
 
@@ -135,7 +147,7 @@ grpc::Status status_of(const std::exception& error) {
     const bool is_fault =
         refused->kind() == ServiceError::Kind::internal || refused->kind() == ServiceError::Kind::data_loss;
     if (is_fault) spdlog::error("A call failed: {}", error.what());
-    return {code_of(refused->kind()), shorten(error.what(), kMostMessage)};
+    return {code_of(refused->kind()), message_of(error.what())};
   }
   if (const auto* refused = dynamic_cast<const RefusedCase*>(&error))
     return status_of(refused->problems, refused->subject);
@@ -145,7 +157,7 @@ grpc::Status status_of(const std::exception& error) {
     return {grpc::StatusCode::RESOURCE_EXHAUSTED,
             "The daemon is out of memory. Use a smaller case, or try again later."};
   spdlog::error("A call failed: {}", error.what());
-  return {grpc::StatusCode::INTERNAL, std::string("Internal error of the daemon: ") + error.what()};
+  return {grpc::StatusCode::INTERNAL, message_of(std::string("Internal error of the daemon: ") + error.what())};
 }
 
 }  // namespace cellcrush

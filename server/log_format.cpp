@@ -28,10 +28,14 @@ std::size_t character_length(std::string_view text) {
   return is_none ? 0 : length;
 }
 
-// Whether a terminal may interpret the character as a command: ASCII controls, and U+0080 to U+009F.
+// Whether a terminal may interpret the character as a command (ASCII controls, U+0080 to U+009F), or it changes the
+// direction of the text beside it (U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069).
 bool is_control(std::string_view character) {
-  const auto first = static_cast<unsigned char>(character[0]);
-  return first < 0x20U || first == 0x7fU || (first == 0xc2U && static_cast<unsigned char>(character[1]) < 0xa0U);
+  const auto byte = [character](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (byte(0) < 0x20U || byte(0) == 0x7fU) return true;
+  if (character.size() == 2) return (byte(0) == 0xc2U && byte(1) < 0xa0U) || character == "\u061c";
+  return character == "\u200e" || character == "\u200f" || (character >= "\u202a" && character <= "\u202e") ||
+         (character >= "\u2066" && character <= "\u2069");
 }
 
 // Calls show(character) for each printable character, and escape(byte) for each other byte.
@@ -86,10 +90,7 @@ class JsonFormatter final : public spdlog::formatter {
 class TextFormatter final : public spdlog::formatter {
  public:
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
-    std::string text;
-    visit_characters(
-        {message.payload.data(), message.payload.size()}, [&text](std::string_view character) { text += character; },
-        [&text](unsigned char byte) { text += fmt::format("\\x{:02x}", byte); });
+    const std::string text = printable({message.payload.data(), message.payload.size()});
     spdlog::details::log_msg shown = message;
     shown.payload = text;
     form_.format(shown, line);
@@ -104,6 +105,14 @@ class TextFormatter final : public spdlog::formatter {
 };
 
 }  // namespace
+
+std::string printable(std::string_view text) {
+  std::string out;
+  visit_characters(
+      text, [&out](std::string_view character) { out += character; },
+      [&out](unsigned char byte) { out += fmt::format("\\x{:02x}", byte); });
+  return out;
+}
 
 std::string json_string(std::string_view text) {
   std::string out = "\"";

@@ -10,8 +10,7 @@
 
 namespace cellcrush {
 
-/// spdlog's default format. Control characters and invalid UTF-8 in a message are escaped, so that a message stays one
-/// line.
+/// The local time with its zone, the program, the level and the message, which is printable().
 std::unique_ptr<spdlog::formatter> make_text_formatter();
 
 /// One JSON object per line: time (UTC, ISO 8601), level, the line's fields and the message. For a line
@@ -27,6 +26,9 @@ struct LogField {
 /// Writes a line with its fields to the default logger, which must write on the calling thread. Field values may come
 /// from a caller; `words` must contain whatever the text form should show of them.
 void log_with_fields(spdlog::level::level_enum level, const std::string& words, const std::vector<LogField>& fields);
+
+/// The text with control characters, those that change the direction of text, and invalid UTF-8 as bytes \xNN.
+std::string printable(std::string_view text);
 
 /// The text in quotes, as in JSON. An invalid byte is written as its number.
 std::string json_string(std::string_view text);

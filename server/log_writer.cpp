@@ -13,7 +13,6 @@
 #include <csignal>
 #include <deque>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -45,12 +44,13 @@ const char* color_of(spdlog::level::level_enum level) {
   }
 }
 
-// Blocks as long as nobody reads. False, if the bytes cannot be written: the terminal is gone, or the disk is full.
-bool write_line(int file, std::string_view line) {
-  while (!line.empty()) {
-    const auto count = write(file, line.data(), line.size());
+}  // namespace
+
+bool write_text(int file, std::string_view text) {
+  while (!text.empty()) {
+    const auto count = write(file, text.data(), text.size());
     if (count >= 0) {
-      line.remove_prefix(static_cast<std::size_t>(count));
+      text.remove_prefix(static_cast<std::size_t>(count));
     } else if (errno == EAGAIN) {  // a pipe, or a stderr that another process has set so
       pollfd ready{.fd = file, .events = POLLOUT, .revents = 0};
       poll(&ready, 1, -1);
@@ -61,8 +61,6 @@ bool write_line(int file, std::string_view line) {
   return true;
 }
 
-}  // namespace
-
 struct LogWriter::State {
   Mutex mutex;
   std::condition_variable_any changed;
@@ -70,7 +68,7 @@ struct LogWriter::State {
   std::size_t bytes CELLCRUSH_GUARDED_BY(mutex) = 0;
   std::int64_t lost CELLCRUSH_GUARDED_BY(mutex) = 0;  ///< not yet said in the log
   bool stopped CELLCRUSH_GUARDED_BY(mutex) = false;
-  std::shared_ptr<OpenFile> file CELLCRUSH_GUARDED_BY(mutex);  ///< none: stderr
+  std::shared_ptr<OpenFile> file CELLCRUSH_GUARDED_BY(mutex);           ///< none: stderr
   std::unique_ptr<spdlog::formatter> form CELLCRUSH_GUARDED_BY(mutex);  ///< of the line that says what was lost
   bool is_colored = false;
 
@@ -95,7 +93,7 @@ struct LogWriter::State {
       const auto to = file;
       const std::string line = lines.front();
       lock.unlock();
-      const bool written = write_line(to ? to->get() : STDERR_FILENO, line);
+      const bool written = write_text(to ? to->get() : STDERR_FILENO, line);
       lock.lock();
       if (!written) lose();
       bytes -= line.size();
@@ -106,9 +104,9 @@ struct LogWriter::State {
   }
 
   void say_lost() CELLCRUSH_REQUIRES(mutex) {
-    const std::string words = fmt::format(
-        "{} lines of the log are lost: they came faster than the log was read, or could not be written",
-        std::exchange(lost, 0));
+    const std::string words =
+        fmt::format("{} lines of the log are lost: they came faster than the log was read, or could not be written",
+                    std::exchange(lost, 0));
     spdlog::memory_buf_t line;
     form->format({kName, spdlog::level::warn, words}, line);
     lines.emplace_back(line.data(), line.size());

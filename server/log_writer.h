@@ -7,8 +7,13 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <string_view>
 
 namespace cellcrush {
+
+/// Writes all of it; blocks as long as nobody reads. False, if the bytes cannot be written: the terminal is gone, or
+/// the disk is full.
+bool write_text(int file, std::string_view text);
 
 /// Sink of the log that never blocks a caller: its own thread writes the lines. They wait in a queue of 1 MiB while
 /// nobody reads them, as behind a stalled pipe or a stopped terminal. Lines that do not fit are lost; a warning says

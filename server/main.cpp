@@ -1,18 +1,25 @@
 // cellcrushd: parses flags, serves until a signal asks it to end. Exit codes: 0 ended in order, 1 could not start, 2
 // usage.
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
 
 #include "access/token_file.h"
 #include "cellcrush/simd.h"
@@ -21,6 +28,7 @@
 #include "daemon.h"
 #include "log_format.h"
 #include "log_writer.h"
+#include "open_file.h"
 #include "revision.h"
 #include "slurm/task.h"
 #include "usage/help_formatter.h"
@@ -101,14 +109,36 @@ void read_files_again(cellcrush::Daemon& daemon, cellcrush::LogWriter& log) {
   daemon.read_files_again();
 }
 
+// Tells systemd how the daemon is, if it asks with Type=notify (sd_notify(3)).
+void notify_manager(std::string_view state) {
+  const char* path = std::getenv("NOTIFY_SOCKET");
+  sockaddr_un address{};
+  const std::size_t length = path == nullptr ? 0 : std::strlen(path);
+  if (length == 0 || length >= sizeof(address.sun_path)) return;
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path, path, length);
+  if (path[0] == '@') address.sun_path[0] = '\0';  // without a file
+  const cellcrush::OpenFile socket(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  sendto(socket.get(), state.data(), state.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+         reinterpret_cast<const sockaddr*>(&address), static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length));
+}
+
+// On a thread of its own, since perhaps nobody reads.
+void print_addresses(const std::vector<std::string>& addresses) {
+  std::string text;
+  for (const auto& address : addresses) text += "cellcrushd is listening on " + address + "\n";
+  std::thread([text] { cellcrush::write_text(STDOUT_FILENO, text); }).detach();
+}
+
 int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals, cellcrush::LogWriter& log) {
   try {
     cellcrush::Daemon daemon(options);
-    for (const auto& address : daemon.addresses()) std::printf("cellcrushd is listening on %s\n", address.c_str());
-    std::fflush(stdout);
+    print_addresses(daemon.addresses());
+    notify_manager("READY=1");
     int received = 0;
     while (sigwait(&signals, &received) == 0 && received == SIGHUP) read_files_again(daemon, log);
     spdlog::info("stopping on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
+    notify_manager("STOPPING=1");
     daemon.stop();
     return 0;
   } catch (const std::exception& error) {
@@ -188,6 +218,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   options.on_drain = [] { kill(getpid(), SIGTERM); };
+  options.on_progress = [] { notify_manager("WATCHDOG=1"); };
   const sigset_t signals = block_signals();
   return serve(options, signals, *log);
 }

@@ -56,10 +56,14 @@ std::size_t character_size(std::string_view text, std::size_t position) {
   return too_long || outside ? 0 : size;
 }
 
+// Also the characters that change the direction of the text beside them.
 bool is_control(std::string_view character) {
   const auto first = static_cast<unsigned char>(character[0]);
   if (character.size() == 1) return (first < 0x20 && first != '\n') || first == 0x7F;
-  return first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0;  // the second block of control characters
+  if (character.size() == 2)  // the second block of control characters
+    return (first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0) || character == "\u061C";
+  return character == "\u200E" || character == "\u200F" || (character >= "\u202A" && character <= "\u202E") ||
+         (character >= "\u2066" && character <= "\u2069");
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ std::string wrap_text(std::string_view text, int width);
 /// in total and terminated by a line break.
 std::string wrapped(std::string_view text, int width, std::string_view first = {}, std::string_view next = {});
 
-/// `text` with control characters other than line ends, and invalid UTF-8, replaced by escapes such as \x1b, so that
-/// untrusted text cannot control the terminal.
+/// `text` with control characters other than line ends, characters that change the direction of text, and invalid UTF-8
+/// replaced by escapes such as \x1b, so that untrusted text can neither control the terminal nor reorder a line.
 std::string printable(std::string_view text);
 
 }  // namespace cellcrush::client

@@ -6,11 +6,13 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace cellcrush::client {
 
@@ -75,6 +77,16 @@ std::string json_text(const google::protobuf::Message& message) {
   std::string text;
   const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
   if (!status.ok()) throw std::runtime_error("a message of the server has no JSON form: " + status.ToString());
+  // protobuf escapes the older ones of the characters that change the direction of text.
+  constexpr std::array<std::pair<std::string_view, const char*>, 5> kNewer = {{{"\u061c", "\\u061c"},
+                                                                               {"\u2066", "\\u2066"},
+                                                                               {"\u2067", "\\u2067"},
+                                                                               {"\u2068", "\\u2068"},
+                                                                               {"\u2069", "\\u2069"}}};
+  for (const auto& [character, escape] : kNewer) {
+    for (std::size_t at = 0; (at = text.find(character, at)) != std::string::npos;)
+      text.replace(at, character.size(), escape);
+  }
   return text;
 }
 

@@ -69,6 +69,14 @@ rpc::MessageStream::Encode encode_for(const Encoding& encoding) {
 // A path that a download may have is one, whatever its parameters.
 bool is_download(std::string_view target) { return open_download(target.substr(0, target.find('?'))) != nullptr; }
 
+// What a probe is told; nothing for the path of something else.
+std::optional<rpc::HealthBoard::Report> report_of(const rpc::HealthBoard& board, std::string_view target) {
+  target = target.substr(0, target.find('?'));
+  if (target == "/healthz") return board.progress();
+  if (target == "/readyz") return board.readiness();
+  return std::nullopt;
+}
+
 bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
   const auto name = request[encoding.stream ? "Connect-Content-Encoding" : "Content-Encoding"];
   const bool flagged = encoding.stream && !request.body().empty() &&
@@ -119,6 +127,7 @@ asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
   co_await bhttp::async_read(stream_, buffer_, parser, asio::redirect_error(asio::use_awaitable, error));
   if (!error) co_return true;
   keep_alive_ = false;
+  is_head_ = false;
   const bool is_body = error == bhttp::error::body_limit;
   const grpc::Status refused{grpc::StatusCode::RESOURCE_EXHAUSTED,
                              is_body ? "The body is larger than 4 MiB." : "The headers are larger than 16 KiB."};
@@ -127,15 +136,18 @@ asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
 }
 
 asio::awaitable<void> Connection::answer(const Request& request) {
+  is_head_ = request.method() == bhttp::verb::head;
   if (const auto refusal = refusal_of(request)) {
     // Only calls have an error as JSON.
-    if (request.method() == bhttp::verb::get) {
+    if (request.method() == bhttp::verb::get || is_head_) {
       co_await send(refusal->http_status, kText, refusal->error.error_message() + '\n');
     } else {
       co_await send_error(refusal->http_status, refusal->error);
     }
   } else if (request.method() != bhttp::verb::post) {
-    if (is_download({request.target().data(), request.target().size()})) {
+    if (const auto report = report_of(parts_.board, request.target())) {
+      co_await send(report->is_well ? 200 : 503, kText, report->words + '\n');
+    } else if (is_download({request.target().data(), request.target().size()})) {
       co_await answer_download(request);
     } else {
       co_await answer_file(request);
@@ -173,12 +185,13 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
   const auto* method = method_of(request);
   if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
     if (method != nullptr) return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls."}};
-    if (!is_download({request.target().data(), request.target().size()}) &&
+    if (!report_of(parts_.board, request.target()) &&
+        !is_download({request.target().data(), request.target().size()}) &&
         web::find_page_file(request.target()) == nullptr)
       return Refusal{404,
                      {StatusCode::NOT_FOUND,
-                      "There is no such file. A job has /jobs/NUMBER/history.csv and /jobs/NUMBER/result.h5, a sweep "
-                      "has /sweeps/NUMBER.csv."}};
+                      "There is no such page. The web page is at /. A job has /jobs/NUMBER/history.csv and "
+                      "/jobs/NUMBER/result.h5, a sweep has /sweeps/NUMBER.csv."}};
     return std::nullopt;
   }
   if (request.method() != bhttp::verb::post)
@@ -340,8 +353,8 @@ asio::awaitable<void> Connection::send(unsigned status, const std::string& type,
   auto response = new_response<bhttp::string_body>(status, keep_alive_, "no-store");
   response.set(Field::content_type, type);
   if (status == 405) response.set(Field::allow, "GET, HEAD, POST");
-  response.body() = std::move(body);
-  response.prepare_payload();
+  response.content_length(body.size());
+  if (!is_head_) response.body() = std::move(body);
   stream_.plain().expires_after(parts_.limits.idle);
   co_await bhttp::async_write(stream_, response, asio::use_awaitable);
 }

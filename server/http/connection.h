@@ -12,6 +12,7 @@
 #include "http/download.h"
 #include "http/stream.h"
 #include "net/connection_limits.h"
+#include "rpc/health_service.h"
 #include "rpc/method_table.h"
 
 namespace cellcrush::http {
@@ -20,6 +21,7 @@ namespace cellcrush::http {
 struct GatewayParts {
   const access::Gate& gate;
   const rpc::MethodTable& methods;
+  const rpc::HealthBoard& board;
   net::ConnectionLimits limits;
   std::string framing_origins;  ///< which may frame the page, separated by spaces; empty: none
   int port = 0;
@@ -81,6 +83,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   GatewayParts& parts_;
   std::shared_ptr<Call> call_;  ///< null while none runs
   bool keep_alive_ = false;
+  bool is_head_ = false;  ///< the request asks for no body
 };
 
 }  // namespace cellcrush::http

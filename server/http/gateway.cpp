@@ -27,6 +27,10 @@ using asio::ip::tcp;
 
 constexpr std::chrono::milliseconds kPause{100};  // without descriptors, new connections wait in the kernel
 constexpr std::chrono::seconds kCallsMayEnd{1};
+/// Of TLS 1.2: those that gRPC takes. OpenSSL's own three of TLS 1.3 are gRPC's too.
+constexpr const char* kCiphers =
+    "ECDHE-ECDSA-AES128-GCM-SHA256:ECDHE-ECDSA-AES256-GCM-SHA384:ECDHE-RSA-AES128-GCM-SHA256:"
+    "ECDHE-RSA-AES256-GCM-SHA384";
 constexpr std::chrono::milliseconds kBetweenLooks{20};
 
 // Browsers offer HTTP/2 as well. A client that offers neither is served all the same.
@@ -44,6 +48,7 @@ std::unique_ptr<ssl::context> context_of(const access::TlsFiles& files) {
   auto out = std::make_unique<ssl::context>(ssl::context::tls_server);
   SSL_CTX* native = out->native_handle();
   SSL_CTX_set_min_proto_version(native, TLS1_2_VERSION);
+  SSL_CTX_set_cipher_list(native, kCiphers);
   SSL_CTX_set_alpn_select_cb(native, &choose_protocol, nullptr);
   // No client comes back under certificates or an authority of before.
   SSL_CTX_set_session_cache_mode(native, SSL_SESS_CACHE_OFF);
@@ -98,11 +103,17 @@ class Gateway::TlsContext {
 // Members are used on the thread, except in the constructor and the destructor.
 struct Gateway::Impl {
   Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-       const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins)
+       const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
+       const std::vector<std::string>& framing_origins)
       : tls(gate),
         port(address, "--http"),
-        parts{
-            gate, methods, limits, absl::StrJoin(framing_origins, " "), port.address().port, tls.current() != nullptr},
+        parts{gate,
+              methods,
+              board,
+              limits,
+              absl::StrJoin(framing_origins, " "),
+              port.address().port,
+              tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
@@ -187,12 +198,15 @@ struct Gateway::Impl {
 };
 
 Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-                 const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins)
-    : impl_(std::make_unique<Impl>(address, gate, methods, limits, framing_origins)) {}
+                 const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
+                 const std::vector<std::string>& framing_origins)
+    : impl_(std::make_unique<Impl>(address, gate, methods, board, limits, framing_origins)) {}
 
 Gateway::~Gateway() { stop(); }
 
 const std::string& Gateway::url() const { return impl_->url; }
+
+void Gateway::post(std::function<void()> work) { asio::post(impl_->io, std::move(work)); }
 
 void Gateway::stop() { impl_->stop(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "access/gate.h"
 #include "listen_address.h"
 #include "net/connection_limits.h"
+#include "rpc/health_service.h"
 #include "rpc/method_table.h"
 
 namespace cellcrush::http {
@@ -15,17 +17,21 @@ namespace cellcrush::http {
 /// files. One thread serves all connections. Thread-safe.
 class Gateway {
  public:
-  /// Listens from construction on, on an address that the gate permits. `methods` answers the calls; it and `gate`
-  /// outlive it. Pages of `framing_origins` may frame the web page. Throws ServiceError: failed_precondition if the
-  /// address is in use, invalid if OpenSSL refuses the files of TLS.
+  /// Listens from construction on, on an address that the gate permits. `methods` answers the calls, `board` /healthz
+  /// and /readyz; they and `gate` outlive it. Pages of `framing_origins` may frame the web page. Throws ServiceError:
+  /// failed_precondition if the address is in use, invalid if OpenSSL refuses the files of TLS.
   Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-          const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins = {});
+          const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
+          const std::vector<std::string>& framing_origins = {});
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;
 
   /// "http://HOST:PORT", or "https://HOST:PORT", with the actual port.
   [[nodiscard]] const std::string& url() const;
+
+  /// Runs the work soon on the thread of all connections.
+  void post(std::function<void()> work);
 
   /// Closes the port and idle connections; open calls get a second to end. Safe to repeat.
   void stop();

@@ -66,20 +66,47 @@ class HealthCalls {
 void HealthBoard::set(const std::string& service, bool is_serving) {
   const MutexLock lock(mutex_);
   services_[service] = is_serving;
-  for (const auto& [id, wake] : watchers_) wake();
+  wake_watchers();
 }
 
-void HealthBoard::set_all(bool is_serving) {
+void HealthBoard::drain() {
   const MutexLock lock(mutex_);
-  for (auto& [service, serves] : services_) serves = is_serving;
-  for (const auto& [id, wake] : watchers_) wake();
+  is_draining_ = true;
+  wake_watchers();
+}
+
+void HealthBoard::set_stuck(const std::string& stuck) {
+  const MutexLock lock(mutex_);
+  if (std::exchange(stuck_, stuck) != stuck) wake_watchers();
+}
+
+HealthBoard::Report HealthBoard::progress() const {
+  const MutexLock lock(mutex_);
+  return stuck_.empty() ? Report{true, "The daemon makes progress."} : Report{false, stuck_};
+}
+
+HealthBoard::Report HealthBoard::readiness() const {
+  const MutexLock lock(mutex_);
+  if (!stuck_.empty()) return {false, stuck_};
+  if (is_draining_) return {false, "The daemon drains and takes no new jobs."};
+  if (status_of("") != HealthCheckResponse::SERVING) return {false, "The daemon is starting."};
+  return {true, "The daemon takes jobs."};
 }
 
 HealthBoard::Status HealthBoard::find(const std::string& service) const {
   const MutexLock lock(mutex_);
+  return status_of(service);
+}
+
+HealthBoard::Status HealthBoard::status_of(const std::string& service) const {
   const auto found = services_.find(service);
   if (found == services_.end()) return HealthCheckResponse::SERVICE_UNKNOWN;
-  return found->second ? HealthCheckResponse::SERVING : HealthCheckResponse::NOT_SERVING;
+  const bool serves = found->second && !is_draining_ && stuck_.empty();
+  return serves ? HealthCheckResponse::SERVING : HealthCheckResponse::NOT_SERVING;
+}
+
+void HealthBoard::wake_watchers() const {
+  for (const auto& [id, wake] : watchers_) wake();
 }
 
 std::uint64_t HealthBoard::subscribe(Wake wake) {

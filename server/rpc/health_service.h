@@ -18,8 +18,19 @@ class HealthBoard {
   using Wake = std::function<void()>;
 
   void set(const std::string& service, bool is_serving);
-  /// All services with a status.
-  void set_all(bool is_serving);
+  /// No service serves any more.
+  void drain();
+  /// Which loops are stuck, in sentences (Heartbeats); empty: none. No service serves meanwhile.
+  void set_stuck(const std::string& stuck);
+
+  struct Report {
+    bool is_well = true;
+    std::string words;
+  };
+  /// Whether the daemon makes progress.
+  [[nodiscard]] Report progress() const;
+  /// Whether it also takes jobs.
+  [[nodiscard]] Report readiness() const;
 
   /// SERVICE_UNKNOWN for a service without a status.
   [[nodiscard]] Status find(const std::string& service) const;
@@ -29,7 +40,12 @@ class HealthBoard {
   void unsubscribe(std::uint64_t id);
 
  private:
+  void wake_watchers() const CELLCRUSH_REQUIRES(mutex_);
+  [[nodiscard]] Status status_of(const std::string& service) const CELLCRUSH_REQUIRES(mutex_);
+
   mutable Mutex mutex_;
+  bool is_draining_ CELLCRUSH_GUARDED_BY(mutex_) = false;
+  std::string stuck_ CELLCRUSH_GUARDED_BY(mutex_);
   std::map<std::string, bool> services_ CELLCRUSH_GUARDED_BY(mutex_);
   std::map<std::uint64_t, Wake> watchers_ CELLCRUSH_GUARDED_BY(mutex_);
   std::uint64_t next_id_ CELLCRUSH_GUARDED_BY(mutex_) = 1;

@@ -1,5 +1,6 @@
 #include "store/group_commit.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -36,9 +37,12 @@ void GroupCommit::commit(const std::vector<Write*>& batch) {
   try {
     Transaction transaction(database_);
     for (Write* write : batch) do_write(*write);
+    const bool has_bodies =
+        std::any_of(batch.begin(), batch.end(), [](const Write* write) { return bool(write->body); });
     const auto start = std::chrono::steady_clock::now();
     transaction.commit();
-    if (on_commit_) on_commit_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (on_commit_ && has_bodies)
+      on_commit_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   } catch (...) {
     // A body may have failed because of another body's writes, which have vanished.
     for (Write* write : batch) write->error = std::current_exception();
@@ -47,6 +51,7 @@ void GroupCommit::commit(const std::vector<Write*>& batch) {
 
 // Rolls back only the writes of a failed body.
 void GroupCommit::do_write(Write& write) {
+  if (!write.body) return;
   Statement(database_, "SAVEPOINT own").run();
   try {
     write.body();

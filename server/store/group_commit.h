@@ -26,7 +26,7 @@ class GroupCommit {
 
   /// Runs `body` within a transaction, one writer at a time, on this or another thread; returns once its statements are
   /// durable. Rethrows the error of `body` or of the commit. Nothing of this writer is then in the database. A body
-  /// must not call run.
+  /// must not call run. Without a body, only takes its turn: proof that writers get theirs.
   void run(const Step& body);
 
   /// Writers that wait for the next commit.

@@ -171,6 +171,9 @@ class Journal {
   static constexpr std::chrono::milliseconds kSoon{200};
   static constexpr std::chrono::milliseconds kLazyCommit{1000};
 
+  /// Returns once writers had their turn. Throws ServiceError if the journal takes no writes.
+  void await_turn() { writes_.run({}); }
+
   /// On return, all samples noted before are durable, whichever thread does it.
   void commit_samples();
 

@@ -4,10 +4,20 @@
 
 #include <chrono>
 #include <exception>
+#include <utility>
 
 #include "pause.h"
 
 namespace cellcrush::watch {
+namespace {
+
+struct Work final : Pump::Task {
+  explicit Work(std::function<void()> given) : work(std::move(given)) {}
+  void run() override { work(); }
+  std::function<void()> work;
+};
+
+}  // namespace
 
 Pump::Pump(int threads) {
   threads_.emplace_back([this](const std::stop_token& stop) { tick(stop); });
@@ -32,6 +42,8 @@ void Pump::schedule(const std::shared_ptr<Task>& task) {
   const MutexLock lock(mutex_);
   push(task);
 }
+
+void Pump::post(std::function<void()> work) { schedule(std::make_shared<Work>(std::move(work))); }
 
 void Pump::drain() {
   {

@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <thread>
@@ -35,6 +36,9 @@ class Pump {
   void add(const std::shared_ptr<Task>& task);
   /// Quick; may be called under other locks.
   void schedule(const std::shared_ptr<Task>& task);
+
+  /// Runs the work once, soon.
+  void post(std::function<void()> work);
 
   /// Notifies the tasks that the daemon ends: they see draining() and close.
   void drain();

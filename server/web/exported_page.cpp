@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "log_format.h"
 #include "revision.h"
 #include "web/page_files.h"
 #include "zlib_bytes.h"
@@ -35,8 +36,8 @@ std::string exported_head(std::string_view title) {
   out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src " +
          policy_hash(script) + "; style-src " + policy_hash(style) +
          "; img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'\">\n";
-  out += "<title>" + absl::StrReplaceAll(std::string(title), {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}}) +
-         "</title>\n";
+  out +=
+      "<title>" + absl::StrReplaceAll(printable(title), {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}}) + "</title>\n";
   out +=
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n";

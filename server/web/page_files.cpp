@@ -26,12 +26,23 @@ std::string gzip(std::string_view bytes) {
   return out.size() < bytes.size() ? out : "";
 }
 
+// Whether the page shows something there: the routes of page/src/main.ts.
+bool is_view(std::string_view path) {
+  constexpr std::array<std::string_view, 5> kViews = {"/", "/compare", "/new", "/server", "/help"};
+  for (const std::string_view collection : {"/jobs/", "/sweeps/"}) {
+    if (!path.starts_with(collection)) continue;
+    const auto id = path.substr(collection.size());
+    return !id.empty() && id.find_first_not_of("0123456789") == std::string_view::npos;
+  }
+  return std::find(kViews.begin(), kViews.end(), path) != kViews.end();
+}
+
 }  // namespace
 
 const PageFile* find_page_file(std::string_view path) {
   path = path.substr(0, path.find_first_of("?#"));
   if (!path.starts_with('/')) return nullptr;
-  const std::string_view name = path.find('.') == std::string_view::npos ? "index.html" : path.substr(1);
+  const std::string_view name = is_view(path) ? "index.html" : path.substr(1);
   const auto files = page_files();
   const auto found =
       std::find_if(files.begin(), files.end(), [name](const PageFile& file) { return file.name == name; });

@@ -11,8 +11,8 @@ struct PageFile {
   std::string_view bytes;
 };
 
-/// The file for the path of a URL; null if there is none. "/" and paths without a dot give index.html, because the page
-/// reads the path itself.
+/// The file for the path of a URL; null if there is none. The paths of the page's views (page/src/main.ts) give
+/// index.html, because the page reads the path itself.
 const PageFile* find_page_file(std::string_view path);
 
 /// The file in gzip form, made at the first call; empty if that would not be smaller. `file` is of find_page_file. Not

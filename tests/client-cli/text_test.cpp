@@ -113,6 +113,8 @@ TEST(Table, CutsWideTextAndDisarmsControlCharacters) {
   EXPECT_EQ(printable("line\nbell\x07 del\x7f"), "line\nbell\\x07 del\\x7f");
   EXPECT_EQ(printable("\xff\xc3 caf\xc3\xa9 \xe2\x82\xac \xc2\x9b"), "\\xff\\xc3 caf\xc3\xa9 \xe2\x82\xac \\xc2\\x9b");
   EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82") << "cut short";
+  EXPECT_EQ(printable("\u202e\u2069\u061c\u200e \u05d0"),
+            "\\xe2\\x80\\xae\\xe2\\x81\\xa9\\xd8\\x9c\\xe2\\x80\\x8e \u05d0");
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ TEST(LogFormat, WhatIsNoTextOrNoJsonIsEscapedInBothForms) {
   const std::string unsound = "a\xff \xe2\x82 \xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \xc2\x9b";
   EXPECT_THAT(json_line_of(unsound),
               HasSubstr(R"(a\\xff \\xe2\\x82 \\xc0\\xaf \\xed\\xa0\\x80 \\xf4\\x90\\x80\\x80 \\xc2\\x9b)"));
+  EXPECT_EQ(printable("a\u202eb\u2066\u061c\u200f \u202f \u05d0"),
+            "a\\xe2\\x80\\xaeb\\xe2\\x81\\xa6\\xd8\\x9c\\xe2\\x80\\x8f \u202f \u05d0")
+      << "Hebrew is text, what turns the text beside it is not.";
   spdlog::memory_buf_t line;
   make_text_formatter()->format({"name", spdlog::level::warn, unsound}, line);
   EXPECT_THAT(std::string(line.data(), line.size()),

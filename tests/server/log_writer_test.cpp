@@ -35,6 +35,15 @@ class LogWriterTest : public ::testing::Test {
     return OpenFile(open(path("log").c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
   }
 
+  // Such a pipe that takes no more.
+  OpenFile make_full_pipe() {
+    OpenFile pipe = make_pipe();
+    const std::string junk(65536, 'x');
+    while (write(pipe.get(), junk.data(), junk.size()) > 0) {
+    }
+    return pipe;
+  }
+
   // Reads what comes until the words have.
   static std::string read_until(const OpenFile& pipe, const std::string& words) {
     std::string out;
@@ -68,10 +77,7 @@ TEST_F(LogWriterTest, LinesThatNobodyReadsAreLostAndCounted) {
 }
 
 TEST_F(LogWriterTest, AStoppedReaderHoldsNeitherJobsNorCallsNorTheEnd) {
-  const OpenFile pipe = make_pipe();
-  const std::string junk(65536, 'x');
-  while (write(pipe.get(), junk.data(), junk.size()) > 0) {
-  }
+  const OpenFile pipe = make_full_pipe();
   DaemonProcess daemon({"--data", path("data"), "--listen", "unix:" + path("s").string(), "--log-file", path("log")});
   Client client(daemon.wait_for_addresses(1).at(0));
   std::string job;
@@ -79,6 +85,17 @@ TEST_F(LogWriterTest, AStoppedReaderHoldsNeitherJobsNorCallsNorTheEnd) {
   EXPECT_TRUE(client.remove(job).ok());
   daemon.send_signal(SIGTERM);
   EXPECT_EQ(daemon.wait(), 0);
+}
+
+TEST_F(LogWriterTest, AddressesThatNobodyReadsHoldUpNeitherJobsNorTheEnd) {
+  const OpenFile pipe = make_full_pipe();
+  const std::string socket = path("s").string();
+  e2e::Process daemon({"/bin/sh", "-c", "exec \"$0\" \"$@\" >'" + path("log").string() + "'", CELLCRUSHD_PROGRAM,
+                       "--data", path("data"), "--http", "none", "--listen", "unix:" + socket});
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(socket); }));
+  Client("unix:" + socket).create(small_case(), v1::Job::SUCCEEDED);
+  daemon.send(SIGTERM);
+  EXPECT_EQ(daemon.wait(std::chrono::seconds(20)).exit_code, 0);
 }
 
 TEST_F(LogWriterTest, AFileThatWasMovedAwayIsOpenedAgain) {

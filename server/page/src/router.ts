@@ -1,5 +1,6 @@
 // Views by path, without loading the page again.
 import { isExported } from "./api/exported";
+import { printable } from "./dom/element";
 
 export interface View {
   readonly element: HTMLElement;
@@ -17,7 +18,7 @@ export function route(path: RegExp, build: Build): void {
 }
 
 export function setTitle(title: string): void {
-  document.title = title ? `${title} – cellcrush` : "cellcrush";
+  document.title = title ? `${printable(title)} – cellcrush` : "cellcrush";
 }
 
 function show(): void {

@@ -3,6 +3,7 @@ import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
 import { CaseSchema, Frame_RigidWallSchema, Lattice_HexagonSchema,
          Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
+import { printable } from "../src/dom/element";
 import { caseValues, fieldAt, groupsOf, kLatticeKinds, linesOf, pathsBeside, readField,
          writeField } from "../src/new_case/fields";
 import { labelsOf } from "../src/new_case/order";
@@ -101,4 +102,9 @@ test("a comparison sees every field of a case but its title", () => {
   });
   value.lattice.$unknown = [{ no: 99, wireType: 2, data: new Uint8Array([2, 8, 5]) }];
   assert.equal(caseValues(value).get("lattice.99 (of a newer server)"), "2 8 5");
+});
+
+test("a text of others reorders nothing beside it", () => {
+  assert.equal(printable("a\u202eb\u2066\u061c\u200f"), "a\\u202eb\\u2066\\u061c\\u200f");
+  assert.equal(printable("µm – עברית 日本"), "µm – עברית 日本");
 });

@@ -1,3 +1,4 @@
+#include <absl/strings/str_replace.h>
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -60,6 +61,9 @@ TEST_F(HttpGatewayTest, ErrorsHaveTheirStatusCodeAndDetails) {
   EXPECT_THAT(dechunked(call("WatchJob", "application/connect+proto", envelope("\xff"))),
               AllOf(HasSubstr("invalid_argument"), HasSubstr("is not a cellcrush.v1.WatchJobRequest")));
   EXPECT_THAT(call("GetJob", "application/json", R"({"nome":1})"), HasSubstr("nome"));
+  EXPECT_THAT(call("GetJob", "application/json", "{\"name\":\"\u202e\"}"), HasSubstr(R"(\\xe2\\x80\\xae)"));
+  EXPECT_THAT(call("GetJob", "application/json", "{\"name\":\"\xff\"}"), HasSubstr(R"(\\xff)"));
+  EXPECT_THAT(exchange(request("GET /jobs/1/history.csv?\xff=1", "")), HasSubstr("\"\\xff=1\""));
   for (const char* none : {"/", "/cellcrush.v1.Jobs", "/cellcrush.v1.Jobs/None",
                            "/grpc.reflection.v1.ServerReflection/ServerReflectionInfo"})
     EXPECT_THAT(exchange(request(std::string("POST ") + none, "")), StartsWith("HTTP/1.1 404")) << none;
@@ -162,6 +166,24 @@ TEST_F(HttpGatewayTest, ThePageHasItsHeaders) {
   const auto at = page.find("ETag: ") + 6;
   const std::string tag = page.substr(at, page.find("\r\n", at) - at);
   EXPECT_THAT(exchange(request("GET /", "If-None-Match: " + tag + "\r\n")), StartsWith("HTTP/1.1 304"));
+}
+
+TEST_F(HttpGatewayTest, OnlyPathsOfThePageGiveThePage) {
+  const std::string routes = text_of_file(PAGE_ROUTES);
+  const std::string begin = "route(/^";
+  int views = 0;
+  for (auto at = routes.find(begin); at != std::string::npos; at = routes.find(begin, at)) {
+    at += begin.size();
+    std::string path = routes.substr(at, routes.find("/,", at) - at);
+    if (!path.ends_with('$')) continue;  // the last one, for none
+    path.pop_back();
+    path = absl::StrReplaceAll(path, {{"\\/", "/"}, {"(\\d+)", "12"}});
+    EXPECT_THAT(exchange(request("GET " + path + "?a=b", "")), StartsWith("HTTP/1.1 200")) << path;
+    ++views;
+  }
+  EXPECT_EQ(views, 7);
+  for (const char* path : {"/foo", "/jobs/", "/jobs/x", "/jobs/1/2", "/new/", "//", "/.env", "/index"})
+    EXPECT_THAT(exchange(request(std::string("GET ") + path, "")), StartsWith("HTTP/1.1 404")) << path;
 }
 
 TEST_F(HttpGatewayTest, ThePageIsCompressedForWhomAcceptsIt) {

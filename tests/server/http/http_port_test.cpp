@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "log_format.h"
@@ -19,6 +20,32 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+
+// Ciphers that a port takes, of all that OpenSSL has.
+std::set<std::string> ciphers_of(int port) {
+  const auto make_context = [] {
+    return std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>(SSL_CTX_new(TLS_client_method()), &SSL_CTX_free);
+  };
+  const auto all = make_context();
+  SSL_CTX_set_cipher_list(all.get(), "ALL:@SECLEVEL=0");
+  const auto* list = SSL_CTX_get_ciphers(all.get());
+  std::set<std::string> out;
+  for (int i = 0; i < sk_SSL_CIPHER_num(list); ++i) {
+    const auto* cipher = sk_SSL_CIPHER_value(list, i);
+    const std::string name = SSL_CIPHER_get_name(cipher);
+    const bool is_new = std::string(SSL_CIPHER_get_version(cipher)) == "TLSv1.3";
+    const auto context = make_context();
+    SSL_CTX_set_cipher_list(context.get(), ((is_new ? "ALL" : name) + ":@SECLEVEL=0").c_str());
+    if (is_new) SSL_CTX_set_ciphersuites(context.get(), name.c_str());
+    is_new ? SSL_CTX_set_min_proto_version(context.get(), TLS1_3_VERSION)
+           : SSL_CTX_set_max_proto_version(context.get(), TLS1_2_VERSION);
+    const HttpSocket socket(port);
+    const std::unique_ptr<SSL, decltype(&SSL_free)> tls(SSL_new(context.get()), &SSL_free);
+    SSL_set_fd(tls.get(), socket.number());
+    if (SSL_connect(tls.get()) == 1) out.insert(name);
+  }
+  return out;
+}
 
 class HttpPortTest : public HttpFixture {
  protected:
@@ -116,6 +143,16 @@ TEST_F(HttpPortTest, TenThousandConnectionsOfOneMachineHoldUpNoOther) {
     other.send(call_text("ListJobs", "application/json", "{}"));
     ASSERT_THAT(other.read_to_end(), StartsWith("HTTP/1.1 200"));
   }
+}
+
+TEST_F(HttpPortTest, HttpsTakesTheCiphersOfGrpc) {
+  DaemonOptions options = with_tls(http_options());
+  options.listen = {"127.0.0.1:0"};
+  start(options);
+  const std::string grpc = daemon_->addresses().front();
+  const auto ciphers = ciphers_of(port());
+  EXPECT_GE(ciphers.size(), 4U);
+  EXPECT_EQ(ciphers, ciphers_of(std::stoi(grpc.substr(grpc.rfind(':') + 1))));
 }
 
 TEST_F(HttpPortTest, WithTlsItSpeaksHttps) {

@@ -90,7 +90,8 @@ TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
   rpc::MethodTable methods(gate, pump);
   methods.stream("/cellcrush.v1.Jobs/DownloadResult", access::Scope::read, {pump, metrics, limits, {}},
                  std::make_shared<FountainService>(sent), &FountainService::open);
-  http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, methods, {});
+  rpc::HealthBoard board;
+  http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, methods, board, {});
   const HttpSocket socket(std::stoi(gateway.url().substr(gateway.url().rfind(':') + 1)), 64 * 1024);
   const std::string body = envelope("");
   socket.send("POST /cellcrush.v1.Jobs/DownloadResult HTTP/1.1\r\nHost: " + gateway.url().substr(7) +

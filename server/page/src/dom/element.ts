@@ -1,15 +1,25 @@
-// Elements from TypeScript. Text always becomes a text node, so that titles and labels of jobs cannot inject markup.
+// Elements from TypeScript. Text always becomes a text node, so that titles and labels of jobs cannot inject markup, and
+// is printable, so that they cannot reorder the text beside them.
 
 export type Child = Node | string | number | null | undefined | false;
 type Listener = (event: never) => void;
 export type Attributes = Record<string, string | number | boolean | null | undefined | Listener>;
+
+/** The text with characters that change the direction of text, such as U+202E, as escapes. */
+export function printable(text: string): string {
+  return text.replace(/[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]/g,
+                      (character) => `\\u${character.charCodeAt(0).toString(16).padStart(4, "0")}`);
+}
+
+const kShownAttributes = ["title", "aria-label"];
 
 function setAttributes(element: Element, attributes: Attributes): void {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") {
       element.addEventListener(name, value as EventListener);
     } else if (value !== null && value !== undefined && value !== false) {
-      element.setAttribute(name, value === true ? "" : String(value));
+      const text = value === true ? "" : String(value);
+      element.setAttribute(name, kShownAttributes.includes(name) ? printable(text) : text);
     }
   }
 }
@@ -17,7 +27,7 @@ function setAttributes(element: Element, attributes: Attributes): void {
 export function append(parent: Node, children: Child[]): void {
   for (const child of children) {
     if (child === null || child === undefined || child === false) continue;
-    parent.appendChild(child instanceof Node ? child : document.createTextNode(String(child)));
+    parent.appendChild(child instanceof Node ? child : document.createTextNode(printable(String(child))));
   }
 }
 
@@ -40,7 +50,8 @@ export function svg(tag: string, attributes: Attributes = {}, ...children: Child
 
 /** Replaces the text of an element only if it differs, which keeps selections and avoids layout. */
 export function setText(element: Element, text: string): void {
-  if (element.textContent !== text) element.textContent = text;
+  const shown = printable(text);
+  if (element.textContent !== shown) element.textContent = shown;
 }
 
 /** Shows a text in a banner, or no banner. */

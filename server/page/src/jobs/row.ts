@@ -1,7 +1,7 @@
 // One row of the table of jobs.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
-import { h, setText } from "../dom/element";
+import { h, printable, setText } from "../dom/element";
 import { clock, duration, fullTime, idOf, pathOf, quantity, strainText } from "../dom/format";
 import { iconButton } from "../dom/icons";
 import { kMeasures, textWithUnit } from "../job/measures";
@@ -85,7 +85,7 @@ export class JobRow {
     setChip(this.chip, job.state);
     setText(this.note, stateNote(job, entry));
     setText(this.ownNote, job.note);
-    this.note.title = [job.causeMessage, job.remedy].filter(Boolean).join(" ");
+    this.note.title = printable([job.causeMessage, job.remedy].filter(Boolean).join(" "));
     this.updateProgress(job);
     this.updateTime(job, entry);
     const { summary, progress } = job;

@@ -2,7 +2,7 @@
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { SweepTable_Row, SweepTable_SeedMeans } from "../../gen/cellcrush/v1/sweep_pb";
 import { clock, fullTime, given, idOf, milliseconds, number, pathOf, type Unit } from "../dom/format";
-import { h, type Child } from "../dom/element";
+import { h, printable, type Child } from "../dom/element";
 import { keep, kept } from "../dom/preferences";
 import { TableView, type CellColumn } from "../dom/table_view";
 import { kFirstMeasures, kMeasures, measureText, titleOfMeasure, unitFor, type Measure } from "../job/measures";
@@ -25,7 +25,7 @@ const startOf = ({ result }: Row): number | undefined => result?.startTime && mi
 function stateCell({ result }: Row): Child {
   const chip = stateChip();
   setChip(chip, result?.state ?? Job_State.JOB_STATE_UNSPECIFIED);
-  chip.title = result?.causeMessage ?? "";
+  chip.title = printable(result?.causeMessage ?? "");
   return h("div", { class: "state-cell" }, chip, result && !hasEnded(result) && result.progress && progressBar(result));
 }
 
