@@ -21,6 +21,9 @@ class OpenFile {
   [[nodiscard]] int get() const { return number_; }
   explicit operator bool() const { return number_ >= 0; }
 
+  /// Leaves it open, to the caller.
+  [[nodiscard]] int release() { return std::exchange(number_, -1); }
+
   /// Closes it now. False, with errno, if bytes may be lost: NFS reports a full disk here.
   [[nodiscard]] bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
 

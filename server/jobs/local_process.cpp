@@ -1,5 +1,6 @@
 #include "jobs/local_process.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/wait.h>
@@ -178,11 +179,9 @@ std::filesystem::path control_group() {
 }
 
 void write_order(const store::JobFolder& folder, const worker::Order& order) {
-  errno = 0;
-  std::ofstream file(folder.order(), std::ios::binary | std::ios::trunc);
-  if (file) order.SerializeToOstream(&file);
-  file.flush();
-  if (!file) store::throw_file_error(folder.order(), "written", errno);
+  OpenFile file = store::open_own(folder.order(), O_WRONLY | O_CREAT | O_TRUNC);
+  store::write_all(file, folder.order(), order.SerializeAsString());
+  if (!file.close()) store::throw_file_error(folder.order(), "written", errno);
 }
 
 WorkerExit follow(WorkerProcess& process, WorkerFollower& follower, const WorkerEvents& events,

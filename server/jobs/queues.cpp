@@ -1,11 +1,9 @@
 #include "jobs/queues.h"
 
 #include <spdlog/spdlog.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <system_error>
@@ -14,6 +12,7 @@
 #include "error.h"
 #include "jobs/outcome.h"
 #include "store/job_state.h"
+#include "store/own_folder.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::jobs {
@@ -31,16 +30,17 @@ constexpr const char* kOfTheFileSystem = "lost+found";
 
 // Why the folder is unusable for workers; empty if it is usable.
 std::string why_unusable(const store::JobFolder& folder) {
-  struct stat status {};
-  if (stat(folder.root().c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return "it is not a folder";
+  auto status = store::find_own(folder.root());
+  if (!status || !S_ISDIR(status->st_mode)) return "it is not a folder";
   if (::access(folder.root().c_str(), R_OK | W_OK | X_OK) != 0)
     return "the daemon lacks permission to read and write it";
   for (const auto& path :
        {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(), folder.previous_checkpoint(),
         folder.partial_checkpoint(), folder.result(), folder.partial_result(), folder.attempt()}) {
-    if (lstat(path.c_str(), &status) != 0) continue;
+    status = store::find_own(path);
+    if (!status) continue;
     const std::string name = path.filename().string();
-    if (!S_ISREG(status.st_mode)) return name + " in it is not a regular file";
+    if (!S_ISREG(status->st_mode)) return name + " in it is not a regular file";
     if (::access(path.c_str(), R_OK | W_OK) != 0) return name + " in it is not readable and writable";
   }
   return "";
@@ -228,8 +228,7 @@ void Queues::cancel(std::int64_t job) {
 
 // Nobody follows the worker of a job whose executor is absent. One that has not started finds no order, and ends.
 void Queues::end_cancelled(std::int64_t job, const std::string& executor) {
-  std::error_code none;
-  std::filesystem::remove(parts_.folder.job_folder(job).order(), none);
+  static_cast<void>(store::remove_own(parts_.folder.job_folder(job).order()));
   const auto stored = parts_.reader.find_job(job);
   if (!stored || stored->job.state() != v1::Job::CANCELLING) return;
   store::StateChange change;

@@ -10,7 +10,7 @@ namespace cellcrush::jobs {
 namespace {
 
 const std::filesystem::path& existing(const std::filesystem::path& path) {
-  store::open_file(path, O_WRONLY | O_CREAT | O_NONBLOCK);
+  store::open_own(path, O_WRONLY | O_CREAT);
   return path;
 }
 

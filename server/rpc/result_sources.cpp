@@ -118,7 +118,7 @@ void FrameSeriesSource::queue_frame() {
 }
 
 DownloadSource::DownloadSource(const std::filesystem::path& path, std::int64_t offset)
-    : path_(path), file_(path), offset_(offset) {
+    : path_(path), file_(path, store::LastLink::of_owner), offset_(offset) {
   if (offset < 0) throw InvalidField("offset", "is negative.", "Use 0 for the whole file.");
   if (offset > file_.size()) {
     throw ServiceError(ServiceError::Kind::out_of_range, "offset is " + std::to_string(offset) + ", but the file has " +

@@ -1,10 +1,12 @@
 #include "slurm/attempt_folder.h"
 
+#include <absl/strings/ascii.h>
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -40,59 +42,73 @@ void make_folder(const fs::path& folder) {
 // The ids of the attempts that jobs name.
 std::set<std::string> named_attempts(const fs::path& data_folder) {
   std::set<std::string> out;
-  std::error_code error;
-  for (fs::directory_iterator entry(data_folder / "jobs", error), end; !error && entry != end; entry.increment(error)) {
-    if (const auto attempt = read_attempt(store::JobFolder(entry->path()))) out.insert(attempt->id());
-  }
+  const auto jobs = data_folder / "jobs";
+  if (!store::find_own(jobs) && errno == ENOENT) return out;
   // Attempts are not to be taken for left ones because their jobs could not be read.
-  if (error && error != std::errc::no_such_file_or_directory)
-    store::throw_file_error(data_folder / "jobs", "read", error.value());
+  for (const auto& name : store::names_in(jobs)) {
+    if (const auto attempt = read_attempt(store::JobFolder(jobs / name))) out.insert(attempt->id());
+  }
   return out;
+}
+
+// Whether an entry has the name of an attempt or a batch, perhaps with a suffix, and is a folder of this user.
+bool is_of_daemon(const fs::path& path) {
+  const std::string id = path.stem().string();
+  const auto found = store::find_own(path);
+  return id.size() == store::random_name().size() && std::ranges::all_of(id, absl::ascii_isxdigit) && found &&
+         S_ISDIR(found->st_mode) && found->st_uid == geteuid();
 }
 
 template <typename IsUsed>
 void remove_unused(const fs::path& folder, const IsUsed& is_used) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (is_used(entry->path())) continue;
-    std::error_code ignored;
-    fs::remove_all(entry->path(), ignored);
-    spdlog::info("{} was left by an earlier daemon and is removed", entry->path().string());
+  for (const auto& name : store::names_in(folder)) {
+    const auto path = folder / name;
+    if (is_used(path)) continue;
+    if (!is_of_daemon(path)) {
+      spdlog::warn("{} is not of cellcrushd and is left alone", path.string());
+    } else if (const int error = store::remove_own(path); error == 0) {
+      spdlog::info("{} was left by an earlier daemon and is removed", path.string());
+    } else {
+      spdlog::warn("{} was left by an earlier daemon and cannot be removed: {}", path.string(),
+                   std::generic_category().message(error));
+    }
   }
 }
 
 }  // namespace
 
+AttemptFolder::AttemptFolder(const fs::path& shared, const std::string& id) : root_(shared / "attempts" / id) {
+  if (id.empty() || id.front() == '.' || id.find('/') != std::string::npos)
+    throw ServiceError(ServiceError::Kind::data_loss, "\"" + id + "\" is no attempt of " + shared.string() + ".");
+}
+
 bool AttemptFolder::exists() const {
-  struct stat status {};
-  if (stat(root_.c_str(), &status) == 0) return S_ISDIR(status.st_mode);
+  if (const auto found = store::find_own(root_)) return S_ISDIR(found->st_mode);
   const int error = errno;
   // Without the folder around it, something else is missing.
-  if (error != ENOENT || stat(root_.parent_path().parent_path().append(kMarker).c_str(), &status) != 0)
+  if (error != ENOENT || !store::find_own(root_.parent_path().parent_path().append(kMarker)))
     store::throw_file_error(root_, "read", error == ENOENT ? ENODEV : error);
   return false;
 }
 
-void AttemptFolder::look_again() const {
-  const int folder = open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder >= 0) close(folder);
-}
+void AttemptFolder::look_again() const { store::try_open_own(root_, O_RDONLY | O_DIRECTORY); }
 
 // A hard link is created by one caller only, on NFS too, where exclusive creation of a file may be repeated by the
 // client. If the answer of the server was lost, the number of links tells whether it was made.
 bool AttemptFolder::claim(const Claim& claim) const {
-  const auto own = file((std::string(kClaim) + "." + store::random_name()).c_str());
+  const std::string own = std::string(kClaim) + "." + store::random_name();
   if (!exists()) return false;
   try {
-    write_small_file(own, claim.SerializeAsString());
+    write_small_file(file(own.c_str()), claim.SerializeAsString());
   } catch (...) {
     if (!exists()) return false;
     throw;
   }
-  const int error = link(own.c_str(), file(kClaim).c_str()) == 0 ? 0 : errno;
-  struct stat status {};
-  const bool is_mine = error == 0 || (stat(own.c_str(), &status) == 0 && status.st_nlink == 2);
-  unlink(own.c_str());
+  const OpenFile folder = store::try_open_own(root_, O_RDONLY | O_DIRECTORY);
+  const int error = folder && linkat(folder.get(), own.c_str(), folder.get(), kClaim, 0) == 0 ? 0 : errno;
+  const auto found = store::find_own(file(own.c_str()));
+  const bool is_mine = error == 0 || (found && found->st_nlink == 2);
+  static_cast<void>(store::remove_own(file(own.c_str())));
   if (is_mine) return true;
   if (error != 0 && error != EEXIST && error != ENOENT && error != ESTALE)
     store::throw_file_error(file(kClaim), "written", error);
@@ -133,10 +149,9 @@ std::optional<Ended> AttemptFolder::find_ended() const { return read_message<End
 
 // Renamed first: a task that claims the attempt meanwhile finds either the whole folder or none.
 void AttemptFolder::remove() const {
-  std::error_code ignored;
-  const std::filesystem::path removed = root_.string() + ".removed";
-  std::filesystem::rename(root_, removed, ignored);
-  std::filesystem::remove_all(removed, ignored);
+  const fs::path removed = root_.string() + ".removed";
+  static_cast<void>(store::rename_own(root_, removed));
+  static_cast<void>(store::remove_own(removed));
 }
 
 void require_marker(const fs::path& folder) {
@@ -146,7 +161,8 @@ void require_marker(const fs::path& folder) {
 
 void prepare_shared_folder(const ClusterOptions& options, const fs::path& data_folder) {
   const fs::path own = data_folder / "slurm" / options.name / "identity";
-  const auto marker = options.folder / kMarker;
+  const auto folder = store::canonical_of(options.folder);
+  const auto marker = folder / kMarker;
   const auto expected = read_small_file(own);
   const auto found = read_small_file(marker);
   const std::string name = "--slurm " + options.name + ": " + options.folder.string();
@@ -161,16 +177,21 @@ void prepare_shared_folder(const ClusterOptions& options, const fs::path& data_f
                   "daemon is no more, delete " +
                   marker.string() + ".");
   make_folder(own.parent_path());
-  make_folder(options.folder / "attempts");
-  make_folder(options.folder / "batches");
+  make_folder(folder);
+  store::require_own_folder(folder, name);
+  for (const char* each : {"attempts", "batches"}) {
+    if (const int error = store::make_own_folder(folder / each); error != 0 && error != EEXIST)
+      store::throw_file_error(folder / each, "used", error);
+    store::require_own_folder(folder / each, "--slurm " + options.name + ": " + (folder / each).string());
+  }
   if (!found) {
     const std::string identity = store::random_name();
     write_small_file(own, identity);
     write_small_file(marker, identity);
   }
   const auto named = named_attempts(data_folder);
-  remove_unused(options.folder / "attempts", [&](const fs::path& path) { return named.contains(path.filename()); });
-  remove_unused(options.folder / "batches", [&](const fs::path& path) {
+  remove_unused(folder / "attempts", [&](const fs::path& path) { return named.contains(path.filename()); });
+  remove_unused(folder / "batches", [&](const fs::path& path) {
     const auto batch = read_message<Batch>(path / "tasks");
     if (!batch) return false;
     for (const auto& task : batch->tasks()) {

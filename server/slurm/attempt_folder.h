@@ -20,6 +20,8 @@ inline constexpr const char* kMarker = "cellcrush-folder";
 class AttemptFolder {
  public:
   explicit AttemptFolder(std::filesystem::path root) : root_(std::move(root)) {}
+  /// That of an attempt in the folder of a cluster. Throws ServiceError (data_loss) for an id that is no name in it.
+  AttemptFolder(const std::filesystem::path& shared, const std::string& id);
 
   [[nodiscard]] const std::filesystem::path& root() const { return root_; }
   /// order, reports, checkpoint, checkpoint.previous and result.h5, named as in a job's folder.
@@ -60,9 +62,9 @@ class AttemptFolder {
 };
 
 /// Prepares the folder of a cluster for the daemon with this data folder: a marker in both says that they belong
-/// together. Removes what earlier daemons left of attempts that no job names. Throws ServiceError
-/// (failed_precondition) if the folder belongs to another daemon or lacks its marker, as when its file system is not
-/// mounted.
+/// together. Removes what earlier daemons left of attempts that no job names; entries with other names stay. Throws
+/// ServiceError (failed_precondition) if the folder belongs to another daemon or user, if others can write in it, or if
+/// it lacks its marker, as when its file system is not mounted.
 void prepare_shared_folder(const ClusterOptions& options, const std::filesystem::path& data_folder);
 
 /// Throws ServiceError, with a shortage, unless the marker is there.

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <exception>
-#include <filesystem>
+#include <limits>
 #include <stop_token>
 #include <system_error>
 #include <utility>
 
 #include "slurm/attempt_exit.h"
-#include "slurm/small_file.h"
+#include "store/durable_file.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -22,6 +22,11 @@ constexpr std::uint64_t kMissedAnswers = 3;
 constexpr std::chrono::milliseconds kBetweenLooksAtWaiting{10'000};
 // For an answer of Slurm on which a decision waits.
 constexpr std::chrono::milliseconds kBetweenQuestions{5'000};
+constexpr std::int64_t kEndOfLog = 4096;  // bytes
+
+std::uint64_t limit_of(const Attempt& attempt) {
+  return attempt.most_bytes() == 0 ? std::numeric_limits<std::uint64_t>::max() : attempt.most_bytes();
+}
 
 }  // namespace
 
@@ -30,8 +35,8 @@ AttemptFollower::AttemptFollower(const Parts& parts, const store::JobFolder& job
     : parts_(parts),
       job_(job),
       submission_(std::move(submission)),
-      folder_(parts.options.folder / "attempts" / submission_->state().attempt.id()),
-      mirror_(folder_.files(), job, size_of(job.reports())),
+      folder_(parts.options.folder, submission_->state().attempt.id()),
+      mirror_(folder_.files(), job, size_of(job.reports()), limit_of(submission_->state().attempt)),
       feed_(job, parts.events) {}
 
 jobs::WorkerExit AttemptFollower::follow() {
@@ -74,6 +79,11 @@ std::optional<jobs::WorkerExit> AttemptFollower::look() {
     close(true);
     return jobs::WorkerExit{.kind = ExitKind::broken};
   }
+  if (!too_large_.empty()) {
+    const std::string name = slurm_name(submission_->state().attempt);
+    close(true);
+    return jobs::WorkerExit{.kind = ExitKind::gone, .detail = name + " wrote too much: " + too_large_};
+  }
   if (!has_begun_ && claim_ && !claim_->withdrawn()) {
     parts_.events.started(static_cast<int>(claim_->process()));
     has_begun_ = true;
@@ -109,7 +119,7 @@ bool AttemptFollower::read_folder() {
     return true;
   } catch (const ServiceError& error) {
     // The work in the cluster is not lost, whatever the disks are short of at the moment.
-    note_trouble(error);
+    error.kind() == ServiceError::Kind::exhausted ? void(too_large_ = error.what()) : note_trouble(error);
     return false;
   }
 }
@@ -119,8 +129,7 @@ bool AttemptFollower::is_complete(const Ended& ended) const {
   if (!ended.has_final()) return true;
   const bool was_here = final_before_ && final_before_->SerializeAsString() == ended.final().SerializeAsString();
   if (!feed_.last_word() && !was_here) return false;
-  std::error_code error;
-  return !ended.final().has_summary() || std::filesystem::exists(job_.result(), error);
+  return !ended.final().has_summary() || store::is_own_file(job_.result());
 }
 
 std::optional<worker::Final> AttemptFollower::final_report() const {
@@ -361,13 +370,13 @@ void AttemptFollower::close(bool ends_task) {
 
 std::string AttemptFollower::last_line_of_log(const Attempt& attempt) const {
   try {
-    const auto log = read_small_file(Batcher::batch_folder(parts_.options, attempt.batch()) /
-                                     ("task-" + std::to_string(attempt.task()) + ".log"));
-    if (!log) return "";
-    auto end = log->find_last_not_of(" \n\r\t");
+    const store::InputFile file(Batcher::batch_folder(parts_.options, attempt.batch()) /
+                                ("task-" + std::to_string(attempt.task()) + ".log"));
+    const std::string log = file.read(std::max<std::int64_t>(0, file.size() - kEndOfLog), kEndOfLog);
+    auto end = log.find_last_not_of(" \n\r\t");
     if (end == std::string::npos) return "";
-    const auto begin = log->find_last_of('\n', end);
-    return " Its log ends with: " + log->substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
+    const auto begin = log.find_last_of('\n', end);
+    return " Its log ends with: " + log.substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
   } catch (const ServiceError&) {
     return "";
   }

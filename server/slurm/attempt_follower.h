@@ -100,7 +100,8 @@ class AttemptFollower {
   Request::Kind request_ = Request::NONE;
   std::uint64_t unlisted_since_ = 0;  ///< number of the answer after which a task that is not listed is missed
   std::string place_;
-  std::string trouble_;  ///< the last that was logged
+  std::string trouble_;    ///< the last that was logged
+  std::string too_large_;  ///< which file of the attempt's exceeds its limit
   std::mutex wake_mutex_;
   std::condition_variable wake_;
   bool is_woken_ = false;

@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds kBetweenBeats{5'000};
 }  // namespace
 
 void AttemptRun::run(const store::JobFolder& folder) {
-  const auto order = read_message<worker::Order>(folder.order());
+  const auto order = read_message<worker::Order>(folder.order(), kOrder);
   if (!order) throw ServiceError(ServiceError::Kind::data_loss, folder.order().string() + " is damaged.");
   mirror_.emplace(folder, shared_.files(), size_of(folder.reports()));
   jobs::WorkerEvents events;

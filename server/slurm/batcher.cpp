@@ -110,8 +110,7 @@ bool Submission::keep(const store::JobFolder& job, State state) {
 void Submission::close(const store::JobFolder& job) {
   const MutexLock lock(mutex_);
   is_closed_ = true;
-  std::error_code ignored;
-  std::filesystem::remove(job.attempt(), ignored);
+  static_cast<void>(store::remove_own(job.attempt()));
 }
 
 bool Submission::withdraw() {
@@ -188,8 +187,7 @@ void Batcher::submit_pack(Pack pack, const std::vector<Gathered>& gathered) {
                    pack.tasks.size());
   } catch (const std::exception& error) {
     // sbatch was not run.
-    std::error_code ignored;
-    std::filesystem::remove_all(batch_folder(options_, batch), ignored);
+    static_cast<void>(store::remove_own(batch_folder(options_, batch)));
     state.stage = Submission::Stage::refused;
     state.why = error.what();
     state.trouble = trouble_of(error);
@@ -220,9 +218,7 @@ void Batcher::tell(const Gathered& gathered, Submission::State state) {
 std::vector<std::string> Batcher::prepare(const std::string& batch, const Pack& pack,
                                           const std::vector<Gathered>& gathered) {
   const auto folder = batch_folder(options_, batch);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) store::throw_file_error(folder, "written", error.value());
+  if (const int error = store::make_own_folder(folder); error != 0) store::throw_file_error(folder, "written", error);
   Batch tasks;
   const bool is_array = pack.tasks.size() > 1;
   for (std::size_t task = 0; task < pack.tasks.size(); ++task) {
@@ -240,6 +236,7 @@ std::vector<std::string> Batcher::prepare(const std::string& batch, const Pack& 
   }
   write_small_file(folder / "tasks", tasks.SerializeAsString());
   write_small_file(folder / "script", script_of(batch));
+  const auto on_nodes = options_.named_folder / "batches" / batch;
   const std::string log = is_array ? "task-%a.log" : "task-0.log";
   const auto minutes = time_limit_minutes(pack.need.seconds, options_.longest);
   std::vector<std::string> out = {"--job-name=" + (kJobPrefix + batch),
@@ -252,8 +249,8 @@ std::vector<std::string> Batcher::prepare(const std::string& batch, const Pack& 
                                   fmt::format("--signal=B:USR2@{}", warning_seconds(minutes)),
                                   "--no-requeue",
                                   "--export=NIL",
-                                  "--chdir=" + folder.string(),
-                                  "--output=" + (folder / log).string()};
+                                  "--chdir=" + on_nodes.string(),
+                                  "--output=" + (on_nodes / log).string()};
   if (is_array) out.push_back(fmt::format("--array=0-{}%{}", pack.tasks.size() - 1, options_.tasks));
   out.insert(out.end(), options_.sbatch.begin(), options_.sbatch.end());
   out.push_back((folder / "script").string());
@@ -265,7 +262,7 @@ std::string Batcher::script_of(const std::string& batch) const {
   if (!options_.simd.empty()) out += "export CELLCRUSH_SIMD=" + shell_word(options_.simd) + "\n";
   return out + fmt::format("exec {} task --lease {} --folder {} --batch {}\n", shell_word(options_.program.string()),
                            std::chrono::duration<double>(options_.times.lease).count(),
-                           shell_word(options_.folder.string()), batch);
+                           shell_word(options_.named_folder.string()), batch);
 }
 
 int task_index(const Attempt& attempt) { return attempt.is_array() ? attempt.task() : -1; }

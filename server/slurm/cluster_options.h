@@ -13,6 +13,7 @@ namespace cellcrush::slurm {
 struct ClusterOptions {
   std::string name;                      ///< the executor is called "slurm/NAME"
   std::filesystem::path folder;          ///< absolute; on a file system that the daemon and all nodes share
+  std::filesystem::path named_folder;    ///< the same with its links, for the nodes; `folder` has none in the executor
   std::filesystem::path program;         ///< cellcrushd on the nodes, absolute; empty: the daemon's own path
   std::filesystem::path commands;        ///< folder of sbatch, squeue, sacct and scancel; empty: found by PATH
   std::string simd;                      ///< CELLCRUSH_SIMD of the tasks; empty: the fastest kernel of each node

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,14 +15,16 @@ namespace cellcrush::slurm {
 /// Copies what a run writes into another folder, while it runs: reports as they grow, each new checkpoint, and the
 /// result. The copy keeps the order on which readers rely: a checkpoint comes after all reports before it, the last
 /// report after the result.
-/// Not thread-safe. Failures throw ServiceError; the next pass repeats what failed.
+/// Not thread-safe. Failures throw ServiceError; the next pass repeats what failed. Links are treated as absent.
 class Mirror {
  public:
-  /// `reports_from`: size of the reports that `to` has already, at a boundary of two reports.
-  Mirror(store::JobFolder from, store::JobFolder to, std::uint64_t reports_from)
-      : from_(std::move(from)), to_(std::move(to)), offset_(reports_from) {}
+  /// `reports_from`: size of the reports that `to` has already, at a boundary of two reports. `most`: size limit of the
+  /// result, of a checkpoint and of the reports to come.
+  Mirror(store::JobFolder from, store::JobFolder to, std::uint64_t reports_from,
+         std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
+      : from_(std::move(from)), to_(std::move(to)), start_(reports_from), most_(most), offset_(reports_from) {}
 
-  /// Copies what is new. Returns whether anything was.
+  /// Copies what is new. Returns whether anything was. Throws ServiceError (exhausted) for a file beyond its limit.
   bool pass();
 
  private:
@@ -33,11 +37,15 @@ class Mirror {
     bool operator==(const Version&) const = default;
   };
   bool put_result();
-  void put_checkpoint(const std::string& bytes) const;
+  void put_checkpoint() const;
+  void require_room() const;
   static std::optional<Version> version_of(const std::filesystem::path& path);
 
   store::JobFolder from_;
   store::JobFolder to_;
+  std::uint64_t start_;  ///< offset of the reports at the beginning
+  std::uint64_t most_;
+  std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
   std::uint64_t offset_;
   std::optional<Version> checkpoint_;
   std::optional<Version> result_;

@@ -15,6 +15,8 @@
 #include "store/durable_file.h"
 #include "store/report_log.h"
 #include "store/resource_name.h"
+#include "store/result_writer.h"
+#include "translate/case_to_spec.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -22,10 +24,34 @@ namespace {
 // Removes half a report at the end, which a killed daemon or worker may have left.
 void cut_incomplete_report(const store::JobFolder& folder) { store::ReportLog log(folder.reports()); }
 
+// For what the forecast misses: reports take more room than the compressed result.
+constexpr std::int64_t kForecastFactor = 4;
+constexpr std::int64_t kForecastBeside = std::int64_t{64} << 20;
+constexpr std::int64_t kPartOfSample = 1024;  // bytes of a watched node or a rigid wall in a sample
+
+// Limit of each file that a task hands over. A checkpoint is no larger than the run's memory.
+std::uint64_t most_bytes_of(const v1::Case& submitted, const translate::CaseChecker::Verdict& verdict) {
+  const auto spec = translate::to_spec(submitted).spec;
+  const auto& frame = submitted.lattice().frame();
+  const std::int64_t parts =
+      frame.watched_nodes_size() + frame.rigid_walls_size() + submitted.loading().rigid_walls_size();
+  const std::int64_t samples = spec.output.sample_count;
+  const std::int64_t files = store::predicted_result_bytes(2 * verdict.element_count, verdict.element_count, samples,
+                                                           spec.output.frame_count) +
+                             samples * parts * kPartOfSample;
+  return static_cast<std::uint64_t>(kForecastFactor * files + verdict.most_memory_bytes + kForecastBeside);
+}
+
+ClusterOptions with_canonical_folder(ClusterOptions options) {
+  options.named_folder = options.folder;
+  options.folder = store::canonical_of(options.folder);
+  return options;
+}
+
 }  // namespace
 
 SlurmExecutor::SlurmExecutor(ClusterOptions options, double step_cost, std::unique_ptr<jobs::LocalProcess> local)
-    : options_(std::move(options)),
+    : options_(with_canonical_folder(std::move(options))),
       step_cost_(step_cost),
       local_(std::move(local)),
       commands_(options_.commands, options_.times.command),
@@ -60,8 +86,7 @@ void SlurmExecutor::end_attempt(const store::JobFolder& folder, const Attempt& a
   if (has_begun) shared.request(Request::ABANDON);
   if (attempt.slurm_job() != 0 && attempt.shares() <= 1)
     static_cast<void>(commands_.scancel(attempt.slurm_job(), task_index(attempt)));
-  std::error_code ignored;
-  std::filesystem::remove(folder.attempt(), ignored);
+  static_cast<void>(store::remove_own(folder.attempt()));
   shared.remove();
   tidy_up_after(attempt, has_begun);
 }
@@ -70,9 +95,8 @@ void SlurmExecutor::tidy_up_after(const Attempt& attempt, bool has_begun) {
   if (attempt.batch().empty()) return;
   const auto folder = Batcher::batch_folder(options_, attempt.batch());
   const auto is_over = [this](const Batch::Task& task) {
-    return std::ranges::none_of(task.attempts(), [this](const std::string& id) {
-      return AttemptFolder(options_.folder / "attempts" / id).exists();
-    });
+    return std::ranges::none_of(task.attempts(),
+                                [this](const std::string& id) { return AttemptFolder(options_.folder, id).exists(); });
   };
   try {
     const auto batch = read_message<Batch>(folder / "tasks");
@@ -84,15 +108,16 @@ void SlurmExecutor::tidy_up_after(const Attempt& attempt, bool has_begun) {
     for (int task = batch->tasks_size(); --task >= 0;) {
       if (!is_over(batch->tasks(task))) return;
     }
-    std::filesystem::remove_all(folder);
+    if (const int error = store::remove_own(folder); error != 0) store::throw_file_error(folder, "removed", error);
   } catch (const std::exception& error) {
     spdlog::warn("{} cannot be removed: {}", folder.string(), error.what());
   }
 }
 
-Need SlurmExecutor::predict(const worker::Order& order) {
+Need SlurmExecutor::predict(const worker::Order& order, Attempt& attempt) {
   const MutexLock lock(checker_mutex_);
   const auto verdict = checker_.check(order.case_());
+  attempt.set_most_bytes(most_bytes_of(order.case_(), verdict));
   store::QueuedJob job;
   job.element_steps = verdict.element_steps;
   return need_of(order.threads(), verdict.most_memory_bytes,
@@ -102,25 +127,23 @@ Need SlurmExecutor::predict(const worker::Order& order) {
 std::shared_ptr<Submission> SlurmExecutor::open_attempt(const store::JobFolder& folder, const worker::Order& order) {
   Attempt attempt;
   attempt.set_id(store::random_name());
-  const Need need = predict(order);
+  const Need need = predict(order, attempt);
   const AttemptFolder shared = folder_of(attempt);
   require_marker(options_.folder);
   // Durable first: whatever is in the shared folder belongs to an attempt that the next daemon finds.
   write_attempt(folder, attempt);
   try {
     const AttemptFolder partial(shared.root().string() + ".partial");
-    std::error_code error;
-    std::filesystem::create_directories(partial.root(), error);
-    if (error) store::throw_file_error(partial.root(), "used", error.value());
+    if (const int error = store::make_own_folder(partial.root()); error != 0)
+      store::throw_file_error(partial.root(), "used", error);
     write_small_file(partial.files().order(), order.SerializeAsString());
     copy_run(folder, partial.files());
     partial.request(Request::NONE);
-    std::filesystem::rename(partial.root(), shared.root(), error);
-    if (error) store::throw_file_error(shared.root(), "written", error.value());
+    if (const int error = store::rename_own(partial.root(), shared.root()); error != 0)
+      store::throw_file_error(shared.root(), "written", error);
   } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(folder.attempt(), ignored);
-    std::filesystem::remove_all(shared.root().string() + ".partial", ignored);
+    static_cast<void>(store::remove_own(folder.attempt()));
+    static_cast<void>(store::remove_own(shared.root().string() + ".partial"));
     throw;
   }
   return batcher_.submit(attempt, folder, need);

@@ -38,11 +38,12 @@ class SlurmExecutor final : public jobs::Executor {
 
  private:
   [[nodiscard]] AttemptFolder folder_of(const Attempt& attempt) const {
-    return AttemptFolder(options_.folder / "attempts" / attempt.id());
+    return AttemptFolder(options_.folder, attempt.id());
   }
   std::shared_ptr<Submission> open_attempt(const store::JobFolder& folder, const worker::Order& order);
   void give_up(const store::JobFolder& folder, Submission& submission);
-  Need predict(const worker::Order& order);
+  /// Also sets the limit of the attempt's files.
+  Need predict(const worker::Order& order, Attempt& attempt);
   /// Takes an attempt back, or asks its task to end it, and removes its files.
   void end_attempt(const store::JobFolder& folder, const Attempt& attempt);
   /// An attempt is over. Cancels its task in Slurm if that has nothing left to begin, and removes the batch's folder

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <string_view>
 #include <system_error>
@@ -16,11 +15,10 @@ namespace {
 // Calls `use` with the file open for writing, and throws the errno that it returns, for the file `shown`.
 template <typename Use>
 void with_file(const std::filesystem::path& path, const std::filesystem::path& shown, const Use& use) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  if (file < 0) store::throw_file_error(shown, "written", errno);
-  int error = use(file);
-  // NFS reports a full disk when the file is closed.
-  if (close(file) != 0 && error == 0) error = errno;
+  OpenFile file = store::try_open_own(path, O_WRONLY | O_CREAT);
+  if (!file) store::throw_file_error(shown, "written", errno);
+  int error = use(file.get());
+  if (!file.close() && error == 0) error = errno;
   if (error != 0) store::throw_file_error(shown, "written", error);
 }
 
@@ -40,12 +38,12 @@ int write_at(int file, std::uint64_t offset, std::string_view bytes) {
 void write_small_file(const std::filesystem::path& path, const std::string& content) {
   const std::filesystem::path partial =
       path.string() + ".partial." + std::to_string(getpid()) + "." + std::to_string(gettid());
-  unlink(partial.c_str());
+  static_cast<void>(store::remove_own(partial));
   try {
     with_file(partial, path, [&](int file) { return write_at(file, 0, content); });
     store::publish_file(partial, path);
   } catch (...) {
-    unlink(partial.c_str());
+    static_cast<void>(store::remove_own(partial));
     throw;
   }
 }
@@ -58,34 +56,29 @@ void make_durable(const std::filesystem::path& path) {
   with_file(path, path, [](int file) { return fdatasync(file) == 0 ? 0 : errno; });
 }
 
-void copy_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
+void copy_durably(const std::filesystem::path& from, const std::filesystem::path& to, std::uint64_t most) {
   const std::filesystem::path partial = to.string() + ".partial";
-  std::error_code error;
-  std::filesystem::copy_file(from, partial, std::filesystem::copy_options::overwrite_existing, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    store::throw_file_error(to, "written", error.value());
+  try {
+    store::copy_own(from, partial, most);
+  } catch (...) {
+    static_cast<void>(store::remove_own(partial));
+    throw;
   }
   store::publish_file(partial, to);
 }
 
-std::optional<std::string> read_small_file(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0 && (errno == ENOENT || errno == ENOTDIR || errno == ESTALE)) return std::nullopt;
-  if (file < 0) store::throw_file_error(path, "read", errno);
-  std::string out;
-  std::array<char, 4096> part{};
-  ssize_t count = 0;
-  while ((count = read(file, part.data(), part.size())) != 0) {
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) break;
-    out.append(part.data(), static_cast<std::size_t>(count));
+std::optional<std::string> read_small_file(const std::filesystem::path& path, std::uint64_t most) {
+  const OpenFile file = store::try_open_own(path, O_RDONLY);
+  if (!file) {
+    for (const int absent : {ENOENT, ENOTDIR, ESTALE, ELOOP, store::kNotRegular}) {
+      if (errno == absent) return std::nullopt;
+    }
+    store::throw_file_error(path, "read", errno);
   }
-  const int error = errno;
-  close(file);
-  if (count < 0 && error == ESTALE) return std::nullopt;
-  if (count < 0) store::throw_file_error(path, "read", error);
+  struct stat status {};
+  if (fstat(file.get(), &status) != 0 || static_cast<std::uint64_t>(status.st_size) > most) return std::nullopt;
+  std::string out(static_cast<std::size_t>(status.st_size), '\0');
+  out.resize(store::read_at(file, path, out.data(), out.size(), 0));
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -20,16 +21,22 @@ void write_in_place(const std::filesystem::path& path, const std::string& conten
 /// Returns once what was written in place is durable. Throws ServiceError.
 void make_durable(const std::filesystem::path& path);
 
-/// Copies a file durably under its final name. Throws ServiceError.
-void copy_durably(const std::filesystem::path& from, const std::filesystem::path& to);
+/// Copies a file of at most `most` bytes durably under its final name. Throws ServiceError.
+void copy_durably(const std::filesystem::path& from, const std::filesystem::path& to,
+                  std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
-/// Nothing if the file is absent. Throws ServiceError if it cannot be read for another reason.
-std::optional<std::string> read_small_file(const std::filesystem::path& path);
+/// Size limit of a small file, and that of an order, which holds a case.
+inline constexpr std::uint64_t kSmall = std::uint64_t{1} << 20;
+inline constexpr std::uint64_t kOrder = std::uint64_t{64} << 20;
+
+/// Nothing if the file is absent. A link, a FIFO and a file of more than `most` bytes are treated as absent. Throws
+/// ServiceError if it cannot be read for another reason.
+std::optional<std::string> read_small_file(const std::filesystem::path& path, std::uint64_t most = kSmall);
 
 /// A message in such a file. A file that is not this message is treated as absent.
 template <typename Message>
-std::optional<Message> read_message(const std::filesystem::path& path) {
-  const auto content = read_small_file(path);
+std::optional<Message> read_message(const std::filesystem::path& path, std::uint64_t most = kSmall) {
+  const auto content = read_small_file(path, most);
   Message out;
   if (!content || !out.ParseFromString(*content)) return std::nullopt;
   return out;

@@ -91,11 +91,11 @@ void leave_unbegun(const AttemptFolder& shared, Ended::Reason reason) {
 }
 
 // Names of the attempts of this task.
-std::vector<std::string> own_attempts(const TaskOptions& options) {
-  const auto batch = read_message<Batch>(options.folder / "batches" / options.batch / "tasks");
+std::vector<std::string> own_attempts(const fs::path& folder, const std::string& name) {
+  const auto batch = read_message<Batch>(folder / "batches" / name / "tasks");
   const int task = own_task();
   if (!batch || task < 0 || task >= batch->tasks_size()) {
-    spdlog::info("batch {} has no task {} any more", options.batch, task);
+    spdlog::info("batch {} has no task {} any more", name, task);
     return {};
   }
   const auto& attempts = batch->tasks(task).attempts();
@@ -128,7 +128,7 @@ void compute(const std::string& id, const AttemptFolder& shared, const TaskOptio
     const ScratchFolder scratch(variable("TMPDIR").empty() ? "/tmp" : variable("TMPDIR"));
     const store::JobFolder folder(scratch.path());
     patiently(end, [&] {
-      copy_durably(shared.files().order(), folder.order());
+      copy_durably(shared.files().order(), folder.order(), kOrder);
       copy_run(shared.files(), folder);
     });
     jobs::LocalProcess workers(options.worker_program, kStallLimit, jobs::count_oom_kills,
@@ -147,9 +147,7 @@ void compute(const std::string& id, const AttemptFolder& shared, const TaskOptio
 // The locks of a network file system may not reach other nodes, so each node has names of its own.
 std::string prefix_of_node() { return "cellcrush-task-" + host_name() + "@"; }
 
-OpenFile open_folder(const fs::path& path) {
-  return OpenFile(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-}
+OpenFile open_folder(const fs::path& path) { return store::try_open_own(path, O_RDONLY | O_DIRECTORY); }
 
 bool is_own(const OpenFile& folder) {
   struct stat status {};
@@ -169,14 +167,15 @@ void remove_left_folders(const fs::path& parent, const std::string& prefix) {
        entry.increment(ignored)) {
     if (!entry->path().filename().string().starts_with(prefix)) continue;
     const OpenFile folder = open_folder(entry->path());
-    std::error_code failed;
-    if (folder && is_own(folder) && flock(folder.get(), LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry->path(), failed);
+    if (folder && is_own(folder) && flock(folder.get(), LOCK_EX | LOCK_NB) == 0)
+      static_cast<void>(store::remove_own(entry->path()));
   }
 }
 
 }  // namespace
 
-ScratchFolder::ScratchFolder(const fs::path& parent) {
+ScratchFolder::ScratchFolder(const fs::path& given) {
+  const auto parent = store::canonical_of(given);
   const std::string prefix = prefix_of_node();
   remove_left_folders(parent, prefix);
   while (!lock_) {
@@ -196,20 +195,18 @@ ScratchFolder::ScratchFolder(const fs::path& parent) {
   }
 }
 
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
+ScratchFolder::~ScratchFolder() { static_cast<void>(store::remove_own(path_)); }
 
 int run_task(const TaskOptions& options) {
   TaskEnd end = Ended::REASON_UNSPECIFIED;
   const sigset_t signals = block_ends();
   const std::jthread waits([&](const std::stop_token& stop) { wait_for_ends(signals, end, stop); });
+  const auto folder = store::canonical_of(options.folder);
   int out = 0;
   try {
-    for (const auto& id : own_attempts(options)) {
+    for (const auto& id : own_attempts(folder, options.batch)) {
       try {
-        compute(id, AttemptFolder(options.folder / "attempts" / id), options, end);
+        compute(id, AttemptFolder(folder, id), options, end);
       } catch (const std::exception& error) {
         // The next attempt may have more luck.
         spdlog::error("attempt {}: {}", id, error.what());

@@ -1,7 +1,9 @@
 #include "store/backup.h"
 
+#include <fcntl.h>
+
 #include <cerrno>
-#include <fstream>
+#include <limits>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -71,14 +73,13 @@ class FileBackup {
       if (error.kind() == ServiceError::Kind::storage_full) throw;
       problem = error.what();
     }
-    std::error_code none;
-    std::filesystem::remove(target_ / name_of(job) / "result.h5", none);
+    static_cast<void>(remove_own(target_ / name_of(job) / "result.h5"));
     // A job's rows are deleted before its folder.
     if (has_job(live_, job)) {
       manifest.lost.push_back(name_of(job) + " has no result in this backup: " + problem);
       return;
     }
-    std::filesystem::remove_all(target_ / name_of(job), none);
+    static_cast<void>(remove_own(target_ / name_of(job)));
     manifest.files.resize(before);
     deleted_.push_back(job);
   }
@@ -89,11 +90,12 @@ class FileBackup {
  private:
   // False if it is absent.
   bool copy_file(std::int64_t job, const std::filesystem::path& from, const char* name, BackupManifest& manifest) {
+    if (!find_own(from)) return false;
     std::error_code error;
-    if (!std::filesystem::exists(from, error)) return false;
     std::filesystem::create_directories(target_ / name_of(job), error);
     if (error) throw_file_error(target_ / name_of(job), "created", error.value());
-    auto file = digest_of(from, target_ / name_of(job) / name);
+    auto file =
+        digest_of(from, target_ / name_of(job) / name, std::numeric_limits<std::uint64_t>::max(), LastLink::of_owner);
     file.path = name_of(job) + "/" + name;
     manifest.files.push_back(std::move(file));
     return true;
@@ -113,10 +115,10 @@ void remove_deleted(Database& journal, const std::vector<std::int64_t>& deleted)
 }
 
 void write_manifest(const BackupManifest& manifest, const std::filesystem::path& folder) {
-  std::ofstream file(folder / kManifestName, std::ios::binary);
-  file << text_of(manifest);
-  file.close();
-  if (!file) throw_file_error(folder / kManifestName, "written", errno);
+  const auto path = folder / kManifestName;
+  OpenFile file = open_own(path, O_WRONLY | O_CREAT | O_EXCL);
+  write_all(file, path, text_of(manifest));
+  if (!file.close()) throw_file_error(path, "written", errno);
 }
 
 void copy_whole(const std::filesystem::path& backup, const BackupFile& wanted, const std::filesystem::path& target) {
@@ -124,7 +126,7 @@ void copy_whole(const std::filesystem::path& backup, const BackupFile& wanted, c
   std::error_code error;
   std::filesystem::create_directories(place.parent_path(), error);
   if (error) throw_file_error(place.parent_path(), "created", error.value());
-  const auto copied = digest_of(backup / wanted.path, place);
+  const auto copied = digest_of(backup / wanted.path, place, wanted.size);
   if (copied.size != wanted.size || copied.sha256 != wanted.sha256) {
     throw ServiceError(ServiceError::Kind::data_loss,
                        (backup / wanted.path).string() + " has changed since it was backed up. Use another backup.");
@@ -155,12 +157,12 @@ void settle_jobs(const std::filesystem::path& path, const std::string& created) 
 
 }  // namespace
 
-BackupManifest take_backup(const std::filesystem::path& data_folder, const std::filesystem::path& target) {
+BackupManifest take_backup(const std::filesystem::path& given, const std::filesystem::path& target) {
+  const auto data_folder = canonical_of(given);
   const auto live_path = data_folder / kJournalName;
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(live_path, none)) {
+  if (!is_own_file(live_path)) {
     throw ServiceError(ServiceError::Kind::not_found,
-                       data_folder.string() +
+                       given.string() +
                            " is not a data folder: it contains no journal.sqlite. Give the --data folder of "
                            "the daemon.");
   }
@@ -185,8 +187,9 @@ BackupManifest take_backup(const std::filesystem::path& data_folder, const std::
   return manifest;
 }
 
-void restore_backup(const std::filesystem::path& backup, const std::filesystem::path& data_folder) {
+void restore_backup(const std::filesystem::path& given, const std::filesystem::path& data_folder) {
   StagedFolder staged(data_folder);
+  const auto backup = canonical_of(given);
   const auto manifest = read_manifest(backup);
   for (const auto& wanted : manifest.files) copy_whole(backup, wanted, staged.path());
   const auto path = staged.path() / "journal.sqlite";

@@ -7,9 +7,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -22,6 +21,7 @@ namespace {
 
 constexpr std::string_view kManifestTitle = "CELLCRUSH BACKUP 1";
 constexpr std::size_t kCopiedAtOnce = 1 << 20;
+constexpr std::size_t kLargestManifest = std::size_t{256} << 20;  // that of two million jobs
 
 // SHA-256 of bytes that arrive in parts.
 class Digest {
@@ -68,8 +68,7 @@ std::string text_of(const BackupManifest& manifest) {
 }
 
 BackupManifest read_manifest(const std::filesystem::path& backup) {
-  std::ifstream stream(backup / kManifestName, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string text = InputFile(backup / kManifestName).read(0, kLargestManifest);
   const auto end = text.rfind("end ");
   if (end == std::string::npos || text.substr(end) != "end " + digest_of_text(text.substr(0, end)) + "\n")
     throw damaged_manifest();
@@ -77,6 +76,7 @@ BackupManifest read_manifest(const std::filesystem::path& backup) {
   std::string line;
   if (!std::getline(lines, line) || line != kManifestTitle) throw damaged_manifest();
   BackupManifest out;
+  std::set<std::string> named;
   while (std::getline(lines, line)) {
     std::istringstream words(line);
     std::string kind;
@@ -85,9 +85,12 @@ BackupManifest read_manifest(const std::filesystem::path& backup) {
       words >> out.created;
     } else if (kind == "lost") {
       std::getline(words, out.lost.emplace_back());
+      if (const auto& lost = out.lost.back(); !named.insert("lost " + lost.substr(0, lost.find(' '))).second)
+        throw damaged_manifest();
     } else {
       BackupFile file;
-      if (kind != "file" || !(words >> file.size >> file.sha256 >> file.path) || !is_name_of_backup(file.path))
+      if (kind != "file" || !(words >> file.size >> file.sha256 >> file.path) || !is_name_of_backup(file.path) ||
+          !named.insert(file.path).second)
         throw damaged_manifest();
       out.files.push_back(std::move(file));
     }
@@ -95,13 +98,14 @@ BackupManifest read_manifest(const std::filesystem::path& backup) {
   return out;
 }
 
-BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy) {
-  const OpenFile from = open_to_read(file);
-  const OpenFile to = copy.empty() ? OpenFile() : open_file(copy, O_WRONLY | O_CREAT | O_EXCL);
+BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy, std::uint64_t most,
+                     LastLink link) {
+  const OpenFile from = open_to_read(file, ServiceError::Kind::internal, link);
+  const OpenFile to = copy.empty() ? OpenFile() : open_own(copy, O_WRONLY | O_CREAT | O_EXCL);
   BackupFile out;
   Digest digest;
   std::string part(kCopiedAtOnce, '\0');
-  while (const std::size_t size = read_at(from, file, part.data(), part.size(), out.size)) {
+  while (const std::size_t size = out.size > most ? 0 : read_at(from, file, part.data(), part.size(), out.size)) {
     digest.add(part.data(), size);
     out.size += size;
     if (to) write_all(to, copy, {part.data(), size});

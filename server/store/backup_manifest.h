@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
+
+#include "store/own_folder.h"
 
 namespace cellcrush::store {
 
@@ -26,12 +29,14 @@ inline constexpr const char* kManifestName = "MANIFEST";
 
 std::string text_of(const BackupManifest& manifest);
 
-/// Reads the manifest of a backup. Throws ServiceError (data_loss) for a text that text_of did not write.
+/// Reads the manifest of a backup. Throws ServiceError (data_loss) for a text that text_of did not write, and for one
+/// that names a file or job twice.
 BackupManifest read_manifest(const std::filesystem::path& backup);
 
-/// SHA-256 of a file, in hexadecimal, and its size. Also copies the file to `copy` unless that is empty. Throws
-/// ServiceError.
-BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy = {});
+/// SHA-256 of a file, in hexadecimal, and its size. Also copies the file to `copy` unless that is empty. Reads little
+/// more than `most` bytes. Throws ServiceError.
+BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy = {},
+                     std::uint64_t most = std::numeric_limits<std::uint64_t>::max(), LastLink link = LastLink::refused);
 
 /// "2026-11-23T09:15:02Z".
 std::string time_text_now();

@@ -33,30 +33,36 @@ void make_private_folder(const std::filesystem::path& path) {
   if (mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(path, "used", errno);
 }
 
+void make_folder_in_root(const std::filesystem::path& path) {
+  if (const int error = make_own_folder(path); error != 0 && error != EEXIST) throw_file_error(path, "used", error);
+  require_own_folder(path, "The folder " + path.string());
+}
+
 // The errno for which files cannot be created, or a job's files cannot be used; 0 if there is none.
 int error_of_folder(const JobFolder& folder) {
+  if (!try_open_own(folder.root(), O_RDONLY | O_DIRECTORY)) return errno;
   for (const auto& path : {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(),
                            folder.previous_checkpoint(), folder.partial_checkpoint(), folder.partial_result()}) {
-    struct stat status {};
-    if (lstat(path.c_str(), &status) != 0) {
+    const auto status = find_own(path);
+    if (!status) {
       if (errno != ENOENT) return errno;
-    } else if (!S_ISREG(status.st_mode)) {
-      return EISDIR;
+    } else if (!S_ISREG(status->st_mode)) {
+      return S_ISLNK(status->st_mode) ? ELOOP : EISDIR;
     } else if (::access(path.c_str(), R_OK | W_OK) != 0) {
       return errno;
     }
   }
   const auto probe = folder.root() / "probe";
-  if (!OpenFile(open(probe.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600))) return errno;
-  return unlink(probe.c_str()) == 0 ? 0 : errno;
+  if (!try_open_own(probe, O_WRONLY | O_CREAT)) return errno;
+  return remove_own(probe);
 }
 
 // False if there is no room.
 bool keep_file(const std::filesystem::path& path, off_t bytes) {
-  const OpenFile file(open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600));
+  const OpenFile file = try_open_own(path, O_WRONLY | O_CREAT);
   const int error = file ? posix_fallocate(file.get(), 0, bytes) : errno;
   if (error == 0) return true;
-  unlink(path.c_str());
+  static_cast<void>(remove_own(path));
   if (shortage_of_errno(error) != Shortage::full_disk) throw_file_error(path, "written", error);
   return false;
 }
@@ -88,15 +94,13 @@ std::string read_text(const OpenFile& file) {
 }
 
 void remove_file(const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::remove(path, error);
-  if (error) throw_file_error(path, "removed", error.value());
+  if (const int error = remove_own(path); error != 0) throw_file_error(path, "removed", error);
 }
 
 }  // namespace
 
 std::optional<std::string> daemon_of(const std::filesystem::path& root) {
-  const OpenFile lock(open((root / "lock").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  const OpenFile lock = try_open_own(root / "lock", O_RDONLY);
   if (!lock || flock(lock.get(), LOCK_SH | LOCK_NB) == 0) return std::nullopt;
   return read_text(lock);
 }
@@ -106,16 +110,17 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
   std::error_code error;
   root_ = std::filesystem::canonical(root, error);
   if (error) throw_file_error(root, "used", error.value());
+  require_own_folder(root_, "The data folder " + root_.string());
   warn_of_readers(root_);
-  make_private_folder(root_ / "jobs");
+  make_folder_in_root(root_ / "jobs");
   const auto lock_path = root_ / "lock";
-  lock_ = open_file(lock_path, O_RDWR | O_CREAT, "used");
+  lock_ = open_own(lock_path, O_RDWR | O_CREAT, "used");
   if (!lock_within(lock_, kToEnd)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        "The data folder " + root_.string() + " is in use by a running daemon (process " +
                            read_text(lock_) + "). Stop that daemon, or use another folder with --data.");
   }
-  if (free_bytes() < kStartBallastBytes) unlink(start_ballast().c_str());
+  if (free_bytes() < kStartBallastBytes) static_cast<void>(remove_own(start_ballast()));
   // Rewrites the first page before truncating the file: that needs no room.
   const std::string process = std::to_string(getpid());
   const auto written = pwrite(lock_.get(), process.data(), process.size(), 0);
@@ -125,21 +130,23 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
 void DataFolder::make_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
   const auto error_of_job = [&folder] {
-    return mkdir(folder.root().c_str(), 0700) != 0 && errno != EEXIST ? errno : error_of_folder(folder);
+    const int error = make_own_folder(folder.root());
+    return error != 0 && error != EEXIST ? error : error_of_folder(folder);
   };
   const int error = error_of_job();
   if (error == 0) return;
   const Shortage shortage = shortage_of_errno(error);
   if (shortage != Shortage::none && shortage != Shortage::data_folder) throw_file_error(folder.root(), "used", error);
   try_new_folder();
-  set_aside(job, std::generic_category().message(error));
+  set_aside(job, error == ELOOP ? "a symbolic link" : std::generic_category().message(error));
   if (const int again = error_of_job(); again != 0) throw_file_error(folder.root(), "used", again);
 }
 
 void DataFolder::try_new_folder() const {
   const auto path = root_ / "jobs" / ("probe-" + std::to_string(gettid()));
-  const int error = mkdir(path.c_str(), 0700) == 0 || errno == EEXIST ? error_of_folder(JobFolder(path)) : errno;
-  rmdir(path.c_str());
+  const int made = make_own_folder(path);
+  const int error = made == 0 || made == EEXIST ? error_of_folder(JobFolder(path)) : made;
+  static_cast<void>(remove_own(path));
   if (error == 0) return;
   const Shortage shortage = shortage_of_errno(error);
   throw ServiceError(shortage == Shortage::none ? Shortage::data_folder : shortage,
@@ -159,20 +166,16 @@ void DataFolder::clean_job_folder(std::int64_t job) const {
                            folder.previous_checkpoint(), folder.checkpoint(), folder.attempt()})
     remove_file(path);
   // Reports go last: they mark a folder that holds more than a result. Without a result, they are the job's history.
-  std::error_code none;
-  const bool is_history = has_reports(job) && !std::filesystem::exists(folder.result(), none) &&
-                          !std::filesystem::exists(folder.history(), none);
+  const bool is_history = has_reports(job) && !find_own(folder.result()) && !find_own(folder.history());
   if (!is_history) return remove_file(folder.reports());
-  std::error_code error;
-  std::filesystem::rename(folder.reports(), folder.history(), error);
-  const bool is_deleted = error == std::errc::no_such_file_or_directory;
-  if (error && !is_deleted) throw_file_error(folder.reports(), "renamed", error.value());
+  const int error = rename_own(folder.reports(), folder.history());
+  const bool is_deleted = error == ENOENT;
+  if (error != 0 && !is_deleted) throw_file_error(folder.reports(), "renamed", error);
 }
 
 bool DataFolder::has_reports(std::int64_t job) const {
-  std::error_code none;
-  const auto size = std::filesystem::file_size(job_folder(job).reports(), none);
-  return !none && size > 0;
+  const auto status = find_own(job_folder(job).reports());
+  return status && S_ISREG(status->st_mode) && status->st_size > 0;
 }
 
 void DataFolder::discard_run(std::int64_t job) const {
@@ -193,10 +196,7 @@ bool DataFolder::keep_ballast() const {
 
 bool DataFolder::is_full() const { return free_bytes() < kFullBelow; }
 
-void DataFolder::give_up_ballast() const {
-  std::error_code none;
-  std::filesystem::remove(ballast(), none);
-}
+void DataFolder::give_up_ballast() const { static_cast<void>(remove_own(ballast())); }
 
 std::vector<std::int64_t> DataFolder::jobs_with_reports() const {
   std::vector<std::int64_t> out;
@@ -208,41 +208,22 @@ std::vector<std::int64_t> DataFolder::jobs_with_reports() const {
   return out;
 }
 
-std::vector<std::string> DataFolder::names_in_jobs() const {
-  std::vector<std::string> out;
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(root_ / "jobs", error), end; !error && entry != end;
-       entry.increment(error))
-    out.push_back(entry->path().filename().string());
-  if (error) throw_file_error(root_ / "jobs", "read", error.value());
-  return out;
-}
+std::vector<std::string> DataFolder::names_in_jobs() const { return names_in(root_ / "jobs"); }
 
 std::filesystem::path DataFolder::set_aside(const std::string& name) const {
   const auto from = root_ / "jobs" / name;
-  make_private_folder(root_ / "set-aside");
+  make_folder_in_root(root_ / "set-aside");
   // Moving a folder to another parent requires write permission in it.
-  struct stat status {};
-  if (lstat(from.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) chmod(from.c_str(), status.st_mode | 0700U);
+  const auto status = find_own(from);
+  if (status && S_ISDIR(status->st_mode)) chmod(from.c_str(), status->st_mode | 0700U);
   for (int i = 1;; ++i) {
     auto to = root_ / "set-aside" / (name + (i == 1 ? "" : "." + std::to_string(i)));
-    std::error_code error;
-    if (std::filesystem::exists(std::filesystem::symlink_status(to, error))) continue;
-    std::filesystem::rename(from, to, error);
-    if (error) throw_file_error(from, "moved aside", error.value());
+    if (find_own(to)) continue;
+    if (const int error = rename_own(from, to); error != 0) throw_file_error(from, "moved aside", error);
     return to;
   }
 }
 
-void DataFolder::remove_job_folder(std::int64_t job) const {
-  const auto folder = job_folder(job).root();
-  std::error_code error;
-  // clean_job_folder() may be removing and renaming files of a run that has just ended.
-  for (int tries = 0; tries < 100; ++tries) {
-    std::filesystem::remove_all(folder, error);
-    if (error != std::errc::no_such_file_or_directory && error != std::errc::directory_not_empty) break;
-  }
-  if (error) throw_file_error(folder, "used", error.value());
-}
+void DataFolder::remove_job_folder(std::int64_t job) const { remove_file(job_folder(job).root()); }
 
 }  // namespace cellcrush::store

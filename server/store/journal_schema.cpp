@@ -40,9 +40,8 @@ std::vector<SampledJob> find_sampled(Database& database) {
 // Returns the number of samples.
 std::int64_t move_samples(Database& database, const SampledJob& job, const std::filesystem::path& data_folder) {
   const JobFolder folder(data_folder / name_of(job.number));
-  std::error_code error;
-  std::filesystem::create_directories(folder.root(), error);
-  std::filesystem::remove(folder.history(), error);
+  static_cast<void>(make_own_folder(folder.root()));
+  static_cast<void>(remove_own(folder.history()));
   ReportLog log(folder.history());
   std::int64_t count = 0;
   Statement read(database, "SELECT payload, sequence FROM events WHERE job = ?1 AND kind = 2 ORDER BY sequence");

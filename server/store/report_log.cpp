@@ -31,7 +31,7 @@ std::uint32_t checksum_of(std::string_view bytes) {
 }  // namespace
 
 ReportLog::ReportLog(const std::filesystem::path& path)
-    : path_(path), file_(open_file(path, O_WRONLY | O_CREAT | O_APPEND)) {
+    : path_(path), file_(open_own(path, O_WRONLY | O_CREAT | O_APPEND)) {
   ReportLogReader reader(path);
   worker::Report report;
   while (reader.read(report) == ReportLogReader::Read::message) continue;

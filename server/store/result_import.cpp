@@ -26,9 +26,9 @@ ServiceError not_a_result(const std::string& why) { return {ServiceError::Kind::
 fs::path result_at(const fs::path& given) {
   std::error_code error;
   const auto status = fs::status(given, error);
-  if (!fs::is_directory(status) && fs::exists(status)) return given;
+  if (!fs::is_directory(status) && fs::exists(status)) return fs::canonical(given);
   const bool has_result = fs::is_directory(status) && fs::exists(given / kName, error);
-  if (has_result) return given / kName;
+  if (has_result) return fs::canonical(given / kName);
   if (error && error != std::errc::no_such_file_or_directory)
     throw not_a_result(error.message() + ". Name a result.h5, or a folder with one, that you may read.");
   if (!fs::exists(status)) throw not_a_result("no such file or folder. Name a result.h5 or its folder.");
@@ -67,15 +67,14 @@ ImportedResult read_result(const fs::path& path) {
 
 // Copied beside its place, so that it is complete under its name.
 void put_result(const fs::path& from, const JobFolder& folder, Import how) {
-  std::error_code error;
   if (how == Import::link) {
-    fs::remove(folder.result(), error);
-    fs::create_symlink(fs::canonical(from), folder.result(), error);
+    std::error_code error;
+    static_cast<void>(remove_own(folder.result()));
+    fs::create_symlink(from, folder.result(), error);
     if (error) throw_file_error(folder.result(), "created", error.value());
     return;
   }
-  fs::copy_file(from, folder.partial_result(), fs::copy_options::overwrite_existing, error);
-  if (error) throw_file_error(folder.partial_result(), "written", error.value());
+  copy_own(from, folder.partial_result());
   publish_file(folder.partial_result(), folder.result());
 }
 

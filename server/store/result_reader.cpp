@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "cellcrush/v1/case.pb.h"
+#include "store/durable_file.h"
 #include "store/result_job.h"
 #include "store/result_layout.h"
 
@@ -37,7 +38,8 @@ void read_all(const Hdf5Handle& dataset, hid_t type, google::protobuf::RepeatedF
 
 ResultReader::ResultReader(const std::filesystem::path& path) : identity_(check_seal(path)) {
   silence_hdf5();
-  file_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "Opening " + path.string());
+  const OpenFile file = open_to_read(path, ServiceError::Kind::data_loss, LastLink::of_owner);
+  file_ = Hdf5Handle(H5Fopen(path_of(file).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "Opening " + path.string());
 }
 
 std::vector<double> ResultReader::column(const std::string& path, hid_t type, hsize_t first, hsize_t count) const {

@@ -81,13 +81,13 @@ void throw_if_broken(Seal seal) {
 }  // namespace
 
 void seal_result(const std::filesystem::path& path) {
-  const OpenFile file = open_file(path, O_RDWR, "used");
+  const OpenFile file = open_own(path, O_RDWR, "used");
   write_all(file, path, seal_of(file, path));
 }
 
 Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole) {
   static WholeFiles found_whole;
-  const OpenFile file = open_to_read(path);
+  const OpenFile file = open_to_read(path, ServiceError::Kind::internal, LastLink::of_owner);
   const auto identity = identity_of(file, path);
   if (!found_whole.contains(identity)) {
     const std::string stored = stored_seal(file, path);

@@ -1,5 +1,6 @@
 #include "store/result_writer.h"
 
+#include <fcntl.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/time_util.h>
 
@@ -8,6 +9,7 @@
 
 #include "columns/field_text.h"
 #include "store/case_hash.h"
+#include "store/durable_file.h"
 #include "store/result_seal.h"
 
 namespace cellcrush::store {
@@ -40,7 +42,8 @@ ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& me
   const std::string what = "Creating " + path.string();
   const Hdf5Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
   check_hdf5(H5Pset_userblock(properties.id(), kSealBytes), what);
-  file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, what);
+  const OpenFile file = open_own(path, O_RDWR | O_CREAT | O_TRUNC);
+  file_ = Hdf5Handle(H5Fcreate(path_of(file).c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, what);
   write_mesh(mesh);
   make_columns({});
   make_frames();

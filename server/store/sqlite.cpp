@@ -2,9 +2,11 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <utility>
 
 #include "error.h"
+#include "store/durable_file.h"
 
 namespace cellcrush::store {
 namespace {
@@ -57,9 +59,17 @@ std::string file_of(sqlite3* handle) {
 }  // namespace
 
 Database::Database(const std::filesystem::path& path, Access access) {
+  // SQLite opens its files by their names, and would wait for the other end of a FIFO.
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
+    const auto file = path.string() + suffix;
+    const auto found = find_own(file);
+    if (!found && errno == ELOOP) throw_file_error(file, "used", ELOOP);
+    if (found && !S_ISREG(found->st_mode))
+      throw_file_error(file, "used", S_ISLNK(found->st_mode) ? ELOOP : kNotRegular);
+  }
   sqlite3* handle = nullptr;
   const int mode = access == Access::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  const int code = sqlite3_open_v2(path.c_str(), &handle, mode | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int code = sqlite3_open_v2(path.c_str(), &handle, mode | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW, nullptr);
   handle_.reset(handle);
   if (code != SQLITE_OK) fail(handle, code);
   sqlite3_extended_result_codes(handle, 1);

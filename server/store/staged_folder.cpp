@@ -37,17 +37,22 @@ std::filesystem::path partial_of(const std::filesystem::path& place) {
   return place.parent_path() / ("." + place.filename().string() + ".partial");
 }
 
-// Without a trailing slash, which would hide the name.
+// Without a trailing slash, which would hide the name. The folders around it exist then, and may be named through
+// links.
 std::filesystem::path absolute_place(const std::filesystem::path& given) {
-  const auto place = std::filesystem::absolute(given).lexically_normal();
-  return place.has_filename() ? place : place.parent_path();
+  auto place = std::filesystem::absolute(given).lexically_normal();
+  if (!place.has_filename()) place = place.parent_path();
+  std::error_code error;
+  std::filesystem::create_directories(place.parent_path(), error);
+  const auto parent = std::filesystem::canonical(place.parent_path(), error);
+  if (error) throw_file_error(place.parent_path(), "used", error.value());
+  return parent / place.filename();
 }
 
 void remove_content(const std::filesystem::path& folder) {
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    std::filesystem::remove_all(entry->path(), error);
-  if (error) throw_file_error(folder, "emptied", error.value());
+  for (const auto& name : names_in(folder)) {
+    if (const int error = remove_own(folder / name); error != 0) throw_file_error(folder, "emptied", error);
+  }
 }
 
 }  // namespace
@@ -55,11 +60,10 @@ void remove_content(const std::filesystem::path& folder) {
 StagedFolder::StagedFolder(const std::filesystem::path& place)
     : place_(absolute_place(place)), partial_(partial_of(place_)) {
   require_free(place_);
-  std::error_code error;
-  std::filesystem::create_directories(place_.parent_path(), error);
-  if (error) throw_file_error(place_.parent_path(), "created", error.value());
-  if (mkdir(partial_.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(partial_, "created", errno);
-  lock_ = open_file(partial_, O_RDONLY | O_DIRECTORY, "used");
+  if (const int error = make_own_folder(partial_); error != 0 && error != EEXIST)
+    throw_file_error(partial_, "created", error);
+  require_own_folder(partial_, partial_.string());
+  lock_ = open_own(partial_, O_RDONLY | O_DIRECTORY, "used");
   if (flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
     throw refusal("Another process is creating " + place_.string() +
                   ". Wait until it is done, or give another folder.");
@@ -68,15 +72,13 @@ StagedFolder::StagedFolder(const std::filesystem::path& place)
 }
 
 StagedFolder::~StagedFolder() {
-  std::error_code none;
-  if (!published_) std::filesystem::remove_all(partial_, none);
+  if (!published_) static_cast<void>(remove_own(partial_));
 }
 
 void StagedFolder::publish() {
   if (syncfs(lock_.get()) != 0) throw_file_error(partial_, "written", errno);
   // Replaces an empty folder only.
-  if (rename(partial_.c_str(), place_.c_str()) != 0) {
-    const int reason = errno;
+  if (const int reason = rename_own(partial_, place_); reason != 0) {
     if (reason == EBUSY || reason == EXDEV) {
       throw refusal(place_.string() + " is a mount point and cannot be replaced. Give a folder inside it.");
     }
@@ -85,7 +87,7 @@ void StagedFolder::publish() {
     throw_file_error(place_, "created", reason);
   }
   published_ = true;
-  const OpenFile parent = open_file(place_.parent_path(), O_RDONLY | O_DIRECTORY);
+  const OpenFile parent = open_own(place_.parent_path(), O_RDONLY | O_DIRECTORY);
   if (fsync(parent.get()) != 0) throw_file_error(place_, "written", errno);
 }
 

@@ -141,7 +141,7 @@ void check_files(const std::filesystem::path& folder, const BackupManifest& mani
   for (const auto& wanted : manifest.files) {
     std::string problem;
     try {
-      const auto found = digest_of(folder / wanted.path);
+      const auto found = digest_of(folder / wanted.path, {}, wanted.size);
       if (found.size != wanted.size || found.sha256 != wanted.sha256)
         problem = wanted.path + " has changed since it was backed up.";
     } catch (const ServiceError& error) {
@@ -189,10 +189,9 @@ void check_job_files(const std::filesystem::path& folder, Database& journal, con
 }
 
 void note_strangers(const std::filesystem::path& folder, Database& journal, Verification& out) {
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder / "jobs", error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string name = "jobs/" + entry->path().filename().string();
+  if (!find_own(folder / "jobs")) return;
+  for (const auto& entry : names_in(folder / "jobs")) {
+    const std::string name = "jobs/" + entry;
     const auto job = number_of(name);
     if (!job || !has_job(journal, *job))
       out.notes.push_back(name + " belongs to no job of the journal; the daemon moves it aside at its next start.");
@@ -201,14 +200,14 @@ void note_strangers(const std::filesystem::path& folder, Database& journal, Veri
 
 }  // namespace
 
-Verification verify_folder(const std::filesystem::path& folder) {
+Verification verify_folder(const std::filesystem::path& given) {
   Verification out;
+  const auto folder = canonical_of(given);
   const auto path = folder / "journal.sqlite";
-  std::error_code none;
-  out.is_backup = std::filesystem::exists(folder / kManifestName, none);
-  if (!out.is_backup && !std::filesystem::exists(path, none)) {
+  out.is_backup = find_own(folder / kManifestName).has_value();
+  if (!out.is_backup && !find_own(path)) {
     throw ServiceError(ServiceError::Kind::not_found,
-                       folder.string() + " is neither a backup nor a data folder: it has no " +
+                       given.string() + " is neither a backup nor a data folder: it has no " +
                            std::string(kManifestName) +
                            " and no journal.sqlite. If it is an interrupted backup, make a new one.");
   }

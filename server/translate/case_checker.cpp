@@ -23,6 +23,7 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted) {
   }
   if (!out.problems.empty()) return out;
   for (const auto& note : find_implausible(reading.spec)) out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
+  out.element_count = verdict.element_count;
   out.element_steps = verdict.element_count * verdict.step_count;
   out.most_memory_bytes = verdict.most_memory_bytes;
   return out;

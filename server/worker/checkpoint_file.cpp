@@ -31,7 +31,7 @@ std::string head_of(const std::string& bytes) {
 }
 
 void write_file(const std::filesystem::path& path, const std::string& head, const std::string& bytes) {
-  OpenFile file = store::open_file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  OpenFile file = store::open_own(path, O_WRONLY | O_CREAT | O_TRUNC);
   for (const auto* part : {&head, &bytes}) store::write_all(file, path, *part);
   if (!file.close()) store::throw_file_error(path, "written", errno);
 }
@@ -97,16 +97,15 @@ std::optional<Checkpoint::Origin> find_other_origin(const store::JobFolder& fold
 void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint) {
   const std::string bytes = checkpoint.SerializeAsString();
   write_file(folder.partial_checkpoint(), head_of(bytes) + "\n", bytes);
-  std::error_code none_yet;
-  std::filesystem::rename(folder.checkpoint(), folder.previous_checkpoint(), none_yet);
+  static_cast<void>(store::rename_own(folder.checkpoint(), folder.previous_checkpoint()));
   store::publish_file(folder.partial_checkpoint(), folder.checkpoint());
 }
 
 FoundCheckpoint find_checkpoint(const store::JobFolder& folder, const Checkpoint::Origin& origin) {
   FoundCheckpoint out;
   for (const auto& path : {folder.checkpoint(), folder.previous_checkpoint()}) {
-    if (!std::filesystem::exists(path)) continue;
-    if (!std::filesystem::is_regular_file(path)) {
+    if (!store::find_own(path)) continue;
+    if (!store::is_own_file(path)) {
       out.refused.push_back(path.filename().string() + " is not a regular file.");
       continue;
     }

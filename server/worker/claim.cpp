@@ -40,24 +40,24 @@ std::optional<Claim> read_claim(int file) {
 }  // namespace
 
 bool claim(const store::JobFolder& folder) {
-  const int file = open(folder.claim().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (file < 0) store::throw_file_error(folder.claim(), "written", errno);
-  for (int i = 0; flock(file, LOCK_EX | LOCK_NB) != 0; ++i) {
+  OpenFile claim = store::open_own(folder.claim(), O_RDWR | O_CREAT);
+  for (int i = 0; flock(claim.get(), LOCK_EX | LOCK_NB) != 0; ++i) {
     if (i == kTries) return false;
     std::this_thread::sleep_for(kBetweenTries);
   }
   const auto times = times_of(getpid());
   const std::string text = std::to_string(getpid()) + " " + std::to_string(times ? times->start : 0) + "\n";
   // The file stays open, and locked, for as long as the process lives.
+  const int file = claim.release();
   if (ftruncate(file, 0) != 0 || pwrite(file, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
     store::throw_file_error(folder.claim(), "written", errno);
   return true;
 }
 
 std::optional<Claim> find_claim(const store::JobFolder& folder) {
-  // Without blocking: the path may be something other than a file.
-  const OpenFile file(open(folder.claim().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
+  const OpenFile file = store::try_open_own(folder.claim(), O_RDONLY);
+  if (!file && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == store::kNotRegular))
+    return std::nullopt;
   if (!file) store::throw_file_error(folder.claim(), "read", errno);
   for (int i = 0; i < kTries && is_locked(file.get()); ++i) {
     const auto found = read_claim(file.get());

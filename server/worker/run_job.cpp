@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "error.h"
+#include "store/own_folder.h"
 #include "translate/results.h"
 #include "worker/checkpoint_file.h"
 #include "worker/give_up.h"
@@ -306,8 +307,7 @@ void run_job(const store::JobFolder& folder, const Order& order, const Requested
   Report report;
   *report.mutable_final() = end_of(folder, order, log, requested_stop);
   // An incomplete result is rebuilt from the reports.
-  std::error_code ignored;
-  std::filesystem::remove(folder.partial_result(), ignored);
+  static_cast<void>(store::remove_own(folder.partial_result()));
   log.append(report);
   log.synchronize();
 }

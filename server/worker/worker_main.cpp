@@ -1,15 +1,17 @@
 #include "worker/worker_main.h"
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
-#include <fstream>
-
+#include "store/durable_file.h"
 #include "worker/claim.h"
 #include "worker/run_job.h"
 
 namespace cellcrush::worker {
 namespace {
+
+constexpr int kFolder = O_RDONLY | O_DIRECTORY;
 
 // The signals stay blocked; a pending one is visible to all threads.
 StopRequest pending_request() {
@@ -23,8 +25,8 @@ int run(const store::JobFolder& job) {
   try {
     if (!claim(job)) return kFolderIsClaimed;
     Order order;
-    std::ifstream file(job.order(), std::ios::binary);
-    if (!file || !order.ParseFromIstream(&file)) return kNoReport;
+    const OpenFile file = store::open_own(job.order(), O_RDONLY, "read");
+    if (!order.ParseFromFileDescriptor(file.get())) return kNoReport;
     run_job(job, order, pending_request);
     return kReported;
   } catch (const std::exception& error) {
@@ -52,7 +54,8 @@ void worker_main(const std::filesystem::path& folder, pid_t parent) {
     if (getppid() != parent) _exit(kNoReport);
   }
   // Runs inside the folder, wherever that is moved: after a restore the path may belong to another job.
-  if (chdir(folder.c_str()) != 0) _exit(kNoReport);
+  const OpenFile own = store::try_open_own(store::canonical_of(folder.parent_path()) / folder.filename(), kFolder);
+  if (!own || fchdir(own.get()) != 0) _exit(kNoReport);
   // _exit: the result is closed and durable, and exit handlers must not turn success into a crash.
   _exit(run(store::JobFolder(".")));
 }

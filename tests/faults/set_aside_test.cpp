@@ -25,6 +25,13 @@ class SetAsideTest : public FaultFixture {
   [[nodiscard]] std::filesystem::path jobs() const { return data_folder() / "jobs"; }
   [[nodiscard]] std::filesystem::path set_aside() const { return data_folder() / "set-aside"; }
 
+  // What a daemon that does not start writes.
+  std::string refused_start() {
+    begin_daemon();
+    EXPECT_NE(daemon_->wait(), 0);
+    return daemon_->errors();
+  }
+
   void expect_that_it_serves(Client& client) { const std::string job = client.create(tiny_case(), v1::Job::SUCCEEDED); }
 };
 
@@ -105,6 +112,56 @@ TEST_F(SetAsideTest, AFolderThatCannotBeUsedCostsOnlyItsJob) {
       stop_daemon(),
       AllOf(HasSubstr(names[0] + " was moved aside to "), HasSubstr("because reports in it is not a regular file"),
             HasSubstr(names[1] + " was moved aside to "), HasSubstr("because it is not a folder")));
+}
+
+// A link that waits where the next job's folder will be, and others in the place of a job's files.
+TEST_F(SetAsideTest, NothingIsWrittenOrReadThroughALink) {
+  const auto foreign = data_folder().parent_path() / "foreign";
+  std::filesystem::create_directories(foreign);
+  std::ofstream(foreign / "secret") << "of another";
+  start_daemon();
+  auto client = this->client();
+  std::filesystem::create_directory_symlink(foreign, jobs() / "1");
+  EXPECT_EQ(client.create(tiny_case(), v1::Job::SUCCEEDED), "jobs/1");
+  EXPECT_TRUE(std::filesystem::is_symlink(set_aside() / "1"));
+  const auto foreign_files = std::distance(std::filesystem::directory_iterator(foreign), {});
+  EXPECT_EQ(foreign_files, 1) << "written through the link";
+  for (const char* file : {"result.h5", "history"}) {
+    std::filesystem::remove(jobs() / "1" / file);
+    std::filesystem::create_symlink(foreign / "secret", jobs() / "1" / file);
+    if (geteuid() == 0) {
+      ASSERT_EQ(lchown((jobs() / "1" / file).c_str(), 1234, 1234), 0);
+    }
+  }
+  grpc::Status status;
+  EXPECT_THAT(client.history("jobs/1", status), IsEmpty());
+  EXPECT_THAT(status.error_message(), HasSubstr("is a symbolic link"));
+  if (geteuid() == 0) {
+    EXPECT_THAT(client.download("jobs/1", 0, status), IsEmpty());
+    EXPECT_THAT(status.error_message(), HasSubstr("is a symbolic link"));
+  }
+  EXPECT_TRUE(client.remove("jobs/1").ok());
+  EXPECT_TRUE(std::filesystem::exists(foreign / "secret"));
+  EXPECT_THAT(stop_daemon(), HasSubstr("cannot be used (a symbolic link) and was moved aside"));
+}
+
+// No daemon starts on what others could replace, and the rest of its files are its own.
+TEST_F(SetAsideTest, ADataFolderOfOthersOrOfLinksIsRefusedWithTheRemedy) {
+  std::filesystem::create_directories(data_folder());
+  chmod(data_folder().c_str(), 0777);
+  EXPECT_THAT(refused_start(), AllOf(HasSubstr("has mode 0777: users other than its owner can write in it"),
+                                     HasSubstr("chmod go-w " + data_folder().string())));
+  chmod(data_folder().c_str(), 0700);
+  const auto elsewhere = data_folder().parent_path() / "elsewhere";
+  std::filesystem::create_directory(elsewhere);
+  for (const char* name : {"jobs", "lock", "journal.sqlite", "journal.sqlite-wal"}) {
+    std::filesystem::create_symlink(elsewhere / (name == std::string("jobs") ? "" : name), data_folder() / name);
+    EXPECT_THAT(refused_start(), HasSubstr(name + std::string(" cannot be used: it is a symbolic link")));
+    std::filesystem::remove(data_folder() / name);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(elsewhere));
+  ASSERT_EQ(mkfifo((data_folder() / "journal.sqlite").c_str(), 0600), 0);
+  EXPECT_THAT(refused_start(), HasSubstr("journal.sqlite cannot be used: it is not a regular file"));
 }
 
 TEST_F(SetAsideTest, AFolderOfNobodysRightsCostsOnlyItsJob) {

@@ -166,6 +166,32 @@ TEST_F(BackupTest, ATargetThatIsTakenIsRefusedWithWords) {
   EXPECT_TRUE(std::filesystem::exists(restored() / "journal.sqlite"));
 }
 
+TEST_F(BackupTest, ALinkInThePlaceOfAnUnfinishedBackupIsRefusedAndNothingBehindItIsDeleted) {
+  std::filesystem::create_directories(folder_.path() / "foreign" / "thesis");
+  std::filesystem::create_directory_symlink(folder_.path() / "foreign", folder_.path() / ".backup.partial");
+  EXPECT_THAT(refusal([&] { store::take_backup(data_folder(), backup()); }), HasSubstr("is a symbolic link"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "foreign" / "thesis"));
+}
+
+TEST_F(BackupTest, AManifestThatIsNoFileOrNamesAFileTwiceIsRefusedAtOnce) {
+  store::take_backup(data_folder(), backup());
+  auto manifest = store::read_manifest(backup());
+  manifest.files.resize(20'000, manifest.files.front());
+  std::ofstream(backup() / "MANIFEST") << text_of(manifest);
+  EXPECT_THAT(refusal([&] { store::verify_folder(backup()); }), HasSubstr("MANIFEST is damaged"));
+  // A file of 8 TB is not read to find that it has changed.
+  manifest.files.resize(1);
+  std::ofstream(backup() / "MANIFEST") << text_of(manifest);
+  std::filesystem::resize_file(backup() / "journal.sqlite", std::uintmax_t{8} << 40);
+  EXPECT_THAT(store::verify_folder(backup()).problems, ElementsAre(HasSubstr("journal.sqlite has changed")));
+  std::filesystem::remove(backup() / "journal.sqlite");
+  std::filesystem::create_symlink(data_folder() / "journal.sqlite", backup() / "journal.sqlite");
+  EXPECT_THAT(store::verify_folder(backup()).problems, ElementsAre(HasSubstr("is a symbolic link")));
+  std::filesystem::remove(backup() / "MANIFEST");
+  ASSERT_EQ(mkfifo((backup() / "MANIFEST").c_str(), 0600), 0);
+  EXPECT_THAT(refusal([&] { store::verify_folder(backup()); }), HasSubstr("is not a regular file"));
+}
+
 TEST_F(BackupTest, WhatAKilledRestoreLeftIsNoDataFolderAndTheNextOneReplacesIt) {
   store::take_backup(data_folder(), backup());
   const auto half = folder_.path() / ".restored.partial";

@@ -1,5 +1,4 @@
 // One attempt, seen from its task and from the daemon, without Slurm.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -20,6 +19,7 @@
 namespace cellcrush::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Kind = jobs::WorkerExit::Kind;
 using std::chrono::milliseconds;
@@ -62,7 +62,6 @@ class EndlessWorker : public jobs::Executor {
     const std::stop_callback on_stop(interruptions.stop, [&stopped] { stopped.set_value(); });
     was_stopped = stopped.get_future().wait_for(std::chrono::seconds(20)) == std::future_status::ready;
     shared_.request(slurm::Request::ABANDON);
-    close(open((shared_.root() / "heartbeat").c_str(), O_RDONLY | O_NONBLOCK));
     return {.kind = Kind::stopped};
   }
 
@@ -72,14 +71,14 @@ class EndlessWorker : public jobs::Executor {
   const slurm::AttemptFolder& shared_;
 };
 
-TEST(AttemptRun, TheLeaseEndsWhileACallDoesNotReturn) {
+TEST(AttemptRun, TheLeaseEndsWhileTheHeartbeatCannotBeWritten) {
   const TemporaryFolder temporary;
   const store::JobFolder folder(temporary.path());
   slurm::write_small_file(folder.order(), order_of(tiny_case()).SerializeAsString());
   const slurm::AttemptFolder shared(temporary.path() / "attempts" / "1");
   fs::create_directories(shared.root());
   shared.request(slurm::Request::NONE);
-  // A file system that does not answer: the heartbeat is written once somebody reads it.
+  // Nothing is written into a FIFO.
   ASSERT_EQ(mkfifo((shared.root() / "heartbeat").c_str(), 0600), 0);
   EndlessWorker worker(shared);
   const slurm::TaskEnd end = slurm::Ended::REASON_UNSPECIFIED;
@@ -162,6 +161,26 @@ TEST_F(AttemptTest, AnAttemptWhoseFinalReportIsHereAlreadyEndsTheJob) {
   const auto exit = adopted.wait();
   EXPECT_EQ(exit.kind, Kind::exited);
   EXPECT_TRUE(exit.final && exit.final->has_summary());
+  EXPECT_FALSE(shared.exists());
+}
+
+// It uploads 750 MiB for 210 elements.
+TEST_F(AttemptTest, ATaskThatHandsOverMoreThanWasForecastLosesItsAttempt) {
+  accept_jobs();
+  command("squeue", "echo \"17|N/A|RUNNING|None|n1|$(cat $HERE/name)\"");
+  slurm::SlurmExecutor executor(options_, 1e-8, workers());
+  ExecutorRun run(executor, job_, order_of(tiny_case()));
+  EXPECT_THAT(run.wait_for_place("RUNNING"), HasSubstr("RUNNING"));
+  const slurm::AttemptFolder shared(options_.folder, slurm::read_attempt(job_)->id());
+  ASSERT_TRUE(shared.claim({}));
+  std::ofstream(shared.files().result()).close();
+  fs::resize_file(shared.files().result(), std::uintmax_t{750} << 20);
+  std::ofstream(shared.files().reports()).close();
+  const auto exit = run.wait();
+  EXPECT_EQ(exit.kind, Kind::gone);
+  EXPECT_THAT(exit.detail, AllOf(HasSubstr("Slurm job 17 wrote too much: "),
+                                 HasSubstr("result.h5 has 750 MiB; at most"), HasSubstr("were expected.")));
+  EXPECT_FALSE(fs::exists(job_.result()));
   EXPECT_FALSE(shared.exists());
 }
 

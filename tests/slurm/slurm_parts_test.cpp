@@ -1,5 +1,7 @@
 // Parts of the Slurm executor that need no Slurm.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -202,7 +204,16 @@ TEST(ScratchFolder, OfAKilledTaskIsRemovedByTheNextOneAndThatOfALivingOneIsNot) 
   EXPECT_EQ(count(), 0);
 }
 
-TEST(SharedFolder, BelongsToOneDataFolderAndHasToBeThere) {
+std::string refusal_of(const ClusterOptions& options, const fs::path& data) {
+  try {
+    prepare_shared_folder(options, data);
+    return "not refused";
+  } catch (const ServiceError& error) {
+    return error.what();
+  }
+}
+
+TEST(SharedFolder, BelongsToOneDataFolderAndUserAndHasToBeThere) {
   const testing::TemporaryFolder temporary;
   ClusterOptions options;
   options.name = "big";
@@ -212,15 +223,77 @@ TEST(SharedFolder, BelongsToOneDataFolderAndHasToBeThere) {
   EXPECT_NO_THROW(prepare_shared_folder(options, data));
   EXPECT_NO_THROW(prepare_shared_folder(options, data));
   EXPECT_THROW(prepare_shared_folder(options, temporary.path() / "other"), ServiceError);
-  fs::create_directory(options.folder / "attempts" / "left");
+  const auto attempts = options.folder / "attempts";
+  const auto foreign = temporary.path() / "foreign" / "thesis";
+  fs::create_directories(foreign);
+  fs::create_directory(attempts / "0123456789abcdef");
+  fs::create_directory(attempts / "thesis");
+  fs::create_directory_symlink(foreign.parent_path(), attempts / "0123456789abcdee");
   prepare_shared_folder(options, data);
-  EXPECT_FALSE(fs::exists(options.folder / "attempts" / "left"));
+  EXPECT_FALSE(fs::exists(attempts / "0123456789abcdef"));
+  EXPECT_TRUE(fs::exists(attempts / "thesis"));
+  EXPECT_TRUE(fs::exists(attempts / "0123456789abcdee" / "thesis"));
+  fs::remove_all(attempts);
+  fs::create_directory_symlink(foreign.parent_path(), attempts);
+  EXPECT_THAT(refusal_of(options, data), HasSubstr("is a symbolic link"));
+  EXPECT_TRUE(fs::exists(foreign));
+  fs::remove(attempts);
+  chmod(options.folder.c_str(), 0777);
+  EXPECT_THAT(refusal_of(options, data), HasSubstr("has mode 0777: users other than its owner can write in it. Run "
+                                                   "chmod go-w " +
+                                                   options.folder.string()));
+  chmod(options.folder.c_str(), 0755);
+  if (geteuid() == 0) {
+    ASSERT_EQ(chown(options.folder.c_str(), 1234, 1234), 0);
+    EXPECT_THAT(refusal_of(options, data), HasSubstr("belongs to another user (uid 1234)"));
+    ASSERT_EQ(chown(options.folder.c_str(), 0, 0), 0);
+  }
   // As when its file system is not mounted.
   fs::remove_all(options.folder);
   fs::create_directory(options.folder);
   EXPECT_THROW(prepare_shared_folder(options, data), ServiceError);
   EXPECT_THROW(require_marker(options.folder), ServiceError);
   EXPECT_TRUE(fs::is_empty(options.folder));
+}
+
+// Files of 8 GB, links and FIFOs in the place of what a task writes.
+TEST(AttemptFiles, NoFileOfAnotherKindIsReadFollowedOrWaitedFor) {
+  const testing::TemporaryFolder temporary;
+  const AttemptFolder folder(temporary.path() / "attempts" / "a");
+  fs::create_directories(folder.root());
+  write_small_file(temporary.path() / kMarker, "x");
+  folder.beat(1);
+  fs::rename(folder.root() / "heartbeat", temporary.path() / "heartbeat");
+  const auto expect_absent = [&] {
+    rusage before{};
+    rusage after{};
+    getrusage(RUSAGE_SELF, &before);
+    EXPECT_FALSE(folder.find_claim() || folder.last_beat() || folder.find_ended());
+    EXPECT_EQ(folder.requested(), Request::NONE);
+    getrusage(RUSAGE_SELF, &after);
+    EXPECT_LT(after.ru_maxrss, before.ru_maxrss + 100'000) << "in kB";
+  };
+  for (const char* name : {"claim", "heartbeat", "ended", "request"}) {
+    std::ofstream(folder.root() / name).close();
+    fs::resize_file(folder.root() / name, std::uintmax_t{8} << 30);
+  }
+  expect_absent();
+  for (const char* name : {"claim", "heartbeat", "ended", "request"}) {
+    fs::remove(folder.root() / name);
+    fs::create_symlink(temporary.path() / "heartbeat", folder.root() / name);
+  }
+  expect_absent();
+  EXPECT_THROW(folder.beat(2), ServiceError);
+  EXPECT_EQ(read_small_file(temporary.path() / "heartbeat")->front(), '1');
+  for (const char* name : {"claim", "heartbeat", "ended", "request"}) {
+    fs::remove(folder.root() / name);
+    mkfifo((folder.root() / name).c_str(), 0600);
+  }
+  expect_absent();
+}
+
+TEST(AttemptFiles, AnIdIsNoPath) {
+  for (const char* id : {"", "../x", "/etc", ".."}) EXPECT_THROW(AttemptFolder("/shared", id), ServiceError) << id;
 }
 
 TEST(ReportLogReader, TakesAHoleForNothing) {
@@ -270,6 +343,25 @@ TEST_F(MirrorTest, CopiesWholeReportsOnly) {
   std::ofstream(from_.reports(), std::ios::binary | std::ios::app) << both.back();
   EXPECT_TRUE(mirror.pass());
   EXPECT_EQ(content(to_.reports()), both);
+}
+
+TEST_F(MirrorTest, TakesNoLinkForAResultAndNothingBeyondItsLimit) {
+  Mirror mirror(from_, to_, 0, 10'000'000);
+  store::ReportLog(from_.reports()).append(progress(1));
+  write_small_file(temporary_.path() / "secret", "of another");
+  fs::create_symlink(temporary_.path() / "secret", from_.result());
+  EXPECT_TRUE(mirror.pass());
+  EXPECT_FALSE(fs::exists(to_.result()));
+  fs::remove(from_.result());
+  for (const auto& path : {from_.result(), from_.checkpoint(), from_.reports()}) {
+    const auto text = content(path);
+    std::ofstream(path, std::ios::app).close();
+    fs::resize_file(path, 20'000'000);
+    EXPECT_THROW(mirror.pass(), ServiceError) << path;
+    path == from_.reports() ? write_small_file(path, text) : static_cast<void>(fs::remove(path));
+  }
+  EXPECT_FALSE(mirror.pass());
+  EXPECT_FALSE(fs::exists(to_.result()) || fs::exists(to_.checkpoint()));
 }
 
 // What cannot be written holds up what has to come after it.
