@@ -1,14 +1,13 @@
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "access/gate.h"
+#include "allotment.h"
 #include "clocks.h"
 #include "heartbeats.h"
 #include "jobs/admission.h"
@@ -34,7 +33,7 @@ struct DaemonOptions {
   std::string http;
   /// Origins, such as "https://grafana.example.org", whose pages may show the web page in a frame.
   std::vector<std::string> framing_origins;
-  /// Number of jobs that run at once on this machine. 0: the number of cores.
+  /// Number of jobs that run at once on this machine. 0: the number of cores that the daemon may use (allotment.h).
   int workers = 0;
   /// Program started as `PROGRAM worker ...`.
   std::filesystem::path worker_program = "/proc/self/exe";
@@ -63,10 +62,8 @@ struct DaemonOptions {
   /// Called at each beat while all loops make progress.
   std::function<void()> on_progress;
 
-  /// `workers`, or the number of cores if that is 0.
-  [[nodiscard]] int worker_count() const {
-    return workers > 0 ? workers : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  }
+  /// `workers`, or the number of usable cores if that is 0.
+  [[nodiscard]] int worker_count() const { return workers > 0 ? workers : usable_cores().count; }
 };
 
 }  // namespace cellcrush

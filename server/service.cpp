@@ -1,8 +1,9 @@
 #include "service.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <chrono>
-#include <thread>
 #include <utility>
 
 #include "jobs/local_process.h"
@@ -18,9 +19,7 @@ constexpr int kCheckThreads = 12;    // threads for large cases; they wait for e
 constexpr std::size_t kWaitingCalls = 10'000;
 
 // More would wait for each other's meshes.
-int threads_of_sweep_check() {
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, jobs::MeshPlaces::kSmallMeshes);
-}
+int threads_of_sweep_check() { return std::min(usable_cores().count, jobs::MeshPlaces::kSmallMeshes); }
 
 rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
   return {limits.streams, limits.streams_per_caller, limits.memory_bytes};
@@ -28,6 +27,7 @@ rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
 
 // All executors, that of this machine first.
 std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& options, double step_cost) {
+  spdlog::info("up to {} jobs run at once, on {}", options.worker_count(), usable_cores().text());
   std::vector<jobs::Queues::NamedExecutor> out;
   out.push_back({store::kLocalExecutor, options.worker_count(),
                  std::make_unique<jobs::LocalProcess>(options.worker_program, options.stall_limit)});

@@ -108,6 +108,7 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
 std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs, int width) {
   std::string held;
   for (const auto& hold : queue.holds()) held += wrapped(hold_text(hold), width);
+  if (!queue.cores().empty()) held += "the server uses " + printable(queue.cores()) + "\n";
   if (queue.entries_size() == 0) return held + "the queue is empty\n";
   std::vector<std::string> fields = varied_fields_of(jobs);
   fields.resize(std::min(fields.size(), kMostFields));

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "allotment.h"
 #include "error.h"
 #include "jobs/queue_forecast.h"
 #include "revision.h"
@@ -73,6 +74,7 @@ class AdminCalls {
 
   v1::Queue get_queue(const Call&, const v1::GetQueueRequest&) {
     v1::Queue out;
+    out.set_cores(usable_cores().text());
     const auto standings = parts_.queues.standings();
     for (const auto& standing : standings) {
       if (standing.is_present) add_queue(standing, out);
