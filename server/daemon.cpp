@@ -1,5 +1,6 @@
 #include "daemon.h"
 
+#include <absl/strings/str_replace.h>
 #include <grpc/grpc.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -13,6 +14,8 @@
 #include <utility>
 
 #include "access/gate.h"
+#include "access/local_doors.h"
+#include "access/unix_user.h"
 #include "cellcrush/simulation.h"
 #include "error.h"
 #include "http/gateway.h"
@@ -77,6 +80,7 @@ ListenAddress metrics_address(const std::string& text) {
   return out;
 }
 
+constexpr const char* kDefaultTcp = "127.0.0.1:50551";
 constexpr const char* kDefaultHttp = "127.0.0.1:8080";
 
 std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
@@ -86,7 +90,7 @@ std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
     static_cast<void>(metrics_address(options.metrics));  // rejects a bad address before anything is opened
   if (out.empty()) {
     out.push_back(parse_listen_address("unix:" + (options.data_folder / "cellcrushd.sock").string()));
-    out.push_back(parse_listen_address("127.0.0.1:50551"));
+    out.push_back(parse_listen_address(kDefaultTcp));
   }
   return out;
 }
@@ -160,14 +164,18 @@ struct Daemon::Impl {
 
   void listen() {
     prepare_grpc_once();
-    std::vector<net::ListeningPort> ports;
-    for (const auto& address : wanted) ports.emplace_back(address);
+    std::vector<net::ListeningPort> ports = open_ports();
     grpc::ServerBuilder builder;
     limit(builder);
     std::vector<bool> plain;
     using External = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      handlers.push_back(builder.experimental().AddExternalConnectionAcceptor(External::FROM_FD, credentials[i]));
+      auto& door = doors.emplace_back();
+      if (gate.knows_local_callers(wanted[i])) {
+        door.local.emplace(gate, wanted[i], builder);
+      } else {
+        door.common = builder.experimental().AddExternalConnectionAcceptor(External::FROM_FD, credentials[i]);
+      }
       plain.push_back(wanted[i].kind == ListenAddress::Kind::unix_socket || options.access.tls_certificate.empty());
     }
     service.register_with(builder);
@@ -180,7 +188,13 @@ struct Daemon::Impl {
     refusing_server.emplace(credentials);
     net::Acceptor::Parts parts;
     parts.hand_over = [this](std::size_t port, int listener, int descriptor) {
-      net::hand_over(*handlers[port], listener, descriptor);
+      auto& door = doors[port];
+      if (auto* to = door.local ? door.local->find_port(descriptor) : door.common.get()) {
+        net::hand_over(*to, listener, descriptor);
+      } else {
+        refusals.write(spdlog::level::warn, "refused a connection: too many Unix users have called this daemon");
+        refusing_server->take(port, listener, descriptor);
+      }
     };
     parts.turn_away = [this](std::size_t port, int listener, int descriptor) {
       refusing_server->take(port, listener, descriptor);
@@ -195,7 +209,31 @@ struct Daemon::Impl {
     };
     acceptor.emplace(std::move(ports), options.connections, std::move(parts));
     acceptor->start();
+    const auto serves_owner = [this](const ListenAddress& address) {
+      return address.kind == ListenAddress::Kind::tcp && gate.knows_local_callers(address);
+    };
+    if (std::ranges::any_of(wanted, serves_owner))
+      spdlog::info("ports of loopback serve {} alone, without a token", access::own_user());
     probe.emplace(*acceptor, plain, options.connections);
+  }
+
+  // Whoever needs another port names it; a default one that is taken is another daemon's.
+  std::vector<net::ListeningPort> open_ports() {
+    std::vector<net::ListeningPort> out;
+    for (auto address = wanted.begin(); address != wanted.end();) {
+      try {
+        // With groups, the gate decides who is let in.
+        out.emplace_back(*address, "--listen", options.access.groups.empty() ? 0600 : 0666);
+        ++address;
+      } catch (const ServiceError& error) {
+        if (!options.listen.empty() || address->kind == ListenAddress::Kind::unix_socket) throw;
+        spdlog::info("not listening on {}, which another program uses: {} is enough for this user", address->text(),
+                     out.front().address().text());
+        credentials.erase(credentials.begin() + (address - wanted.begin()));
+        address = wanted.erase(address);
+      }
+    }
+    return out;
   }
 
   // Limits that gRPC enforces; the acceptor and the streams enforce the rest.
@@ -234,6 +272,7 @@ struct Daemon::Impl {
       return;
     }
     http_url = gateway->url();
+    gate.sessions().serve_at(absl::StrReplaceAll(http_url, {{"//0.0.0.0:", "//localhost:"}}));
     spdlog::info("serving HTTP on {}", http_url);
   }
 
@@ -283,8 +322,12 @@ struct Daemon::Impl {
   std::vector<std::string> addresses;
   std::string metrics_url;
   std::string http_url;
-  std::vector<std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>>
-      handlers;  ///< of the requested addresses
+  /// Where gRPC takes the connections of an address.
+  struct Door {
+    std::optional<access::LocalDoors> local;
+    std::unique_ptr<access::LocalDoors::Port> common;  ///< null with local
+  };
+  std::vector<Door> doors;  ///< of the requested addresses
   LimitedLog refusals{"refused connections", 1};
   net::HeapTrim heap;
   rpc::OpenCalls open_calls;

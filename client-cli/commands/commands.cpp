@@ -63,8 +63,8 @@ std::vector<std::string> Session::find_jobs(const std::vector<std::string>& name
 
 Connection& Session::connection() {
   if (connection_ == nullptr) {
-    const std::string address = find_server_address(server);
-    connection_ = std::make_unique<Connection>(address, read_credentials(credentials, address));
+    const ServerAddress address = find_server_address(server);
+    connection_ = std::make_unique<Connection>(address, read_credentials(credentials, address.text));
   }
   return *connection_;
 }
@@ -76,9 +76,8 @@ void add_shared_options(CLI::App& app, Session& session) {
     app.add_option(name, value, description)->group("Connection")->take_last();
   };
   add("--server", session.server,
-      "Server address, unix:PATH or HOST:PORT (default: $CELLCRUSH_SERVER, else the daemon's socket in the user's data "
-      "folder, else "
-      "127.0.0.1:50551)");
+      "Server address, unix:PATH or HOST:PORT (default: $CELLCRUSH_SERVER, else the socket of your own daemon, else "
+      "127.0.0.1:50551; another user's server is changed only if it is named)");
   add("--tls-ca", session.credentials.authority,
       "PEM file of the certificate authority that signed the server's certificate; turns on TLS for HOST:PORT "
       "(default: "

@@ -103,7 +103,8 @@ void add_fetch_command(CLI::App& app, Session& session);
 void add_plot_command(CLI::App& app, Session& session);
 void add_movie_command(CLI::App& app, Session& session);
 void add_export_command(CLI::App& app, Session& session);
-void add_queue_commands(CLI::App& app, Session& session);  ///< queue, drain
+void add_queue_commands(CLI::App& app, Session& session);   ///< queue, drain
+void add_caller_commands(CLI::App& app, Session& session);  ///< whoami, open
 void add_converge_command(CLI::App& app, Session& session);
 void add_shell_commands(CLI::App& app, Session& session);  ///< completion, man
 

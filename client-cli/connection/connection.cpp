@@ -96,8 +96,9 @@ grpc::ChannelArguments channel_arguments() {
 
 }  // namespace
 
-Connection::Connection(std::string address, Credentials credentials)
-    : address_(std::move(address)),
+Connection::Connection(ServerAddress address, Credentials credentials)
+    : address_(std::move(address.text)),
+      may_be_others_(address.may_be_others),
       credentials_(std::move(credentials)),
       channel_(grpc::CreateCustomChannel(address_, channel_credentials(credentials_), channel_arguments())),
       cases_(v1::Cases::NewStub(channel_)),
@@ -181,6 +182,30 @@ void Connection::require_server() {
     if (!connected_) reason = last_failure();
   }
   if (!connected_) throw CommandError(ExitCode::no_connection, connection_failure_text(address_, credentials_, reason));
+  if (may_be_others_) find_owner();
+}
+
+void Connection::find_owner() {
+  grpc::ClientContext context;
+  prepare(context, kProbePatience);
+  v1::WhoAmIResponse who;
+  const auto status = admin_->WhoAmI(&context, v1::WhoAmIRequest(), &who);
+  // A server that does not let this user in says so at the next call.
+  if (!status.ok() && status.error_code() != grpc::StatusCode::UNIMPLEMENTED) return;
+  if (status.ok() && who.server_owner() == own_user()) return;
+  owner_ = status.ok() ? who.server_owner() : "an unknown user";
+  fmt::print(stderr, "cellcrush: using the server of {} at {}\n", owner_, address_);
+}
+
+void Connection::require_named(const google::protobuf::Descriptor& request) const {
+  if (owner_.empty()) return;
+  for (const char* reading : {"Get", "List", "Check", "Preview", "WhoAmI"}) {
+    if (request.name().starts_with(reading)) return;
+  }
+  refuse(
+      fmt::format("the server at {0} belongs to {1}, and is changed only if you name it: --server {0}. For a server of "
+                  "your own, start cellcrushd",
+                  address_, owner_));
 }
 
 v1::GetHistoryResponse fetch_history(Connection& connection, const std::string& job) {

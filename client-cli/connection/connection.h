@@ -23,13 +23,16 @@ namespace cellcrush::client {
 /// the stubs.
 class Connection {
  public:
-  /// `address` has the form of find_server_address.
-  explicit Connection(std::string address, Credentials credentials = {});
+  /// A server that may be another user's is asked whose it is; if it is not this user's, stderr says so, and calls that
+  /// change something are refused.
+  explicit Connection(ServerAddress address, Credentials credentials = {});
 
   v1::Cases::Stub& cases() { return require_server(), *cases_; }
   v1::Jobs::Stub& jobs() { return require_server(), *jobs_; }
   v1::Sweeps::Stub& sweeps() { return require_server(), *sweeps_; }
   v1::Admin::Stub& admin() { return require_server(), *admin_; }
+
+  [[nodiscard]] const std::string& address() const { return address_; }
 
   /// Whether the server answers within `patience`.
   bool wait(std::chrono::milliseconds patience);
@@ -43,6 +46,7 @@ class Connection {
   Response call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                 const Request& request, std::chrono::seconds patience = kPatience) {
     check_request_size(static_cast<std::int64_t>(request.ByteSizeLong()));
+    require_named(*Request::descriptor());
     grpc::ClientContext context;
     prepare(context, patience);
     Response response;
@@ -104,10 +108,15 @@ class Connection {
 
   static void check_request_size(std::int64_t size);
   void require_server();
+  /// Throws CommandError (refused) if the server is another user's, was not named, and the request changes something.
+  void require_named(const google::protobuf::Descriptor& request) const;
+  void find_owner();
   /// Why the channel does not connect, in gRPC's words.
   std::string last_failure();
 
   std::string address_;
+  bool may_be_others_;
+  std::string owner_;  ///< empty: this user, or it does not matter
   Credentials credentials_;
   std::shared_ptr<grpc::Channel> channel_;
   bool connected_ = false;

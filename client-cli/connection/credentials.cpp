@@ -1,6 +1,8 @@
 #include "connection/credentials.h"
 
 #include <arpa/inet.h>
+#include <pwd.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -131,14 +133,19 @@ Credentials read_credentials(const CredentialFiles& files, const std::string& ad
   return out;
 }
 
-std::string find_server_address(const std::string& option) {
-  if (!option.empty()) return checked(option, "--server");
+ServerAddress find_server_address(const std::string& option) {
+  if (!option.empty()) return {checked(option, "--server")};
   const std::string variable = environment("CELLCRUSH_SERVER");
-  if (!variable.empty()) return checked(variable, "CELLCRUSH_SERVER");
+  if (!variable.empty()) return {checked(variable, "CELLCRUSH_SERVER")};
   const std::string socket = default_socket();
   std::error_code error;
-  if (!socket.empty() && std::filesystem::is_socket(socket, error)) return "unix:" + socket;
-  return kDefaultAddress;
+  if (!socket.empty() && std::filesystem::is_socket(socket, error)) return {"unix:" + socket};
+  return {kDefaultAddress, true};
+}
+
+std::string own_user() {
+  const passwd* found = getpwuid(geteuid());
+  return found == nullptr ? "uid" + std::to_string(geteuid()) : found->pw_name;
 }
 
 }  // namespace cellcrush::client

@@ -30,9 +30,18 @@ struct Credentials {
 /// authority, or a token would be sent in plain text to another host.
 Credentials read_credentials(const CredentialFiles& files, const std::string& address);
 
-/// The server to use: `option` if not empty, else $CELLCRUSH_SERVER, else the daemon's default socket
+/// "unix:PATH" or "HOST:PORT".
+struct ServerAddress {
+  std::string text;
+  bool may_be_others = false;  ///< the default port, which any user may hold
+};
+
+/// The server to use: `option` if not empty, else $CELLCRUSH_SERVER, else the socket of this user's daemon
 /// ($XDG_DATA_HOME/cellcrush/cellcrushd.sock or ~/.local/share/cellcrush/cellcrushd.sock) if it exists, else
-/// 127.0.0.1:50551. Returns "unix:PATH" or "HOST:PORT"; throws CommandError (refused) for another form.
-std::string find_server_address(const std::string& option);
+/// 127.0.0.1:50551. Throws CommandError (refused) for another form.
+ServerAddress find_server_address(const std::string& option);
+
+/// Name of the Unix user that runs this program, as a server on this machine has it.
+std::string own_user();
 
 }  // namespace cellcrush::client

@@ -76,7 +76,8 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   const std::vector<std::string> fields(varied.begin(), varied.begin() + std::min(varied.size(), kMostFields));
   std::vector<Align> columns = {Align::left, Align::left, Align::right, Align::right};
   columns.insert(columns.end(), fields.size(), Align::right);
-  columns.insert(columns.end(), {Align::right, Align::left, Align::left, Align::left, Align::left, Align::left});
+  columns.insert(columns.end(), {Align::right, Align::left, Align::left, Align::left, Align::left, Align::left,
+                                 Align::left, Align::left});
   Table table(columns);
   std::vector<std::string> headings = {"NAME", "STATE", "DONE", "PLATEAU"};
   double largest = 0.0;
@@ -84,7 +85,7 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   const ShownUnit stress = unit_by_size("MPa", largest);
   std::vector<std::string> units = {"", "", "", stress.name};
   append_words(fields, headings, units);
-  headings.insert(headings.end(), {"PRIORITY", "EXECUTOR", "PLACE", "LABELS", "NOTE", "CREATED"});
+  headings.insert(headings.end(), {"PRIORITY", "EXECUTOR", "PLACE", "SWEEP", "OWNER", "LABELS", "NOTE", "CREATED"});
   table.add(std::move(headings));
   table.add(std::move(units));
   TitledRows rows(table);
@@ -97,8 +98,8 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
         plateau ? number_text(stress.factor * job.summary().plateau_stress_impact_mpa()) : ""};
     for (const std::string& field : fields) cells.push_back(short_value_text(job.case_(), field));
     cells.insert(cells.end(), {job.priority() != 0 ? std::to_string(job.priority()) : "", executor_text(job.executor()),
-                               job.place(), labels_text(job.labels()), short_note_text(job.note()),
-                               job.has_create_time() ? time_text(job.create_time()) : ""});
+                               job.place(), job.sweep(), job.owner(), labels_text(job.labels()),
+                               short_note_text(job.note()), job.has_create_time() ? time_text(job.create_time()) : ""});
     rows.add(job.case_().title(), std::move(cells));
   }
   const std::string constants = constants_text(table.remove_constant_columns(2, kHeadings), width);

@@ -3,11 +3,15 @@
 #include <grpc/grpc_security_constants.h>
 #include <spdlog/spdlog.h>
 #include <strings.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include "access/tls_credentials.h"
+#include "access/unix_user.h"
 #include "error.h"
 #include "error_table.h"
 
@@ -16,6 +20,8 @@ namespace {
 
 constexpr std::size_t kLongestPath = 128;  // of a method in the log
 constexpr std::size_t kMostKnownCertificates = 256;
+constexpr std::size_t kMostMembers = 200;                    // callers whom a group lets in, while the daemon runs
+constexpr const char* kCallerProperty = "cellcrush_caller";  // of a connection: scope and name
 constexpr const char* kAskForToken =
     "The server's administrator creates tokens with `cellcrushd token NAME --scope SCOPE`.";
 
@@ -29,6 +35,19 @@ constexpr const char* kAskForToken =
   refuse_caller(
       "The certificate of this call is not a client certificate: its extended key usage lacks clientAuth. Ask the "
       "issuing authority for one with extendedKeyUsage = clientAuth.");
+}
+
+[[noreturn]] Caller refuse_stranger() {
+  refuse_caller(
+      "This server belongs to " + own_user() + ", and serves its owner and those whom the owner lets in. " +
+      "Ask for a token (--tokens) or for access to its Unix socket (--group-scope). For a browser of your own, "
+      "run `cellcrush open`.");
+}
+
+bool is_unix_socket(int connection) {
+  sockaddr_storage name{};
+  socklen_t size = sizeof(name);
+  return getsockname(connection, reinterpret_cast<sockaddr*>(&name), &size) == 0 && name.ss_family == AF_UNIX;
 }
 
 std::string_view view_of(const grpc::string_ref& text) { return {text.data(), text.size()}; }
@@ -76,17 +95,51 @@ grpc::Status Gate::admit(std::string_view path, const std::function<Caller()>& i
   return status;
 }
 
-grpc::Status Gate::check_http_call(const std::string& path, const std::vector<std::string>& authorization,
-                                   const X509* shown, Caller& caller) const {
-  caller = {kLocal, Scope::admin};
-  if (!asks_who_calls()) return grpc::Status::OK;
-  Metadata metadata;
-  for (const auto& value : authorization) metadata.emplace("authorization", value);
+grpc::Status Gate::check_local_call(std::string_view path, const std::optional<Caller>& caller,
+                                    grpc::AuthContext& context) const {
+  if (caller) {
+    const MutexLock lock(contexts_);
+    if (context.FindPropertyValues(kCallerProperty).empty())
+      context.AddProperty(kCallerProperty, name_of(caller->scope) + " " + caller->name);
+  }
   return admit(path, [&] {
-    if (asks_for_certificates() && (shown == nullptr || !is_for_clients(*shown))) refuse_certificate();
-    caller = caller_of_token(metadata);
-    return caller;
+    if (!caller) refuse_stranger();
+    return *caller;
   });
+}
+
+std::optional<Caller> Gate::find_local_caller(int connection) const {
+  const auto user = user_of_peer(connection);
+  if (!user) return std::nullopt;
+  if (*user == geteuid()) return Caller{own_user(), Scope::admin};
+  if (!is_unix_socket(connection)) return std::nullopt;
+  if (*user == 0) return Caller{name_of_user(0), Scope::admin};
+  std::optional<Scope> scope;
+  if (!groups_.empty()) {
+    for (const gid_t group : groups_of_user(*user)) {
+      const auto found = groups_.find(group);
+      if (found != groups_.end()) scope = std::max(scope.value_or(Scope::read), found->second);
+    }
+  }
+  return scope ? std::optional(Caller{name_of_user(*user), *scope}) : std::nullopt;
+}
+
+std::size_t Gate::most_local_callers() const { return 2 + (groups_.empty() ? 0 : kMostMembers); }
+
+Caller Gate::caller_of_http(const HttpCredentials& shown) const {
+  if (asks_for_certificates() && (shown.certificate == nullptr || !is_for_clients(*shown.certificate)))
+    refuse_certificate();
+  if (shown.authorization.empty()) {
+    if (auto of_session = sessions_.find(shown.session)) return *of_session;
+  }
+  if (!asks_who_calls()) return shown.local ? *shown.local : refuse_stranger();
+  Metadata metadata;
+  for (const auto& value : shown.authorization) metadata.emplace("authorization", value);
+  return caller_of_token(metadata);
+}
+
+grpc::Status Gate::check_http_call(const std::string& path, const HttpCredentials& shown, Caller& caller) const {
+  return admit(path, [&] { return caller = caller_of_http(shown); });
 }
 
 void Gate::check_http_address(const ListenAddress& address) const {
@@ -111,6 +164,12 @@ Gate::Gate(const Options& options) : options_(options) {
     refuse_options("--tls-client-ca needs TLS. Give --tls-cert and --tls-key with it.");
   if (has_tls()) read_tls();
   if (has_tokens()) read_tokens();
+  for (const auto& [name, scope] : options.groups) {
+    const auto group = find_group(name);
+    if (!group)
+      refuse_options("--group-scope " + name + "=" + name_of(scope) + ": there is no Unix group " + name + ".");
+    groups_[*group] = scope;
+  }
 }
 
 std::string Gate::read_tls() {
@@ -125,6 +184,7 @@ std::string Gate::read_tokens() {
   auto next = std::make_shared<const TokenFile>(options_.tokens);
   const MutexLock lock(mutex_);
   tokens_ = std::move(next);
+  sessions_.end_all();
   return std::to_string(tokens_->size()) + " of --tokens " + options_.tokens.string();
 }
 
@@ -152,8 +212,9 @@ std::shared_ptr<const TokenFile> Gate::tokens() const {
   return tokens_;
 }
 
-std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddress& address) const {
-  if (address.kind == ListenAddress::Kind::unix_socket) return grpc::InsecureServerCredentials();
+std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(
+    const ListenAddress& address, const std::shared_ptr<grpc::AuthMetadataProcessor>& check) const {
+  const bool is_unix = address.kind == ListenAddress::Kind::unix_socket;
   if (!address.is_loopback() && (!has_tls() || !asks_who_calls())) {
     refuse_options("Cannot listen on " + address.text() + ", which other machines can reach, without " +
                    (has_tls() ? "" : "TLS (--tls-cert FILE --tls-key FILE) and ") +
@@ -161,15 +222,17 @@ std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddre
                    (has_tls() ? "one" : "these") + ", or listen on 127.0.0.1, localhost or [::1].");
   }
   std::shared_ptr<grpc::ServerCredentials> out;
-  if (has_tls()) {
+  if (has_tls() && !is_unix) {
     out = std::make_shared<TlsCredentials>([this] { return tls(); });
-  } else if (has_tokens()) {
-    // Plain text on this machine only. Unlike insecure credentials, these allow calls to be checked.
-    out = grpc::experimental::LocalServerCredentials(LOCAL_TCP);
   } else {
-    return grpc::InsecureServerCredentials();
+    // Plain text on this machine only. Unlike insecure credentials, these allow calls to be checked.
+    out = grpc::experimental::LocalServerCredentials(is_unix ? UDS : LOCAL_TCP);
   }
-  if (asks_who_calls()) out->SetAuthMetadataProcessor(std::make_shared<Check>(*this));
+  if (check) {
+    out->SetAuthMetadataProcessor(check);
+  } else if (asks_who_calls() && !is_unix) {
+    out->SetAuthMetadataProcessor(std::make_shared<Check>(*this));
+  }
   return out;
 }
 
@@ -222,8 +285,17 @@ Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {
 }
 
 Caller Gate::caller_of(const grpc::ServerContextBase& context) const {
-  if (!asks_who_calls() || context.peer().starts_with("unix:")) return {kLocal, Scope::admin};
-  return identify(context.client_metadata(), *context.auth_context());
+  const auto connection = context.auth_context();
+  {
+    const MutexLock lock(contexts_);
+    const auto local = connection->FindPropertyValues(kCallerProperty);
+    if (!local.empty()) {
+      const std::string_view text = view_of(local.front());
+      const auto space = text.find(' ');
+      return {std::string(text.substr(space + 1)), parse_scope(text.substr(0, space)).value()};
+    }
+  }
+  return asks_who_calls() ? identify(context.client_metadata(), *connection) : refuse_stranger();
 }
 
 void Gate::note_refusal(const std::string& words) const {

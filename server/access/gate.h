@@ -3,6 +3,7 @@
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/security/auth_metadata_processor.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -12,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "access/sessions.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
 #include "limited_log.h"
@@ -29,29 +31,60 @@ struct Options {
   std::filesystem::path tokens;
   /// scopes of callers with a certificate; if the daemon uses tokens, the token decides
   Scope certificate_scope = Scope::submit;
+  /// What members of Unix groups, by name, may do on Unix sockets.
+  std::map<std::string, Scope> groups;
 };
 
-/// Authenticates and authorizes callers. Every TCP call is checked here before it reaches a service; the permissions of
-/// its file guard the Unix socket. Refused calls are logged as warnings. Thread-safe.
+/// What a call over HTTP shows of its caller.
+struct HttpCredentials {
+  std::vector<std::string> authorization;  ///< all values of that header
+  std::string session;                     ///< of Sessions; empty: none
+  const X509* certificate = nullptr;       ///< null: none
+  std::optional<Caller> local;             ///< of Gate::find_local_caller
+};
+
+/// Authenticates and authorizes callers. Every call is checked here before it reaches a service. Refused calls are
+/// logged as warnings. Thread-safe.
 class Gate {
  public:
   /// Reads the files. Throws ServiceError (invalid) for conflicting options and for an unusable file.
   explicit Gate(const Options& options);
 
-  /// Credentials for listening on the address; they include the check of each call. The gate and the credentials
-  /// outlive the server. Throws ServiceError (invalid) if other machines can reach the address without TLS, or without
-  /// tokens and client certificates.
-  [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
+  /// Credentials for listening on the address. They check each call with `check`; if it is null, by token or
+  /// certificate where callers must have one. The gate and the credentials outlive the server. Throws ServiceError
+  /// (invalid) if other machines can reach the address without TLS, or without tokens and client certificates.
+  [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(
+      const ListenAddress& address, const std::shared_ptr<grpc::AuthMetadataProcessor>& check = nullptr) const;
+
+  /// Whether the kernel says who calls on the address: on Unix sockets, and on loopback without tokens and client
+  /// certificates.
+  [[nodiscard]] bool knows_local_callers(const ListenAddress& address) const {
+    return address.kind == ListenAddress::Kind::unix_socket || !asks_who_calls();
+  }
+
+  /// The caller at the other end of such a connection; nothing if it has no scope or is unknown. The user that runs
+  /// this process has the scope admin; on Unix sockets root has it too, and members of Options::groups have theirs.
+  [[nodiscard]] std::optional<Caller> find_local_caller(int connection) const;
+
+  /// How many different callers find_local_caller may find.
+  [[nodiscard]] std::size_t most_local_callers() const;
+
+  /// Checks a call on a connection of this caller. `context`, of the connection, remembers the caller for caller_of.
+  [[nodiscard]] grpc::Status check_local_call(std::string_view path, const std::optional<Caller>& caller,
+                                              grpc::AuthContext& context) const;
 
   /// Callers of this method need the scope; nothing: everybody may call it. A method without this needs admin. `path`
   /// has gRPC's form: "/cellcrush.v1.Jobs/GetJob". REQUIRES: no call has come.
   void guard(std::string path, std::optional<Scope> scope) { scopes_[std::move(path)] = scope; }
 
-  /// Checks a call that came over HTTP, before it reaches a service: `path` as in gRPC, `authorization` all values of
-  /// that header, `shown` the certificate of the client or null. The rules, refusals and log lines are those of a gRPC
-  /// call on TCP. Sets `caller`: kLocal if the gate asks nobody, or for a method that is open to everybody.
-  [[nodiscard]] grpc::Status check_http_call(const std::string& path, const std::vector<std::string>& authorization,
-                                             const X509* shown, Caller& caller) const;
+  /// Checks a call that came over HTTP, before it reaches a service: `path` as in gRPC. The rules, refusals and log
+  /// lines are those of a gRPC call on TCP; a session stands for a token. Sets `caller`, except for a method that is
+  /// open to everybody.
+  [[nodiscard]] grpc::Status check_http_call(const std::string& path, const HttpCredentials& shown,
+                                             Caller& caller) const;
+
+  /// Browsers that were let in.
+  [[nodiscard]] Sessions& sessions() const { return sessions_; }
 
   /// Throws ServiceError (invalid) if HTTP must not be served on the address: other machines can reach it without TLS
   /// and tokens, or certificates alone tell who calls.
@@ -82,6 +115,7 @@ class Gate {
   /// Throws ServiceError (unauthenticated) for a certificate not issued for clients.
   void check_certificate(const grpc::AuthContext& context) const;
   [[nodiscard]] Caller caller_of_token(const Metadata& metadata) const;
+  [[nodiscard]] Caller caller_of_http(const HttpCredentials& shown) const;
   [[nodiscard]] Caller caller_of_certificate(const grpc::AuthContext& context) const;
   /// `words`: the status, what was refused and why; free of secrets.
   void note_refusal(const std::string& words) const;
@@ -97,11 +131,14 @@ class Gate {
 
   Options options_;
   std::map<std::string, std::optional<Scope>, std::less<>> scopes_;
+  std::map<gid_t, Scope> groups_;
+  mutable Sessions sessions_;
   mutable Mutex mutex_;
   std::shared_ptr<const TlsFiles> tls_ CELLCRUSH_GUARDED_BY(mutex_);      ///< null without TLS
   std::shared_ptr<const TokenFile> tokens_ CELLCRUSH_GUARDED_BY(mutex_);  ///< null without tokens
   /// Which certificates, as PEM, were issued for clients: the last answers, since every call asks.
   mutable std::map<std::string, bool, std::less<>> for_clients_ CELLCRUSH_GUARDED_BY(mutex_);
+  mutable Mutex contexts_;  ///< gRPC shares the context of a connection among its calls, without a lock
   mutable LimitedLog refusals_{"refused calls", 1};
 };
 

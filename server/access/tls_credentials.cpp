@@ -15,10 +15,10 @@ grpc::string_ref slice_text(const grpc_slice& slice) {
   return {reinterpret_cast<const char*>(GRPC_SLICE_START_PTR(slice)), GRPC_SLICE_LENGTH(slice)};
 }
 
-// What TLS reports about a peer, read-only, for a processor.
+// What TLS reports about a peer, for a processor.
 class PeerContext final : public grpc::AuthContext {
  public:
-  explicit PeerContext(const grpc_auth_context* context) : context_(context) {}
+  explicit PeerContext(grpc_auth_context* context) : context_(context) {}
 
   [[nodiscard]] bool IsPeerAuthenticated() const override {
     return grpc_auth_context_peer_is_authenticated(context_) != 0;
@@ -35,7 +35,9 @@ class PeerContext final : public grpc::AuthContext {
   }
   [[nodiscard]] grpc::AuthPropertyIterator begin() const override { return NoProperty(); }
   [[nodiscard]] grpc::AuthPropertyIterator end() const override { return NoProperty(); }
-  void AddProperty(const std::string&, const grpc::string_ref&) override {}
+  void AddProperty(const std::string& name, const grpc::string_ref& value) override {
+    grpc_auth_context_add_property(context_, name.c_str(), value.data(), value.size());
+  }
   bool SetPeerIdentityPropertyName(const std::string&) override { return false; }
 
  private:
@@ -48,7 +50,7 @@ class PeerContext final : public grpc::AuthContext {
     return out;
   }
 
-  const grpc_auth_context* context_;
+  grpc_auth_context* context_;
 };
 
 // gRPC accepts C++ processors only through its own credentials.

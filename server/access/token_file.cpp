@@ -110,15 +110,21 @@ std::optional<Caller> TokenFile::find(std::string_view token) const {
   return found == nullptr ? std::nullopt : std::optional(found->caller);
 }
 
-NewToken make_token(const std::string& name, Scope scope) {
-  if (!is_caller_name(name))
-    throw ServiceError(ServiceError::Kind::invalid, "\"" + name + "\" is not a valid token name. " + kNameRule);
+std::string random_word() {
   std::array<unsigned char, 32> random{};
   if (RAND_bytes(random.data(), static_cast<int>(random.size())) != 1)
     throw ServiceError(ServiceError::Kind::internal, "The system's random number generator failed.");
+  return hex_of(random);
+}
+
+std::string hash_of_word(std::string_view word) { return hex_of(sha256_of(word)); }
+
+NewToken make_token(const std::string& name, Scope scope) {
+  if (!is_caller_name(name))
+    throw ServiceError(ServiceError::Kind::invalid, "\"" + name + "\" is not a valid token name. " + kNameRule);
   NewToken out;
-  out.token = hex_of(random);
-  out.line = name + " " + name_of(scope) + " " + hex_of(sha256_of(out.token));
+  out.token = random_word();
+  out.line = name + " " + name_of(scope) + " " + hash_of_word(out.token);
   return out;
 }
 

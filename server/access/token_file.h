@@ -25,11 +25,13 @@ std::optional<Scope> parse_scope(std::string_view name);
 
 /// The author of a call.
 struct Caller {
-  std::string name;  ///< name of the token, common name of the certificate, or kLocal
+  std::string name;  ///< Unix user, name of the token, or common name of the certificate
   Scope scope = Scope::read;
+
+  bool operator==(const Caller& other) const = default;
 };
 
-/// Name of a caller on the Unix socket, or on a daemon that only this machine can reach. No token has this name.
+/// Owner of what callers without a token made in earlier versions. No caller has this name.
 inline constexpr const char* kLocal = "local";
 
 /// Whether the text can be a caller's name: 1 to 64 printable ASCII characters without spaces, quotes, backslashes and
@@ -61,9 +63,15 @@ class TokenFile {
   std::vector<Entry> entries_;
 };
 
+/// 64 hexadecimal digits of 256 random bits. Throws ServiceError (internal) if no random bytes are available.
+std::string random_word();
+
+/// The 64 hexadecimal digits of its SHA-256.
+std::string hash_of_word(std::string_view word);
+
 /// A new token and its line for the token file.
 struct NewToken {
-  std::string token;  ///< 64 hexadecimal digits of 256 random bits
+  std::string token;  ///< of random_word
   std::string line;
 };
 

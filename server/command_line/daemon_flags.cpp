@@ -56,6 +56,13 @@ std::string origin_problem(const std::string& text) {
       text);
 }
 
+// Empty for GROUP=SCOPE.
+std::string group_scope_problem(const std::string& text) {
+  const auto sign = text.rfind('=');
+  if (sign != std::string::npos && sign > 0 && access::parse_scope(text.substr(sign + 1))) return "";
+  return fmt::format("\"{}\" is not GROUP=SCOPE. The scope is read, submit or admin, as in students=submit.", text);
+}
+
 // Reads a TOML file of options and rejects a key that is not an option. Otherwise a misspelt key would silently leave a
 // default in force.
 class CheckedConfig final : public CLI::ConfigTOML {
@@ -148,6 +155,11 @@ void DaemonFlags::add_access(CLI::App& app) {
   app.add_option("--tokens", access.tokens,
                  "File of tokens, one per line (see `cellcrushd token`); TCP calls must present one; SIGHUP reloads it "
                  "(default: none)");
+  app.add_option("--group-scope", group_scopes_,
+                 "Scope of the members of a Unix group on Unix sockets, such as students=submit; may be repeated "
+                 "(default: none)")
+      ->check(group_scope_problem)
+      ->type_name("GROUP=SCOPE");
 }
 
 void DaemonFlags::add_connections(CLI::App& app) {
@@ -245,6 +257,10 @@ void DaemonFlags::add_times(CLI::App& app) {
 DaemonOptions DaemonFlags::options() const {
   DaemonOptions out = options_;
   out.access.certificate_scope = access::parse_scope(certificate_scope_).value();
+  for (const auto& text : group_scopes_) {
+    const auto sign = text.rfind('=');
+    out.access.groups[text.substr(0, sign)] = access::parse_scope(text.substr(sign + 1)).value();
+  }
   out.connections.memory_bytes = call_memory_mib_ * kMebibyte;
   out.limits.job_memory_bytes = memory_mib_ * kMebibyte;
   out.limits.free_disk_bytes = free_mib_ * kMebibyte;

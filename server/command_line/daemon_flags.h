@@ -36,6 +36,7 @@ class DaemonFlags {
 
   DaemonOptions options_;
   std::vector<std::string> clusters_;
+  std::vector<std::string> group_scopes_;
   std::string certificate_scope_ = "submit";
   std::string log_format_ = "text";
   std::filesystem::path log_file_;

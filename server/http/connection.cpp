@@ -44,6 +44,10 @@ std::vector<std::string> values_of(const bhttp::fields& fields, Field name) {
   return out;
 }
 
+std::string_view target_of(const bhttp::request<bhttp::string_body>& request) {
+  return {request.target().data(), request.target().size()};
+}
+
 std::string path_of(const google::protobuf::MethodDescriptor& method) {
   return "/" + method.service()->full_name() + "/" + method.name();
 }
@@ -147,6 +151,8 @@ asio::awaitable<void> Connection::answer(const Request& request) {
   } else if (request.method() != bhttp::verb::post) {
     if (const auto report = report_of(parts_.board, request.target())) {
       co_await send(report->is_well ? 200 : 503, kText, report->words + '\n');
+    } else if (const auto sign_in = read_sign_in(target_of(request))) {
+      co_await answer_sign_in(request, *sign_in);
     } else if (is_download({request.target().data(), request.target().size()})) {
       co_await answer_download(request);
     } else {
@@ -185,7 +191,7 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
   const auto* method = method_of(request);
   if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
     if (method != nullptr) return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls."}};
-    if (!report_of(parts_.board, request.target()) &&
+    if (!report_of(parts_.board, request.target()) && !read_sign_in(target_of(request)) &&
         !is_download({request.target().data(), request.target().size()}) &&
         web::find_page_file(request.target()) == nullptr)
       return Refusal{404,
@@ -209,8 +215,7 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
 std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::MethodTable::Method& method,
                                              const Encoding& encoding, grpc::Status& status) {
   rpc::Incoming incoming;
-  status = parts_.gate.check_http_call(path_of(*method.descriptor), values_of(request, Field::authorization),
-                                       stream_.client_certificate(), incoming.caller);
+  status = parts_.gate.check_http_call(path_of(*method.descriptor), credentials_of(request), incoming.caller);
   if (status.ok() && asks_for_compression(request, encoding))
     status = {grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed."};
   if (!status.ok()) return nullptr;
@@ -229,8 +234,7 @@ std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::
 std::shared_ptr<Call> Connection::begin_call(const Request& request, const std::shared_ptr<Download>& download,
                                              grpc::Status& status) {
   rpc::Incoming incoming;
-  status = parts_.gate.check_http_call(download->method, values_of(request, Field::authorization),
-                                       stream_.client_certificate(), incoming.caller);
+  status = parts_.gate.check_http_call(download->method, credentials_of(request), incoming.caller);
   if (!status.ok()) return nullptr;
   status = cellcrush::answer([&] {
     incoming.decode = [&](google::protobuf::Message& message) {
@@ -295,6 +299,27 @@ void Connection::watch_client() {
     self->call_->cancel();
     self->close(true);
   });
+}
+
+access::HttpCredentials Connection::credentials_of(const Request& request) {
+  return {values_of(request, Field::authorization), session_of(values_of(request, Field::cookie), parts_.port),
+          stream_.client_certificate(), local_caller_};
+}
+
+asio::awaitable<void> Connection::answer_sign_in(const Request& request, const SignIn& sign_in) {
+  // Some programs look at a link before a person opens it.
+  const bool opens = request.method() == bhttp::verb::get;
+  const auto session = opens ? parts_.gate.sessions().redeem(sign_in.code) : std::nullopt;
+  if (opens && !session) {
+    co_await send(403, kText, "This link was used before, or is older than 5 minutes. Run `cellcrush open` again.\n");
+    co_return;
+  }
+  auto response = new_response<bhttp::string_body>(303, keep_alive_, "no-store");
+  response.set(Field::location, "./" + sign_in.page);
+  if (session) response.set(Field::set_cookie, session_cookie(*session, parts_.port, parts_.has_tls));
+  response.content_length(0);
+  stream_.plain().expires_after(parts_.limits.idle);
+  co_await bhttp::async_write(stream_, response, asio::use_awaitable);
 }
 
 asio::awaitable<void> Connection::answer_file(const Request& request) {

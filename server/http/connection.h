@@ -10,6 +10,7 @@
 #include "http/call.h"
 #include "http/connect_protocol.h"
 #include "http/download.h"
+#include "http/sign_in.h"
 #include "http/stream.h"
 #include "net/connection_limits.h"
 #include "rpc/health_service.h"
@@ -32,9 +33,10 @@ struct GatewayParts {
 /// One connection of a client, served on the gateway's only thread. Owned by its own coroutine.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  /// `tls`: null for plain text; need not outlive the constructor.
-  Connection(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context* tls, GatewayParts& parts)
-      : stream_(std::move(socket), tls), parts_(parts) {}
+  /// `tls`: null for plain text; need not outlive the constructor. `caller`: of Gate::find_local_caller.
+  Connection(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context* tls, std::optional<access::Caller> caller,
+             GatewayParts& parts)
+      : stream_(std::move(socket), tls), local_caller_(std::move(caller)), parts_(parts) {}
 
   /// Serves requests until either side closes.
   boost::asio::awaitable<void> serve();
@@ -58,7 +60,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   [[nodiscard]] std::optional<Refusal> refusal_of(const Request& request) const;
   /// Null if there is none.
   [[nodiscard]] const rpc::MethodTable::Method* method_of(const Request& request) const;
+  [[nodiscard]] access::HttpCredentials credentials_of(const Request& request);
   boost::asio::awaitable<void> answer_file(const Request& request);
+  boost::asio::awaitable<void> answer_sign_in(const Request& request, const SignIn& sign_in);
   /// A file made by calls, with errors as text. One that comes once the file has begun cuts it off.
   boost::asio::awaitable<void> answer_download(const Request& request);
   /// The call of this request if it may be made; else null, and the status says why.
@@ -79,6 +83,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void watch_client();
 
   Stream stream_;
+  std::optional<access::Caller> local_caller_;
   boost::beast::flat_buffer buffer_;
   GatewayParts& parts_;
   std::shared_ptr<Call> call_;  ///< null while none runs

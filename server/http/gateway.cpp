@@ -153,7 +153,8 @@ struct Gateway::Impl {
       return;
     }
     socket.set_option(tcp::no_delay(true), error);
-    const auto connection = std::make_shared<Connection>(std::move(socket), tls.current(), parts);
+    auto caller = parts.gate.find_local_caller(socket.native_handle());
+    const auto connection = std::make_shared<Connection>(std::move(socket), tls.current(), std::move(caller), parts);
     std::erase_if(connections, [](const auto& each) { return each.expired(); });
     connections.push_back(connection);
     asio::co_spawn(

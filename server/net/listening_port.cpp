@@ -63,7 +63,7 @@ int open_socket(const sockaddr* name, socklen_t size) {
   const int only_ipv6 = is_wildcard(name) ? 0 : 1;
   if (name->sa_family != AF_UNIX) setsockopt(out, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
   if (name->sa_family == AF_INET6) setsockopt(out, IPPROTO_IPV6, IPV6_V6ONLY, &only_ipv6, sizeof(only_ipv6));
-  // The mode of the socket file.
+  // The file of the socket never has a wider mode than wanted, whatever the umask.
   if (name->sa_family == AF_UNIX) fchmod(out, 0600);
   if (bind(out, name, size) == 0 && listen(out, kBacklog) == 0) return out;
   const int reason = errno;
@@ -88,7 +88,8 @@ ino_t inode_of(const std::string& path) {
 
 }  // namespace
 
-ListeningPort::ListeningPort(const ListenAddress& wanted, const char* option) : address_(wanted), option_(option) {
+ListeningPort::ListeningPort(const ListenAddress& wanted, const char* option, mode_t mode)
+    : address_(wanted), option_(option), mode_(mode) {
   reopen();
 }
 
@@ -97,6 +98,7 @@ ListeningPort::~ListeningPort() { close_all(); }
 ListeningPort::ListeningPort(ListeningPort&& other) noexcept
     : address_(std::move(other.address_)),
       option_(other.option_),
+      mode_(other.mode_),
       descriptors_(std::exchange(other.descriptors_, {})),
       file_(std::exchange(other.file_, 0)) {}
 
@@ -112,6 +114,7 @@ void ListeningPort::listen_on_unix_socket() {
   if (socket < 0) refuse(address_, option_);
   descriptors_.push_back(socket);
   file_ = inode_of(address_.place);
+  if (chmod(address_.place.c_str(), mode_) != 0) refuse(address_, option_);
 }
 
 void ListeningPort::listen_on_tcp() {

@@ -13,9 +13,9 @@ namespace cellcrush::net {
 /// The sockets that listen on one address: one, or two if a name or wildcard covers IPv4 and IPv6. Not thread-safe.
 class ListeningPort {
  public:
-  /// Starts listening. A Unix socket is accessible to its owner only. Throws ServiceError (failed_precondition) if the
-  /// address is in use or not permitted, naming the option that gives another.
-  explicit ListeningPort(const ListenAddress& wanted, const char* option = "--listen");
+  /// Starts listening. `mode` is that of a Unix socket's file. Throws ServiceError (failed_precondition) if the address
+  /// is in use or not permitted, naming the option that gives another.
+  explicit ListeningPort(const ListenAddress& wanted, const char* option = "--listen", mode_t mode = 0600);
   /// Closes the sockets and removes the file of a Unix socket.
   ~ListeningPort();
   ListeningPort(ListeningPort&& other) noexcept;
@@ -37,6 +37,7 @@ class ListeningPort {
 
   ListenAddress address_;
   const char* option_;
+  mode_t mode_;
   std::vector<int> descriptors_;
   ino_t file_ = 0;  ///< inode of the Unix socket's file
 };

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "access/unix_user.h"
 #include "allotment.h"
 #include "error.h"
 #include "jobs/queue_forecast.h"
@@ -86,6 +87,31 @@ class AdminCalls {
       if (!standing.is_present) add_kept_jobs(standing.executor, out);
     }
     limit(out);
+    return out;
+  }
+
+  v1::WhoAmIResponse who_am_i(const Call& call, const v1::WhoAmIRequest&) {
+    const access::Caller caller = call.caller();
+    v1::WhoAmIResponse out;
+    out.set_name(caller.name);
+    out.set_scope(access::name_of(caller.scope));
+    out.set_server_owner(access::own_user());
+    out.set_epoch(parts_.reader.epoch().id);
+    return out;
+  }
+
+  v1::CreateLinkResponse create_link(const Call& call, const v1::CreateLinkRequest& request) {
+    const std::string& page = request.page();
+    check_length("page", page, kLongestName);
+    if (!page.empty() && !store::number_of(page) && !store::sweep_number_of(page)) {
+      throw InvalidField("page", "is \"" + page + "\".",
+                         "Use \"jobs/{job}\", \"sweeps/{sweep}\" or nothing, for the list of jobs.");
+    }
+    const auto link = parts_.gate.sessions().make_link(call.caller(), page);
+    v1::CreateLinkResponse out;
+    out.set_url(link.url);
+    *out.mutable_expire_time() =
+        google::protobuf::util::TimeUtil::TimeTToTimestamp(access::Sessions::Clock::to_time_t(link.end));
     return out;
   }
 
@@ -185,6 +211,8 @@ void add_admin_methods(MethodTable& table, const ServiceParts& parts, std::funct
   const auto calls = std::make_shared<AdminCalls>(parts, std::move(drain));
   table.unary("/cellcrush.v1.Admin/GetCapabilities", Scope::read, &parts.calls, calls, &AdminCalls::get_capabilities);
   table.unary("/cellcrush.v1.Admin/GetQueue", Scope::read, &parts.calls, calls, &AdminCalls::get_queue);
+  table.unary("/cellcrush.v1.Admin/WhoAmI", Scope::read, &parts.calls, calls, &AdminCalls::who_am_i);
+  table.unary("/cellcrush.v1.Admin/CreateLink", Scope::read, &parts.calls, calls, &AdminCalls::create_link);
   table.unary("/cellcrush.v1.Admin/Drain", Scope::admin, &parts.calls, calls, &AdminCalls::drain);
 }
 

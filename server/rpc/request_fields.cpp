@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "access/token_file.h"
+#include "access/unix_user.h"
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
 #include "error.h"
@@ -114,7 +114,7 @@ std::string payload_hash(Request request, const std::string& owner) {
   request.clear_request_id();
   request.clear_validate_only();
   // The form without owners, which journals of earlier versions hold.
-  return store::hash_of(request) + (owner == access::kLocal ? "" : " " + owner);
+  return store::hash_of(request) + (owner == access::own_user() ? "" : " " + owner);
 }
 template std::string payload_hash(v1::CreateJobRequest request, const std::string& owner);
 template std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "access/token_file.h"
+#include "access/unix_user.h"
 #include "error.h"
 #include "store/job_rows.h"
 #include "store/job_state.h"
@@ -128,13 +129,16 @@ void Journal::note_folders_removed(const std::vector<std::int64_t>& jobs) {
   });
 }
 
-// A job of a version without owners has none, and stays with local callers.
+// What this user made with an earlier version has no owner, or kLocal.
 std::optional<std::int64_t> Journal::find_request(const std::string& collection, const std::string& owner,
                                                   const std::string& request_id, const std::string& request_hash) {
   if (request_id.empty()) return std::nullopt;
-  Statement find(database_, "SELECT number, request_hash FROM " + collection +
-                                " WHERE request_id = ?1 AND owner IN (?2, ?3) ORDER BY owner DESC");
-  find.bind_text(1, request_id).bind_text(2, owner).bind_text(3, owner == access::kLocal ? "" : owner);
+  Statement find(database_,
+                 "SELECT number, request_hash FROM " + collection +
+                     " WHERE request_id = ?1 AND owner IN (?2, ?3, ?4) ORDER BY owner = ?2 DESC, owner DESC");
+  const bool is_own = owner == access::own_user();
+  find.bind_text(1, request_id).bind_text(2, owner);
+  find.bind_text(3, is_own ? access::kLocal : owner).bind_text(4, is_own ? "" : owner);
   if (!find.step()) return std::nullopt;
   if (find.bytes(1) == request_hash) return find.integer(0);
   throw ServiceError(ServiceError::Kind::already_exists,

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "access/token_file.h"
+#include "access/unix_user.h"
 #include "error.h"
 #include "store/data_folder.h"
 #include "store/durable_file.h"
@@ -55,7 +55,7 @@ ImportedResult read_result(const fs::path& path) {
   check_file(path);
   const ResultReader reader(path);
   ImportedResult out{reader.job(), reader.mesh(), static_cast<std::int64_t>(reader.history().size())};
-  out.job.set_owner(access::kLocal);
+  out.job.set_owner(access::own_user());
   if (!out.job.has_create_time()) *out.job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
   // These name things of the daemon that made it.
   out.job.clear_sweep();

@@ -324,6 +324,18 @@ class FakeServer::Admin : public v1::Admin::Service {
     return grpc::Status::OK;
   }
 
+  grpc::Status WhoAmI(grpc::ServerContext*, const v1::WhoAmIRequest*, v1::WhoAmIResponse* response) override {
+    if (!shared_.script.who) return {grpc::StatusCode::UNIMPLEMENTED, ""};
+    *response = *shared_.script.who;
+    return grpc::Status::OK;
+  }
+
+  grpc::Status CreateLink(grpc::ServerContext*, const v1::CreateLinkRequest* request,
+                          v1::CreateLinkResponse* response) override {
+    response->set_url("http://127.0.0.1:8080/sign-in?page=" + request->page());
+    return grpc::Status::OK;
+  }
+
  private:
   Shared& shared_;
 };

@@ -49,6 +49,7 @@ struct Script {
   int message_limit = 0;          ///< bytes of a request it takes; 0 for gRPC's own limit
   SweepScript sweeps;
   std::optional<v1::Queue> queue;  ///< of GetQueue
+  std::optional<v1::WhoAmIResponse> who;
 };
 
 /// What the server was asked.

@@ -126,6 +126,11 @@ std::string script_of(const std::vector<Step>& steps, const fs::path& folder, co
   return script.str();
 }
 
+std::string user_name() {
+  const passwd* found = getpwuid(geteuid());
+  return found == nullptr ? "uid" + std::to_string(geteuid()) : found->pw_name;
+}
+
 // The words before a command that make an ordinary user of root. Gives the folder to that user.
 std::vector<std::string> become_ordinary(const fs::path& folder) {
   const passwd* nobody = geteuid() == 0 ? getpwnam("nobody") : nullptr;
@@ -256,6 +261,8 @@ std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::p
   (void)bash.wait(limit);
   std::vector<StepOutcome> outcomes;
   const std::regex home(folder.string());
+  const std::regex user(reader == Reader::ordinary_user && geteuid() == 0 ? "\\bnobody\\b"
+                                                                          : "\\b" + user_name() + "\\b");
   std::string output;
   for (const std::string& line : lines_of(read_text(transcript))) {
     if (line.starts_with(kBegin)) {
@@ -263,8 +270,8 @@ std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::p
     } else if (line.starts_with(kEnd)) {
       outcomes.push_back({std::stoi(line.substr(line.rfind(' '))), output});
     } else {
-      // Pages show the home of a user of that name.
-      output += std::regex_replace(line, home, "/home/anna") + "\n";
+      // Pages show a user of that name.
+      output += std::regex_replace(std::regex_replace(line, home, "/home/anna"), user, "anna") + "\n";
     }
   }
   return outcomes;

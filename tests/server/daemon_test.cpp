@@ -8,6 +8,8 @@
 #include <string>
 
 #include "access/token_file.h"
+#include "error.h"
+#include "net/listening_port.h"
 #include "programs/certificates.h"
 #include "programs/temporary_folder.h"
 #include "server/daemon_fixture.h"
@@ -95,6 +97,18 @@ TEST_F(DaemonTest, APortOrASocketInUseIsRefused) {
     EXPECT_THAT(second.errors(), HasSubstr("Cannot listen on " + address));
   }
   EXPECT_FALSE(Client(addresses[0]).create(small_case()).empty()) << "The first one goes on.";
+}
+
+TEST_F(DaemonTest, ADefaultPortInUseIsANote) {
+  // Or another program has it.
+  std::unique_ptr<net::ListeningPort> other;
+  try {
+    other = std::make_unique<net::ListeningPort>(parse_listen_address("127.0.0.1:50551"));
+  } catch (const ServiceError&) {
+  }
+  DaemonProcess daemon({"--data", data()});
+  EXPECT_TRUE(daemon.wait_for_error("not listening on 127.0.0.1:50551"));
+  EXPECT_FALSE(Client("unix:" + data() + "/cellcrushd.sock").create(small_case()).empty());
 }
 
 TEST_F(DaemonTest, AHangupReadsTheTokensAgainAndNeverEndsTheDaemon) {

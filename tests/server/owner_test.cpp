@@ -3,6 +3,7 @@
 #include <atomic>
 #include <thread>
 
+#include "access/unix_user.h"
 #include "server/daemon_process.h"
 #include "server/gate_fixture.h"
 #include "server/small_case.h"
@@ -84,7 +85,7 @@ TEST_F(OwnerTest, AnOwnerIsKeptAndAloneChangesWhatIsHis) {
   EXPECT_EQ(change(anna, job).back(), grpc::StatusCode::OK);
   EXPECT_NE(change_sweep(anna, sweep).back(), kDenied) << "Its job may still be CANCELLING.";
   const std::string of_local = client().create(small_case(), v1::Job::SUCCEEDED);
-  EXPECT_EQ(client().get(of_local).owner(), "local");
+  EXPECT_EQ(client().get(of_local).owner(), access::own_user());
   EXPECT_EQ(change(anna, of_local).back(), kDenied);
   auto chief = client_of("chief");
   EXPECT_EQ(change(chief, of_local).back(), grpc::StatusCode::OK);

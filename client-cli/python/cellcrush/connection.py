@@ -4,14 +4,17 @@ from __future__ import annotations
 import ipaddress
 import os
 import pathlib
+import pwd
+import sys
 import threading
 import time
 from typing import Any, Callable, Iterator, Optional, Tuple, TypeVar
 
 import grpc
 
-from cellcrush.errors import NotConnected, raise_error
-from cellcrush.v1 import admin_service_pb2_grpc, cases_service_pb2_grpc, jobs_service_pb2_grpc, sweeps_service_pb2_grpc
+from cellcrush.errors import CrushError, NotConnected, raise_error
+from cellcrush.v1 import (admin_service_pb2, admin_service_pb2_grpc, cases_service_pb2_grpc, jobs_service_pb2_grpc,
+                          sweeps_service_pb2_grpc)
 
 DEFAULT_ADDRESS = "127.0.0.1:50551"
 # A mesh of a large lattice is one message; the daemon is called directly, whatever proxy the environment names.
@@ -52,12 +55,22 @@ def _is_this_machine(address: str) -> bool:
         return host == "localhost"
 
 
+def _own_user() -> str:
+    try:
+        return pwd.getpwuid(os.geteuid()).pw_name
+    except KeyError:
+        return f"uid{os.geteuid()}"
+
+
 class Connection:
     """A channel to a daemon. Every call of it is safe to repeat, and is repeated while the daemon does not answer."""
 
     def __init__(self, address: Optional[str], ca: Optional[str], token_file: Optional[str], certificate: Optional[str],
                  key: Optional[str], patience_s: float) -> None:
         self.address = find_address(address)
+        # Any user may hold the default port.
+        self.may_be_others = self.address == DEFAULT_ADDRESS and not (address or os.environ.get("CELLCRUSH_SERVER"))
+        self.owner = ""  # of another user's daemon that was not named
         self.patience_s = patience_s
         self.is_private = False  # whether the daemon ends with this script
         self.metadata: Tuple[Tuple[str, str], ...] = ()
@@ -99,6 +112,24 @@ class Connection:
         if not self._is_ready(2.0):
             raise NotConnected(f"no server answers at {self.address}. Start cellcrushd, or give its address to "
                                "connect().")
+        if self.may_be_others:
+            self._find_owner()
+
+    def _find_owner(self) -> None:
+        try:
+            who = self.admin.WhoAmI(admin_service_pb2.WhoAmIRequest(), timeout=CALL_TIMEOUT_S, metadata=self.metadata)
+            owner = who.server_owner
+        except grpc.RpcError as error:
+            # A daemon that does not let this user in says so at the next call.
+            owner = "an unknown user" if error.code() == grpc.StatusCode.UNIMPLEMENTED else ""
+        if owner and owner != _own_user():
+            self.owner = owner
+            print(f"cellcrush: using the server of {owner} at {self.address}", file=sys.stderr)
+
+    def _require_named(self, request: Any) -> None:
+        if self.owner and not type(request).__name__.startswith(("Get", "List", "Check", "Preview", "WhoAmI")):
+            raise CrushError(f"the server at {self.address} belongs to {self.owner}, and is changed only if you name "
+                             f"it: connect({self.address!r}). For a server of your own, start cellcrushd.")
 
     def _is_ready(self, timeout_s: float) -> bool:
         ready = grpc.channel_ready_future(self.channel)
@@ -121,6 +152,7 @@ class Connection:
 
     def call(self, method: Callable[..., Event], request: Any) -> Event:
         """Calls a method; repeats it while the daemon is away."""
+        self._require_named(request)
         patience = Patience(self.patience_s)
         while True:
             try:

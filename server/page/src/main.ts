@@ -8,6 +8,7 @@ import "./style/note.css";
 import "./style/sweep.css";
 import "./style/new_case.css";
 import "./style/server.css";
+import { learnCaller } from "./api/caller";
 import { api } from "./api/clients";
 import { exportedBy, isExported } from "./api/exported";
 import { chooseTheme, kThemes, startTheme, theme, type Theme } from "./dom/preferences";
@@ -97,5 +98,6 @@ if (isExported) {
 } else {
   document.body.append(h("a", { class: "skip", href: "#main" }, "To the content"), topBar(), main);
   watch.start();
-  startRouter(main);
+  // Views show what the caller may do.
+  void learnCaller().then(() => startRouter(main));
 }

@@ -4,6 +4,7 @@ import pathlib
 import subprocess
 import tempfile
 import unittest
+import unittest.mock
 
 import cellcrush as cc
 
@@ -46,6 +47,25 @@ class Access(unittest.TestCase):
             self.assertIn("preset:type-i", server.presets())
         with self.assertRaisesRegex(ValueError, "go together"):
             cc.connect(address, ca=ca, certificate=names["certificate"])
+
+    def test_another_users_daemon_is_changed_only_if_it_is_named(self):
+        daemon = subprocess.Popen([os.environ["CELLCRUSHD"], "--data", "data", "--listen", "127.0.0.1:0", "--http",
+                                   "none"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                  text=True)
+        self.addCleanup(daemon.wait)
+        self.addCleanup(daemon.terminate)
+        with daemon.stdout as said:
+            address = said.readline().split()[-1]
+        place = "cellcrush.connection."
+        self.enterContext(unittest.mock.patch.dict(os.environ, {"XDG_DATA_HOME": str(self.folder)}))
+        self.enterContext(unittest.mock.patch(place + "DEFAULT_ADDRESS", address))
+        with cc.connect() as server:
+            server.submit("preset:hexagon-small")
+        self.enterContext(unittest.mock.patch(place + "_own_user", lambda: "someone"))
+        with cc.connect() as server:
+            self.assertEqual(len(list(server.jobs())), 1)
+            with self.assertRaisesRegex(cc.CrushError, "changed only if you name it"):
+                server.submit("preset:hexagon-small")
 
 
 if __name__ == "__main__":

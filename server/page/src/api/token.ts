@@ -41,7 +41,7 @@ function askForToken(reason: string): void {
     }
   };
   const dialog = h("dialog", { class: "token", cancel: (event: Event) => event.preventDefault() },
-    h("h2", {}, "This daemon asks for a token"), why,
+    h("h2", {}, "This daemon asks who you are"), why,
     h("form", { submit }, labelled("Token", token),
       h("label", { class: "keep" }, keep, " keep it in this browser"),
       h("div", { class: "buttons" }, h("button", { type: "submit", class: "primary" }, "Continue"))));
@@ -52,7 +52,9 @@ function askForToken(reason: string): void {
 function checkRefusal(error: unknown): void {
   const failure = ConnectError.from(error);
   if (failure.code !== Code.Unauthenticated) return;
-  askForToken(hasToken() ? failure.rawMessage : "The administrator of the daemon gives one to each user.");
+  askForToken(hasToken() ? failure.rawMessage
+    : "Run `cellcrush open` on the daemon's machine for a link that lets this browser in, or enter a token from the " +
+      "daemon's administrator.");
 }
 
 async function* watchRefusals<T>(messages: AsyncIterable<T>): AsyncIterable<T> {

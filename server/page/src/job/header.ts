@@ -46,7 +46,7 @@ export class JobHeader {
     setText(this.title, titleOf(job));
     setChip(this.chip, job.state);
     this.name = job.name;
-    this.note.update(job.note);
+    this.note.update(job.note, job.owner);
     this.updateAbout(job);
     this.updateProgress(job, entry);
     this.updateCause(job);
@@ -54,7 +54,8 @@ export class JobHeader {
     this.shownState = job.state;
     if (isExported) return;
     replaceChildren(this.actions, ...actionsOf(job, this.store, () => go("/")).map((action) =>
-      h("button", { type: "button", class: action.danger ? "danger-quiet" : "",
+      h("button", { type: "button", class: action.danger ? "danger-quiet" : "", disabled: action.why !== "",
+                    title: action.why,
                     click: () => void attempt(() => action.run(job)) }, icon(action.icon), action.label)));
   }
 

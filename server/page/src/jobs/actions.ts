@@ -1,5 +1,6 @@
 // What a user can do with a job in its state.
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
+import { whyNot } from "../api/caller";
 import { api, errorText } from "../api/clients";
 import { idOf } from "../dom/format";
 import { ask, say } from "../dom/dialog";
@@ -12,6 +13,7 @@ export interface Action {
   icon: IconName;
   label: string;
   danger?: boolean;
+  why: string;  // the caller may not do it; empty if it may
   run(job: Job): Promise<void>;
 }
 
@@ -25,8 +27,9 @@ export async function attempt(call: () => Promise<void>): Promise<void> {
 }
 
 export function actionsOf(job: Job, store: JobStore, removed?: () => void): Action[] {
+  const why = whyNot(job.owner);
   const cancel: Action = {
-    icon: "stop", label: "Cancel", danger: true,
+    why, icon: "stop", label: "Cancel", danger: true,
     run: async (job) => {
       const agreed = job.state !== Job_State.RUNNING || await ask(`Cancel job ${idOf(job.name)}?`,
         `“${titleOf(job)}” stops within about a second. Its results so far are kept; it cannot continue.`,
@@ -35,19 +38,19 @@ export function actionsOf(job: Job, store: JobStore, removed?: () => void): Acti
     },
   };
   const suspend: Action = {
-    icon: "pause", label: "Suspend",
+    why, icon: "pause", label: "Suspend",
     run: async (job) => store.put(await api.jobs.suspendJob({ name: job.name })),
   };
   const resume: Action = {
-    icon: "play", label: "Resume",
+    why, icon: "play", label: "Resume",
     run: async (job) => store.put(await api.jobs.resumeJob({ name: job.name })),
   };
   const fork: Action = {
-    icon: "fork", label: "New case from this one",
+    why: "", icon: "fork", label: "New case from this one",
     run: async (job) => go(`/new?from=${job.name}`),
   };
   const remove: Action = {
-    icon: "trash", label: "Delete", danger: true,
+    why, icon: "trash", label: "Delete", danger: true,
     run: async (job) => {
       const agreed = await ask(`Delete job ${idOf(job.name)}?`,
         `“${titleOf(job)}” disappears with its result and history. This cannot be undone.`, "Delete the job");

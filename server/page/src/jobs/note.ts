@@ -1,4 +1,5 @@
 // The note of a job or a sweep, with a button that opens an editor in its place.
+import { allowed } from "../api/caller";
 import { errorText } from "../api/clients";
 import { isExported } from "../api/exported";
 import { button, h, labelled, setText } from "../dom/element";
@@ -21,7 +22,8 @@ export class NoteEditor {
     this.element = h("div", { class: "note-editor" }, this.text, !isExported && this.edit, this.form);
   }
 
-  update(note: string): void {
+  update(note: string, owner: string): void {
+    Object.assign(this.edit, { disabled: false, title: "" }, allowed(owner));
     if (note === this.note) return;
     this.note = note;
     setText(this.text, note);

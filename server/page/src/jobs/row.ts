@@ -120,8 +120,12 @@ export class JobRow {
   private updateActions(job: Job): void {
     if (this.shownState === job.state) return;
     this.shownState = job.state;
-    this.actions.replaceChildren(...actionsOf(job, this.store).map((action) =>
-      iconButton(action.icon, `${action.label} (job ${idOf(job.name)})`, () =>
-        void attempt(() => action.run(this.store.jobs.get(job.name) ?? job)))));
+    this.actions.replaceChildren(...actionsOf(job, this.store).map((action) => {
+      const label = `${action.label} (job ${idOf(job.name)})`;
+      const element = iconButton(action.icon, action.why ? `${label}. ${action.why}` : label, () =>
+        void attempt(() => action.run(this.store.jobs.get(job.name) ?? job)));
+      element.disabled = action.why !== "";
+      return element;
+    }));
   }
 }

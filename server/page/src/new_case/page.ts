@@ -3,6 +3,7 @@ import { clone, create } from "@bufbuild/protobuf";
 import { CaseSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
 import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb";
 import { SweepSchema, type Sweep, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
+import { whyNot } from "../api/caller";
 import { api, errorText, ifAny, problemsOf } from "../api/clients";
 import { Later } from "../dom/calls";
 import { h, labelled, replaceChildren, setBanner, setText } from "../dom/element";
@@ -166,11 +167,13 @@ export class NewCasePage implements View {
   }
 
   private get canStart(): boolean {
-    return this.check?.problems.length === 0 && this.form.unreadable.size === 0 && this.order.read() !== undefined;
+    return whyNot() === "" && this.check?.problems.length === 0 && this.form.unreadable.size === 0 &&
+      this.order.read() !== undefined;
   }
 
   private async updateStart(signal: AbortSignal): Promise<void> {
     const axes = this.asSweep.checked ? this.sweepInput.read() : undefined;
+    setBanner(this.problem, whyNot());
     if (!this.asSweep.checked) {
       setText(this.start, "Start the job");
       setText(this.cost, this.canStart ? `about ${duration(this.check?.predictedSeconds)} on one core` : "");

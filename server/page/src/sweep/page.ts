@@ -1,6 +1,7 @@
 // The page of a sweep: plateau stresses against the varied field, filling in as jobs end.
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import { api, errorText, isNotFound } from "../api/clients";
+import { allowed } from "../api/caller";
 import { get } from "../api/token";
 import { watch } from "../api/watch";
 import { Chart } from "../charts/chart";
@@ -92,7 +93,7 @@ export class SweepPage implements View {
     this.title = titleOfSweep(sweep);
     setText(this.heading, this.title);
     setTitle(this.title);
-    this.note.update(sweep.note);
+    this.note.update(sweep.note, sweep.owner);
     setText(this.about, [`Sweep ${idOf(sweep.name)} over ${variedFields(sweep).join(", ")}`,
       plural(sweep.jobs.length, "job"), sweep.words?.lattice ?? "",
       `created ${clock(sweep.createTime)}${sweep.owner ? ` by ${sweep.owner}` : ""}`].filter(Boolean).join(", "));
@@ -141,24 +142,25 @@ export class SweepPage implements View {
       return element;
     };
     const { name } = this;
+    const may = allowed(this.data.sweep?.owner);
     replaceChildren(this.actions,
       rows.length > 0 && action("fork", "New case from this one", async () => go(`/new?from=${rows[0].job}`)),
       failed > 0 && action("retry", `Retry ${plural(failed, "failed job")}`, async () => {
         await api.sweeps.retryFailedJobs({ name });
         await this.data.load();
-      }),
+      }, may),
       !isOver && action("stop", "Cancel", async () => {
         if (!await ask(`Cancel sweep ${idOf(name)}?`, "Every job that has not ended stops. Results so far are kept.",
                        "Cancel the sweep")) return;
         await api.sweeps.cancelSweep({ name });
         await this.data.load();
-      }, { class: "danger-quiet" }),
+      }, { class: "danger-quiet", ...may }),
       isOver && action("trash", "Delete", async () => {
         const detail = `Its ${plural(rows.length, "job")} disappear with their results. This cannot be undone.`;
         if (!await ask(`Delete sweep ${idOf(name)}?`, detail, "Delete the sweep")) return;
         await api.sweeps.deleteSweep({ name });
         go("/");
-      }, { class: "danger-quiet" }));
+      }, { class: "danger-quiet", ...may }));
   }
 
   destroy(): void {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cellcrush::http {
+
+/// What a link of access::Sessions asks for.
+struct SignIn {
+  std::string code;
+  std::string page;  ///< relative to the root of the site
+};
+
+/// Nothing if the target of a request is not that of such a link.
+std::optional<SignIn> read_sign_in(std::string_view target);
+
+/// The session that a browser sends in the values of its Cookie headers; empty if none. All ports of a host share their
+/// cookies, so the port is part of the name.
+std::string session_of(const std::vector<std::string>& cookies, int port);
+
+/// The value of Set-Cookie that gives a browser a session, which pages of other sites and scripts cannot use.
+std::string session_cookie(const std::string& session, int port, bool has_tls);
+
+}  // namespace cellcrush::http
