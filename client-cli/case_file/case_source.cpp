@@ -1,6 +1,7 @@
 #include "case_file/case_source.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -14,6 +15,7 @@
 #include "case_file/set_field.h"
 #include "command_error.h"
 #include "connection/connection.h"
+#include "results/field_value.h"
 #include "usage/suggestion.h"
 
 namespace cellcrush::client {
@@ -77,6 +79,18 @@ v1::Case read_file(const std::string& file) {
   return json ? parse_json_case(text, name) : parse_text_case(text, name);
 }
 
+// Sets the fields, and shows a person what was read; without a terminal only where it is not what was typed.
+void assign(v1::Case& target, const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments) {
+    set_field(target, assignment);
+    const std::string path = assignment.substr(0, assignment.find('='));
+    const std::string value = field_value_text(target, path);
+    if (value.empty() || (isatty(STDERR_FILENO) == 0 && assignment.find(',') == std::string::npos)) continue;
+    const std::string unit = words_of(path).unit;
+    fmt::print(stderr, "{} = {}{}{}\n", path, value, unit.empty() ? "" : " ", unit);
+  }
+}
+
 }  // namespace
 
 std::string open_failure(const std::string& file, std::ifstream& stream) {
@@ -96,7 +110,7 @@ std::string preset_name(const std::string& source) {
 std::optional<v1::Case> read_own_case(const std::string& source, const std::vector<std::string>& assignments) {
   if (source.starts_with(kPresetPrefix)) return std::nullopt;
   v1::Case result = read_file(source);
-  for (const std::string& assignment : assignments) set_field(result, assignment);
+  assign(result, assignments);
   return result;
 }
 
@@ -112,7 +126,7 @@ v1::Case read_case(const std::string& source, const std::vector<std::string>& as
     if (error.code() != ExitCode::not_found) throw;
     refuse(error.message());
   }
-  for (const std::string& assignment : assignments) set_field(result, assignment);
+  assign(result, assignments);
   return result;
 }
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <string>
 #include <vector>
 
 #include "case_file/field_names.h"
+#include "case_file/typed_number.h"
 #include "command_error.h"
 
 namespace cellcrush::client {
@@ -21,17 +21,10 @@ using google::protobuf::Message;
   refuse(fmt::format("--set {}: {}", path, message));
 }
 
-template <typename Number>
-bool parse_number(std::string_view text, Number& number) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
 // The place of an element in its list; -1 without one.
 int index_of(const PathPart& part, std::string_view path) {
   int index = -1;
-  if (part.has_index() && (!parse_number(part.index, index) || index < 0)) {
+  if (part.has_index() && (!parse_plain(part.index, index) || index < 0)) {
     refuse_path(path, fmt::format("\"{}\" is not a list index; write {}[0], counting from 0", part.text, part.name));
   }
   return index;
@@ -65,8 +58,10 @@ void refuse_other_member(const Message& message, const FieldDescriptor& field, s
 
 template <typename Number>
 Number number_or_refuse(std::string_view path, std::string_view value, std::string_view expected) {
+  const TypedNumber typed = std::is_integral_v<Number> ? read_whole(value) : read_real(value);
+  if (!typed.problem.empty()) refuse_path(path, fmt::format("\"{}\" {}", value, typed.problem));
   Number number{};
-  if (!parse_number(value, number)) refuse_path(path, fmt::format("\"{}\" is not {}", value, expected));
+  if (!parse_plain(typed.plain, number)) refuse_path(path, fmt::format("\"{}\" is not {}", value, expected));
   return number;
 }
 
@@ -81,7 +76,7 @@ void set_value(Message& message, const FieldDescriptor& field, int index, std::s
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
       return put(&Reflection::SetDouble, &Reflection::SetRepeatedDouble,
-                 number_or_refuse<double>(path, value, "a number, such as 0.35 or 2e-7"));
+                 number_or_refuse<double>(path, value, "a number"));
     case FieldDescriptor::CPPTYPE_INT32:
       return put(&Reflection::SetInt32, &Reflection::SetRepeatedInt32,
                  number_or_refuse<std::int32_t>(path, value, "a 32-bit integer, such as 12"));

@@ -1,13 +1,15 @@
 #include "commands/sweep_axis.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <charconv>
 #include <string_view>
 #include <vector>
 
+#include "case_file/typed_number.h"
 #include "command_error.h"
 #include "help/case_manual.h"
+#include "results/field_value.h"
 
 namespace cellcrush::client {
 namespace {
@@ -70,12 +72,13 @@ class AxisText {
 
   template <class Number>
   Number number(std::string_view value) const {
-    Number out{};
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), out);
-    if (error != std::errc() || end != value.data() + value.size()) {
-      if (std::is_integral_v<Number>) refuse(fmt::format("\"{}\" is not an integer", value));
-      refuse(fmt::format("\"{}\" is not a number; for other values queue a sweep each, with --set", value));
+    const TypedNumber typed = std::is_integral_v<Number> ? read_whole(value) : read_real(value);
+    if (!typed.problem.empty()) {
+      refuse(fmt::format("\"{}\" {}{}", value, typed.problem,
+                         std::is_integral_v<Number> ? "" : "; for other values queue a sweep each, with --set"));
     }
+    Number out{};
+    if (!parse_plain(typed.plain, out)) refuse(fmt::format("{} is too large", value));
     return out;
   }
 
@@ -96,6 +99,18 @@ int count_values(const v1::SweepAxis& axis) {
 }  // namespace
 
 v1::SweepAxis parse_axis(const std::string& text) { return AxisText(text).parse(); }
+
+std::string axis_text(const v1::SweepAxis& axis) {
+  const v1::SweepAxis::Range* range = axis.has_linear()        ? &axis.linear()
+                                      : axis.has_logarithmic() ? &axis.logarithmic()
+                                                               : nullptr;
+  std::string values = fmt::format("{}", fmt::join(axis.list().values(), ", "));
+  if (range != nullptr) values = fmt::format("{} to {}", range->first(), range->last());
+  if (axis.has_seed_count()) values = fmt::format("1 to {}", axis.seed_count());
+  const std::string unit = words_of(axis.field()).unit;
+  return fmt::format("{} = {}{}{} ({} values)", axis.field(), values, unit.empty() ? "" : " ", unit,
+                     count_values(axis));
+}
 
 double count_points(const v1::Sweep& sweep) {
   double points = 1.0;

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "case_file/case_source.h"
 #include "case_file/set_field.h"
+#include "case_file/typed_number.h"
 #include "commands/sweep_axis.h"
 #include "expect_text.h"
 #include "usage/suggestion.h"
@@ -100,7 +102,7 @@ TEST(SetField, SetsEveryKindOfValueAndElementsOfLists) {
   const v1::Case scene =
       with(kOneHexagonLattice,
            {"loading.speed_m_per_s=1e2", "lattice.hexagon.rows=21", "title=a = b", "loading.direction=y",
-            "lattice.imperfection.seed=18446744073709551615", "numerics.time_step_s=-2e-7", "depth_mm=nan"});
+            "lattice.imperfection.seed=18446744073709551615", "numerics.time_step_s=-2e-7", "depth_mm=3,5"});
   EXPECT_EQ(scene.loading().speed_m_per_s(), 100.0);
   EXPECT_EQ(scene.lattice().hexagon().rows(), 21);
   EXPECT_EQ(scene.lattice().hexagon().columns(), 74);
@@ -108,7 +110,7 @@ TEST(SetField, SetsEveryKindOfValueAndElementsOfLists) {
   EXPECT_EQ(scene.loading().direction(), v1::Loading::Y);
   EXPECT_EQ(scene.title(), "a = b");
   EXPECT_EQ(scene.numerics().time_step_s(), -2e-7);
-  EXPECT_TRUE(std::isnan(scene.depth_mm())) << "left to the server to refuse";
+  EXPECT_EQ(scene.depth_mm(), 3.5);
   const v1::Case frame = with(kTwoNodes, {"lattice.frame.nodes[1].x_mm=2.5", "lattice.frame.watched_nodes[0]=b",
                                           "lattice.frame.self_contact=true"});
   EXPECT_EQ(frame.lattice().frame().nodes(1).x_mm(), 2.5);
@@ -122,12 +124,13 @@ TEST(SetField, SaysWhatIsWrongAndWhatIsExpected) {
       {kOneHexagonLattice, "loading.sped_m_per_s=1",
        "--set loading.sped_m_per_s: Loading has no field \"sped_m_per_s\"; did you mean \"speed_m_per_s\"?"},
       {kOneHexagonLattice, "xyzzy=1", "it has: title, lattice"},
-      {kOneHexagonLattice, "lattice.hexagon.rows=2.5", "\"2.5\" is not a 32-bit integer"},
+      {kOneHexagonLattice, "lattice.hexagon.rows=2.5", "\"2.5\" is not a whole number"},
       {kOneHexagonLattice, "depth_mm=thick", "\"thick\" is not a number"},
       {kOneHexagonLattice, "depth_mm=", "\"\" is not a number"},
       {kOneHexagonLattice, "depth_mm=4 mm", "\"4 mm\" is not a number"},
       {kOneHexagonLattice, "loading.direction=Z", "\"Z\" is not one of X, Y"},
       {kOneHexagonLattice, "lattice.imperfection.seed=-1", "non-negative"},
+      {kOneHexagonLattice, "material.yield_stress_mpa=1,200", "\"1,200\" could be 1.2 or 1200: write 1.2 or 1200"},
       {kTwoNodes, "lattice.frame.self_contact=yes", "neither true nor false"},
       {kOneHexagonLattice, "loading=5", "is a group; set one of its fields: direction, speed_m_per_s"},
       {kOneHexagonLattice, "depth_mm.x=5", "is a single value"},
@@ -142,6 +145,23 @@ TEST(SetField, SaysWhatIsWrongAndWhatIsExpected) {
   for (const auto& [scene, assignment, answer] : refused) {
     EXPECT_THAT(refusal([&, text = scene, set = assignment] { with(text, {set}); }), HasSubstr(answer)) << assignment;
   }
+}
+
+// The page reads the same table (server/page/test/form.test.mjs).
+TEST(TypedNumber, IsReadByTheTableThatThePageReadsToo) {
+  std::ifstream table(CELLCRUSH_TYPED_NUMBERS);
+  std::string line;
+  std::getline(table, line);
+  int rows = 0;
+  for (; std::getline(table, line); ++rows) {
+    std::istringstream row(line);
+    std::string kind, text, plain, problem;
+    for (std::string* cell : {&kind, &text, &plain, &problem}) std::getline(row, *cell, ';');
+    const TypedNumber read = kind == "whole" ? read_whole(text) : read_real(text);
+    EXPECT_EQ(read.plain, plain) << line;
+    EXPECT_EQ(read.problem, problem) << line;
+  }
+  EXPECT_GT(rows, 30);
 }
 
 TEST(SweepAxis, IsAListARangeOrSeeds) {
@@ -163,9 +183,9 @@ TEST(SweepAxis, IsAListARangeOrSeeds) {
                                                          {"depth_mm=1:2:3:log:5", "FIRST:LAST:COUNT"},
                                                          {"depth_mm=", "\"\" is not a number"},
                                                          {"depth_mm=1,,2", "\"\" is not a number"},
-                                                         {"depth_mm=1:2:2.5", "\"2.5\" is not an integer"},
-                                                         {"depth_mm=seeds:x", "\"x\" is not an integer"},
-                                                         {"depth_mm=seeds:99999999999", "is not an integer"}};
+                                                         {"depth_mm=1:2:2.5", "\"2.5\" is not a whole number"},
+                                                         {"depth_mm=seeds:x", "\"x\" is not a whole number"},
+                                                         {"depth_mm=seeds:99999999999", "is too large"}};
   for (const auto& [text, answer] : refused)
     EXPECT_THAT(refusal([axis = text] { parse_axis(axis); }), HasSubstr(answer)) << text;
 }

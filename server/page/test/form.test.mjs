@@ -1,4 +1,5 @@
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
 import { CaseSchema, Frame_RigidWallSchema, Lattice_HexagonSchema,
@@ -6,8 +7,10 @@ import { CaseSchema, Frame_RigidWallSchema, Lattice_HexagonSchema,
 import { printable } from "../src/dom/element";
 import { caseValues, fieldAt, groupsOf, kLatticeKinds, linesOf, pathsBeside, readField,
          writeField } from "../src/new_case/fields";
+import { baseOf, pathIn } from "../src/dom/base";
 import { labelsOf } from "../src/new_case/order";
-import { axisOf, jobCount } from "../src/new_case/sweep_axis";
+import { axisOf, axisText, jobCount } from "../src/new_case/sweep_axis";
+import { readReal, readWhole } from "../src/new_case/typed_number";
 import { defaultOf, helpOf, labelOf, limitsOf, unitOf } from "../src/new_case/words";
 
 const hexagons = () => create(CaseSchema, {
@@ -107,4 +110,34 @@ test("a comparison sees every field of a case but its title", () => {
 test("a text of others reorders nothing beside it", () => {
   assert.equal(printable("a\u202eb\u2066\u061c\u200f"), "a\\u202eb\\u2066\\u061c\\u200f");
   assert.equal(printable("µm – עברית 日本"), "µm – עברית 日本");
+});
+
+// The command line reads the same table (tests/client-cli/case_file_test.cpp).
+test("a typed number is read by the table that the command line reads too", () => {
+  const rows = readFileSync("../../tests/scenes/typed_numbers.csv", "utf8").trimEnd().split("\n").slice(1);
+  assert.ok(rows.length > 30);
+  for (const row of rows) {
+    const [kind, text, plain, problem] = row.split(";");
+    const read = kind === "whole" ? readWhole(text) : readReal(text);
+    assert.deepEqual([read.plain ?? "", read.problem ?? ""], [plain, problem], row);
+  }
+  const value = hexagons();
+  assert.equal(writeField(value, "material.yield_stress_mpa", "1,200"), false);
+  assert.ok(writeField(value, "material.yield_stress_mpa", "292,5"));
+  assert.equal(value.material.yieldStressMpa, 292.5);
+});
+
+test("the values of an axis are shown as they were read", () => {
+  assert.equal(axisText(axisOf("f", "1,200"), "m/s"), "2 values: 1, 200 m/s");
+  assert.equal(axisText(axisOf("f", "1,5; 2"), "m/s"), "2 values: 1.5, 2 m/s");
+  assert.equal(axisText(axisOf("f", "10:200:8"), "mm"), "8 values, 10 mm to 200 mm");
+  assert.match(axisOf("f", "1,200; 2"), /could be 1.2 or 1200/);
+});
+
+test("addresses of the page lie below the path at which its script is served", () => {
+  assert.equal(baseOf("https://site.example/node/host/8080/app.js"), "/node/host/8080");
+  assert.equal(baseOf("http://127.0.0.1:8080/app.js"), "");
+  assert.equal(pathIn("/node/host/8080/jobs/3", "/node/host/8080"), "/jobs/3");
+  assert.equal(pathIn("/node/host/8080", "/node/host/8080"), "/");
+  assert.equal(pathIn("/jobs/3", ""), "/jobs/3");
 });

@@ -2,6 +2,8 @@
 import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { Problem_Kind } from "../../gen/cellcrush/v1/problem_pb";
 import { h, labelled, setText } from "../dom/element";
+import { typedAt } from "./fields";
+import { shortest } from "./typed_number";
 import { choicesOf, defaultOf, helpOf, labelOf, limitsOf, unitOf } from "./words";
 
 /** Shows below an input of a form what it may be, or why its text is no value. */
@@ -16,7 +18,7 @@ export class FieldInput {
   private readonly line = h("div", { class: "limits" });
   private readonly limits: string;
 
-  constructor(path: string, on: { changed(text: string): void; focused(path: string): void }) {
+  constructor(private readonly path: string, on: { changed(text: string): void; focused(path: string): void }) {
     this.limits = limitsOf(path);
     const choices = choicesOf(path);
     if (choices.length) {
@@ -39,11 +41,20 @@ export class FieldInput {
   }
 
   showUnreadable(): void {
-    this.show("error", "This is not a number.");
+    const text = this.input.value.trim();
+    this.show("error", `“${text}” ${typedAt(this.path, text)?.problem ?? "is out of range"}.`);
+  }
+
+  // The number as it was read, where it is not written so.
+  private get reading(): string {
+    const text = this.input.value.trim();
+    const plain = text && typedAt(this.path, text)?.plain;
+    const shown = plain && shortest(plain);
+    return shown && shown !== text ? `= ${shown} ${unitOf(this.path)}`.trim() : "";
   }
 
   showProblem(problem: Problem | undefined): void {
-    if (!problem) return this.show("", this.limits);
+    if (!problem) return this.show("", [this.reading, this.limits].filter(Boolean).join(" · "));
     const message = `${problem.message} ${problem.remedy}`.trim();
     this.show(problem.kind === Problem_Kind.IMPLAUSIBLE ? "warning" : "error",
               message.charAt(0).toUpperCase() + message.slice(1));

@@ -3,6 +3,7 @@ import { create, getOption, ScalarType, type DescField, type DescMessage } from 
 import { reflect, type ReflectMessage } from "@bufbuild/protobuf/reflect";
 import { CaseSchema, LatticeSchema, LoadingSchema, MaterialSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
 import { rules } from "../../gen/cellcrush/v1/field_pb";
+import { readReal, readWhole, type TypedNumber } from "./typed_number";
 
 export type LatticeKind = DescField & { fieldKind: "message" };
 
@@ -158,12 +159,25 @@ export function writeField(value: Case, path: string, text: string): boolean {
 function parse(field: DescField, text: string): unknown {
   if (field.fieldKind === "enum") return field.enum.values.find(({ name }) => name === text)?.number;
   if (field.fieldKind !== "scalar") return undefined;
-  const plain = text.replace(",", ".").replace(/\s/g, "");
+  const typed = typedFor(field, text);
   switch (field.scalar) {
     case ScalarType.STRING: return text;
     case ScalarType.BOOL: return text === "true";
     case ScalarType.INT64:
-    case ScalarType.UINT64: return /^\d+$/.test(plain) ? BigInt(plain) : undefined;
-    default: return Number.isFinite(Number(plain)) ? Number(plain) : undefined;
+    case ScalarType.UINT64: return typed?.plain && BigInt(typed.plain);
+    default: return typed?.plain && Number(typed.plain);
   }
 }
+
+function typedFor(field: DescField, text: string): TypedNumber | undefined {
+  switch (field.fieldKind === "scalar" ? field.scalar : undefined) {
+    case ScalarType.DOUBLE: return readReal(text);
+    case ScalarType.INT32:
+    case ScalarType.INT64:
+    case ScalarType.UINT64: return readWhole(text);
+    default: return undefined;
+  }
+}
+
+/** What a text is for the field at a path, if that is a number. */
+export const typedAt = (path: string, text: string): TypedNumber | undefined => typedFor(fieldAt(path).field, text);

@@ -1,9 +1,11 @@
 // The fields that a sweep varies, and their values: a list, or a range as "10:200:8" or "10:200:8:log".
 import { create } from "@bufbuild/protobuf";
 import { SweepAxisSchema, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
+import { given, plural } from "../dom/format";
 import { button, h, labelled, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { showHint } from "./field_input";
+import { readReal } from "./typed_number";
 import { choicesOf, labelOf, unitOf } from "./words";
 
 /** The axis that a text describes, or what is wrong with the text. */
@@ -13,15 +15,43 @@ export function axisOf(field: string, text: string): SweepAxis | string {
   if (seeds) return create(SweepAxisSchema, { field, values: { case: "seedCount", value: Number(seeds[1]) } });
   const range = plain.match(/^([^:\s]+):([^:\s]+):(\d+)(:log)?$/);
   if (range) {
-    const [first, last, count] = range.slice(1, 4).map(Number);
-    if (!Number.isFinite(first + last) || count < 2) return "A range is first:last:count, with a count of 2 or more.";
+    const ends = numbersOf(range.slice(1, 3));
+    if (typeof ends === "string") return ends;
+    const [[first, last], count] = [ends, Number(range[3])];
+    if (count < 2) return "A range is first:last:count, with a count of 2 or more.";
     return create(SweepAxisSchema, { field, values: { case: range[4] ? "logarithmic" : "linear",
                                                       value: { first, last, count } } });
   }
-  const values = plain.split(/[\s,;]+/).filter(Boolean).map(Number);
+  // A comma between values, unless semicolons are.
+  const values = numbersOf(plain.split(plain.includes(";") ? ";" : /[\s,]+/).filter((each) => each.trim()));
+  if (typeof values === "string") return values;
   if (!values.length) return "Give values such as 25, 50, 100 or a range such as 10:200:8.";
-  if (values.some((value) => !Number.isFinite(value))) return "These are not all numbers.";
   return create(SweepAxisSchema, { field, values: { case: "list", value: { values } } });
+}
+
+// What is wrong with the first text that is no number, or all numbers.
+function numbersOf(texts: string[]): number[] | string {
+  const typed = texts.map(readReal);
+  const wrong = typed.findIndex(({ problem }) => problem !== undefined);
+  return wrong < 0 ? typed.map(({ plain }) => Number(plain)) : `“${texts[wrong].trim()}” ${typed[wrong].problem}.`;
+}
+
+/** The values of an axis as they were read: "3 values: 25, 50, 100 m/s". */
+export function axisText({ values }: SweepAxis, unit: string): string {
+  const numbers = (all: number[]): string => `${all.map(given).join(", ")} ${unit}`.trim();
+  switch (values.case) {
+    case "list": {
+      const all = values.value.values;
+      return `${plural(all.length, "value")}: ${numbers(all.slice(0, 12))}${all.length > 12 ? " …" : ""}`;
+    }
+    case "seedCount": return `seeds 1 to ${values.value}`;
+    case "linear":
+    case "logarithmic": {
+      const { first, last, count } = values.value;
+      return `${plural(count, "value")}, ${numbers([first])} to ${numbers([last])}`;
+    }
+    default: return "";
+  }
 }
 
 function valueCount(axis: SweepAxis): number {
@@ -42,7 +72,8 @@ export function jobCount(axes: SweepAxis[]): number {
 class AxisInput {
   readonly element: HTMLElement;
   private readonly field = h("select");
-  private readonly values = h("input", { type: "text", autocomplete: "off", spellcheck: "false" });
+  private readonly values = h("input", { type: "text", autocomplete: "off", spellcheck: "false",
+    title: "a list, first:last:count, first:last:count:log, or seeds:count" });
   private readonly hint = h("div", { class: "limits" });
   readonly remove: HTMLButtonElement;
 
@@ -88,7 +119,7 @@ class AxisInput {
   read(others: string[]): SweepAxis | undefined {
     const axis = others.includes(this.path) ? "This field is already varied." : axisOf(this.path, this.values.value);
     const isAxis = typeof axis !== "string";
-    showHint(this.hint, isAxis ? "a list, first:last:count, first:last:count:log, or seeds:count" : axis, isAxis);
+    showHint(this.hint, isAxis ? axisText(axis, unitOf(this.path)) : axis, isAxis);
     return isAxis ? axis : undefined;
   }
 }
