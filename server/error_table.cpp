@@ -1,12 +1,8 @@
 #include "error_table.h"
 
-#include <absl/strings/str_join.h>
-#include <absl/strings/str_split.h>
 #include <spdlog/spdlog.h>
 
 #include <new>
-#include <string>
-#include <vector>
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -45,12 +41,8 @@ std::string shorten(const std::string& text, std::size_t most) {
   return text.size() <= most ? text : cut_text(text, most) + "...";
 }
 
-// A message as callers get it: line by line printable, since it may hold bytes of a request or of a file's name.
-std::string message_of(const std::string& text) {
-  const std::vector<std::string> lines = absl::StrSplit(text, '\n');
-  const auto append = [](std::string* out, const std::string& line) { *out += printable(line); };
-  return shorten(absl::StrJoin(lines, "\n", append), kMostMessage);
-}
+// A message as callers get it. It may hold bytes of a request or of a file's name.
+std::string message_of(const std::string& text) { return shorten(printable_lines(text), kMostMessage); }
 
 std::string sentence_of(const ProblemList& problems, const std::string& subject) {
   std::string out = "The " + subject + " has ";

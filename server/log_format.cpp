@@ -1,5 +1,7 @@
 #include "log_format.h"
 
+#include <absl/strings/str_join.h>
+#include <absl/strings/str_split.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <spdlog/details/log_msg.h>
@@ -112,6 +114,11 @@ std::string printable(std::string_view text) {
       text, [&out](std::string_view character) { out += character; },
       [&out](unsigned char byte) { out += fmt::format("\\x{:02x}", byte); });
   return out;
+}
+
+std::string printable_lines(const std::string& text) {
+  const std::vector<std::string> lines = absl::StrSplit(text, '\n');
+  return absl::StrJoin(lines, "\n", [](std::string* out, const std::string& line) { *out += printable(line); });
 }
 
 std::string json_string(std::string_view text) {

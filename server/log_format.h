@@ -30,6 +30,9 @@ void log_with_fields(spdlog::level::level_enum level, const std::string& words, 
 /// The text with control characters, those that change the direction of text, and invalid UTF-8 as bytes \xNN.
 std::string printable(std::string_view text);
 
+/// The same for a text of several lines.
+std::string printable_lines(const std::string& text);
+
 /// The text in quotes, as in JSON. An invalid byte is written as its number.
 std::string json_string(std::string_view text);
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "log_format.h"
 #include "store/backup.h"
 #include "store/resource_name.h"
 #include "store/result_import.h"
@@ -20,8 +21,8 @@ CLI::App* add_store_command(CLI::App& app, const char* name, const char* descrip
 
 // Prints notes and problems, one per line. Returns whether there are no problems.
 bool print_findings(const store::Verification& found) {
-  for (const auto& note : found.notes) std::printf("note: %s\n", note.c_str());
-  for (const auto& problem : found.problems) std::printf("problem: %s\n", problem.c_str());
+  for (const auto& note : found.notes) std::printf("note: %s\n", printable(note).c_str());
+  for (const auto& problem : found.problems) std::printf("problem: %s\n", printable(problem).c_str());
   return found.problems.empty();
 }
 
@@ -63,14 +64,14 @@ int StoreCommands::run(const std::filesystem::path& data_folder) const {
     if (import_->parsed()) return import(data_folder);
     return backup_->parsed() ? backup(data_folder) : restore(data_folder);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "cellcrushd: %s\n", error.what());
+    std::fprintf(stderr, "cellcrushd: %s\n", printable_lines(error.what()).c_str());
     return 1;
   }
 }
 
 int StoreCommands::backup(const std::filesystem::path& data_folder) const {
   const auto manifest = store::take_backup(data_folder, folder_);
-  for (const auto& sentence : manifest.lost) std::fprintf(stderr, "cellcrushd: %s\n", sentence.c_str());
+  for (const auto& sentence : manifest.lost) std::fprintf(stderr, "cellcrushd: %s\n", printable(sentence).c_str());
   std::printf("%s contains the journal as of %s and %zu results\n", folder_.c_str(), manifest.created.c_str(),
               manifest.files.size() - 1);
   return 0;

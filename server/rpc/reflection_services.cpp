@@ -8,6 +8,7 @@
 #include "error_table.h"
 #include "grpc/reflection/v1/reflection.grpc.pb.h"
 #include "grpc/reflection/v1alpha/reflection.grpc.pb.h"
+#include "log_format.h"
 #include "rpc/services.h"
 
 namespace cellcrush::rpc {
@@ -31,7 +32,7 @@ struct ReflectionV1Alpha {
 template <class Response>
 void refuse(Response& response, grpc::StatusCode code, const std::string& why) {
   response.mutable_error_response()->set_error_code(code);
-  response.mutable_error_response()->set_error_message(why);
+  response.mutable_error_response()->set_error_message(printable(why));
 }
 
 template <class Files>

@@ -248,8 +248,10 @@ TEST_F(BackupTest, WhatIsWrongWithADataFolderIsNamedWithItsRemedyWhileTheDaemonR
                                           HasSubstr("jobs/2/result.h5")));
   for (const auto& problem : found.problems) EXPECT_THAT(problem, HasSubstr("Restore a backup"));
   EXPECT_THAT(found.notes, ElementsAre(HasSubstr("jobs/99")));
-  DaemonProcess verify({"verify", data_folder().string()});
-  EXPECT_EQ(verify.wait(), 1);
+  std::filesystem::create_directory(data_folder() / "jobs/\x1b[31m\u202e");
+  const auto verified = e2e::run({CELLCRUSHD_PROGRAM, "verify", data_folder().string()}, std::chrono::seconds(20));
+  EXPECT_EQ(verified.exit_code, 1);
+  EXPECT_THAT(verified.output, HasSubstr("jobs/\\x1b[31m\\xe2\\x80\\xae belongs to no job"));
 
   // The rest of a damaged folder can be backed up, and the backup says what it lacks.
   const auto manifest = store::take_backup(data_folder(), backup());
