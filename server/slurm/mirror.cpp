@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "slurm/small_file.h"
+#include "store/durable_file.h"
 #include "store/report_log.h"
 
 namespace cellcrush::slurm {
@@ -30,11 +31,14 @@ bool Mirror::put_result() {
 }
 
 // The checkpoint before becomes checkpoint.previous.
-void Mirror::put_checkpoint(const std::string& bytes) const {
+void Mirror::put_checkpoint(worker::PieceReader& from) const {
   make_durable(to_.reports());
   std::error_code ignored;
+  worker::PieceWriter partial(to_.partial_checkpoint());
+  while (from.left() > 0) partial.write(from.next(from.left()));
+  partial.close();
   std::filesystem::rename(to_.checkpoint(), to_.previous_checkpoint(), ignored);
-  write_small_file(to_.checkpoint(), bytes);
+  store::publish_file(to_.partial_checkpoint(), to_.checkpoint());
 }
 
 bool Mirror::pass() {
@@ -42,8 +46,9 @@ bool Mirror::pass() {
   // was preceded by reports that are there now.
   bool is_new = false;
   const auto checkpoint_version = version_of(from_.checkpoint());
-  std::optional<std::string> checkpoint;
-  if (checkpoint_version && checkpoint_version != checkpoint_) checkpoint = read_small_file(from_.checkpoint());
+  // Open, it stays the same file when the worker puts a newer one in its place.
+  std::optional<worker::PieceReader> checkpoint;
+  if (checkpoint_version && checkpoint_version != checkpoint_) checkpoint.emplace(from_.checkpoint());
   if (!version_of(from_.reports())) return false;
   // Opened at each pass: NFS looks for what other machines wrote when a file is opened.
   store::ReportLogReader reader(from_.reports());

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "store/job_folder.h"
+#include "worker/piece_file.h"
 
 namespace cellcrush::slurm {
 
@@ -33,7 +34,7 @@ class Mirror {
     bool operator==(const Version&) const = default;
   };
   bool put_result();
-  void put_checkpoint(const std::string& bytes) const;
+  void put_checkpoint(worker::PieceReader& from) const;
   static std::optional<Version> version_of(const std::filesystem::path& path);
 
   store::JobFolder from_;

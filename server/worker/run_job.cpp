@@ -52,7 +52,7 @@ class Run {
 
   Final to_the_end() {
     const auto found = find_checkpoint(folder_, origin_);
-    const bool resumes = found.checkpoint && restore(*found.checkpoint);
+    const bool resumes = found.checkpoint && restore(found);
     if (!resumes) start_at_step_0();
     use_large_pages(simulation_);
     say_begun(found.refused);
@@ -68,10 +68,10 @@ class Run {
   }
 
  private:
-  bool restore(const Checkpoint& checkpoint) {
-    if (!simulation_.restore(checkpoint.simulation())) return false;
+  bool restore(const FoundCheckpoint& found) {
+    const Checkpoint& checkpoint = *found.checkpoint;
     output_.emplace(folder_, log_, order_, scene_);
-    if (!output_->restore(checkpoint)) return false;
+    if (!output_->restore(checkpoint) || !simulation_.restore(found.simulation)) return false;
     const auto earlier = run_time_of(checkpoint);
     earlier_seconds_ = earlier.processor;
     stage_timer_.set_earlier(earlier.stages);
@@ -86,7 +86,6 @@ class Run {
                            " with " + other->simd_target() + ", but this is solver " + origin_.solver_revision() +
                            " with " + origin_.simd_target() + "."};
     }
-    simulation_ = Simulation(scene_, order_.threads());
     output_.emplace(folder_, log_, order_, scene_);
   }
 
@@ -178,13 +177,12 @@ class Run {
     Checkpoint out;
     *out.mutable_origin() = origin_;
     out.set_step(simulation_.step());
-    out.set_simulation(simulation_.checkpoint());
     out.set_sample_count(output_->sample_count());
     out.set_frame_count(output_->frame_count());
     out.set_processor_seconds(seconds_used());
     for (const double seconds : stage_timer_.seconds()) out.add_stage_seconds(seconds);
     out.set_clock_seconds(clock_seconds());
-    write_checkpoint(folder_, out);
+    write_checkpoint(folder_, out, [this](const ByteSink& sink) { simulation_.checkpoint(sink); });
   }
 
   [[nodiscard]] double seconds_used() const { return earlier_seconds_ + processor_seconds(CLOCK_PROCESS_CPUTIME_ID); }
