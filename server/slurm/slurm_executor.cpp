@@ -15,6 +15,7 @@
 #include "store/durable_file.h"
 #include "store/report_log.h"
 #include "store/resource_name.h"
+#include "translate/worker_memory.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -95,7 +96,9 @@ Need SlurmExecutor::predict(const worker::Order& order) {
   const auto verdict = checker_.check(order.case_());
   store::QueuedJob job;
   job.element_steps = verdict.element_steps;
-  return need_of(order.threads(), verdict.most_memory_bytes,
+  return need_of(order.threads(),
+                 translate::memory_limit(verdict.most_memory_bytes, order.threads(),
+                                         std::max(order.memory_factor(), 1.0), order.most_memory_bytes()),
                  jobs::predicted_seconds(job, {order.threads(), 0}, order.threads(), step_cost_));
 }
 

@@ -11,13 +11,19 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cellcrush/run_memory.h"
+#include "cellcrush/scene.h"
 #include "error.h"
+#include "translate/case_to_spec.h"
 #include "translate/results.h"
+#include "translate/worker_memory.h"
 #include "worker/checkpoint_file.h"
 #include "worker/give_up.h"
 #include "worker/large_pages.h"
+#include "worker/memory_limit.h"
 #include "worker/run_output.h"
 #include "worker/stage_timer.h"
+#include "worker/worker_main.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -37,6 +43,15 @@ struct CannotContinue {
   std::string why;
 };
 
+// 0: none.
+std::int64_t memory_limit_of(const Order& order, const Scene& scene) {
+  if (order.memory_factor() <= 0.0) return 0;
+  const SceneSpec spec = translate::to_spec(order.case_()).spec;
+  const auto predicted = translate::memory_of_worker(
+      {memory_of_run(spec, scene), static_cast<std::int64_t>(scene.element_count()), spec.output.sample_count});
+  return translate::memory_limit(predicted, order.threads(), order.memory_factor(), order.most_memory_bytes());
+}
+
 // One run: the simulation, and the destination of its output.
 class Run {
  public:
@@ -47,6 +62,7 @@ class Run {
         requested_stop_(requested_stop),
         origin_(origin_of(order)),
         scene_(scene_of(order)),
+        memory_limit_(memory_limit_of(order, *scene_), [this] { end_for_memory(); }),
         facts_(facts_of(*scene_)),
         simulation_(scene_, order.threads()) {}
 
@@ -68,6 +84,15 @@ class Run {
   }
 
  private:
+  // On whichever thread ran out of memory: no report is being written meanwhile.
+  [[noreturn]] void end_for_memory() {
+    Report report;
+    *report.mutable_final() = out_of_memory();
+    log_.append(report);
+    log_.synchronize();
+    _exit(kReported);
+  }
+
   bool restore(const FoundCheckpoint& found) {
     const Checkpoint& checkpoint = *found.checkpoint;
     output_.emplace(folder_, log_, order_, scene_);
@@ -248,6 +273,7 @@ class Run {
   const RequestedStop& requested_stop_;
   Checkpoint::Origin origin_;
   std::shared_ptr<const Scene> scene_;
+  MemoryLimit memory_limit_;
   SceneFacts facts_;
   Simulation simulation_;
   StageTimer stage_timer_;
@@ -288,8 +314,7 @@ Final end_of(const store::JobFolder& folder, const Order& order, store::ReportLo
     if (error.shortage() != Shortage::none) return left_for(error, folder, order);
     loss = failure_of(error);
   } catch (const std::bad_alloc&) {
-    loss = failure(v1::Job::OUT_OF_MEMORY, "The run ran out of memory.",
-                   "Use fewer cells or elements_per_wall, or a machine with more memory.");
+    return out_of_memory();
   } catch (const std::exception& error) {
     loss = failure(v1::Job::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
                    "Submit the case again. If the failure repeats, report it together with the case.");

@@ -51,6 +51,8 @@ void worker_main(const std::filesystem::path& folder, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(kNoReport);
   }
+  // When the kernel must end a process for lack of memory, rather this one than the daemon.
+  std::ofstream("/proc/self/oom_score_adj") << 500;
   // Runs inside the folder, wherever that is moved: after a restore the path may belong to another job.
   if (chdir(folder.c_str()) != 0) _exit(kNoReport);
   // _exit: the result is closed and durable, and exit handlers must not turn success into a crash.
