@@ -15,7 +15,8 @@ LAWS = {
     "plastic": [],
     "hardening": ["material.hardening_modulus_mpa=700", "material.isotropic_fraction=0.5"],
     "friction": ["contact.friction=0.2", "plates.friction=0.2"],
-    "paper": ["section.formulation=DISPLACEMENT_BASED", "section.depth_rule=LOBATTO", "section.area_rule=CONSTANT_AREA"],
+    "paper": ["section.formulation=DISPLACEMENT_BASED", "section.depth_rule=LOBATTO",
+              "section.area_rule=CONSTANT_AREA"],
 }
 SIZES = [1_000, 10_000, 100_000, 500_000, 1_990_000]
 ELEMENTS_PER_WALL = 4
