@@ -135,6 +135,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   table.add({"steps", count_text(check.step_count())});
   table.add({"predicted time", duration_text(check.predicted_seconds())});
   table.add({"predicted result file", size_text(check.predicted_bytes())});
+  if (check.predicted_disk_bytes() > 0) table.add({"predicted disk space", size_text(check.predicted_disk_bytes())});
   if (check.predicted_memory_bytes() > 0) table.add({"predicted memory", size_text(check.predicted_memory_bytes())});
   if (check.theory().gibson_ashby_mpa() > 0) {
     const ShownUnit stress = unit_by_size("MPa", check.theory().shock_mpa());

@@ -39,14 +39,14 @@ Sample take(ByteReader& reader) {
 
 std::string bytes_of(std::span<const Sample> samples) {
   std::string out;
-  ByteWriter writer(out);
+  ByteWriter writer(append_to(out));
   writer.put(std::uint64_t{samples.size()});
   for (const Sample& sample : samples) put(writer, sample);
   return out;
 }
 
 std::optional<std::vector<Sample>> samples_of(std::string_view bytes) {
-  ByteReader reader(bytes);
+  ByteReader reader(source_of(bytes));
   std::uint64_t count = 0;
   reader.take(count);
   std::vector<Sample> out;

@@ -26,6 +26,10 @@ constexpr Growth kGrowth;
 /// Bytes of cells, columns and frames, for each element.
 constexpr double kOfSamples = 55.0;
 
+/// Bytes of a frame, for each element, and the share of what grows over a crush that a checkpoint has.
+constexpr double kOfFrame = 12.0;
+constexpr double kShareInCheckpoint = 0.3;
+
 /// Bytes of a run of any size: code that only a large crush runs, the heap's reserve. Measured: 0.2 to 0.7 MB.
 constexpr double kOfRun = 400'000.0;
 
@@ -53,37 +57,55 @@ SceneSpec specimen_of(SceneSpec spec) {
   return spec;
 }
 
-double bytes_of_arrays(const Scene& scene) {
-  double bytes = 0.0;
-  const auto add = [&bytes](const auto& array) { bytes += static_cast<double>(array.size() * sizeof(array[0])); };
-  visit_arrays(scene, add);
-  visit_arrays(make_initial_state(scene), add);
-  return bytes;
-}
+/// Bytes for each element.
+struct Share {
+  double scene = 0.0;
+  double state = 0.0;
+  double touches = 0.0;  ///< at the end of the run
+};
 
-double bytes_of_run(const SceneSpec& spec, double elements, double growth) {
+Share share_of_element(const SceneSpec& spec, double growth) {
   const SceneResult specimen = build_scene(specimen_of(spec));
   // A lattice may be sound only as it is: with its imperfection.
   const auto scene = specimen.scene ? specimen.scene : build_scene(spec).scene;
+  const auto elements = static_cast<double>(scene->element_count());
+  Share out;
+  const auto bytes = [&](const auto& array) { return static_cast<double>(array.size() * sizeof(array[0])) / elements; };
+  visit_arrays(*scene, [&](const auto& array) { out.scene += bytes(array); });
+  visit_arrays(make_initial_state(*scene), [&](const auto& array) { out.state += bytes(array); });
   // Without plates, nobody says how near the walls come.
   const double end_strain = scene->plates.present ? spec.loading.end_strain : 1.0;
   const double of_friction = scene->contact.friction > 0.0 ? kGrowth.of_friction : 0.0;
-  const double of_touches = scene->contact.present ? end_strain * (growth + of_friction) : 0.0;
-  const double of_arrays = bytes_of_arrays(*scene) / static_cast<double>(scene->element_count());
-  return (of_arrays + kOfSamples + of_touches) * elements + kOfRun;
+  if (scene->contact.present) out.touches = end_strain * (growth + of_friction);
+  return out;
+}
+
+double bytes_of_run(const SceneSpec& spec, double elements, double growth) {
+  const Share share = share_of_element(spec, growth);
+  return (share.scene + share.state + kOfSamples + share.touches) * elements + kOfRun;
+}
+
+/// As the scene was built after all.
+SceneSpec spec_as_built(SceneSpec spec, const Scene& scene) {
+  if (!scene.single_fibres) {
+    spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
+  }
+  if (!scene.faces.are_enough()) {
+    spec.contact.search = ContactSpec::Search::buckets;
+  }
+  return spec;
 }
 
 }  // namespace
 
 std::int64_t memory_of_run(const SceneSpec& spec, const Scene& scene) {
-  SceneSpec as_built = spec;
-  if (!scene.single_fibres) {
-    as_built.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
-  }
-  if (!scene.faces.are_enough()) {
-    as_built.contact.search = ContactSpec::Search::buckets;
-  }
-  return std::llround(bytes_of_run(as_built, static_cast<double>(scene.element_count()), growth_by_search(scene)));
+  const auto elements = static_cast<double>(scene.element_count());
+  return std::llround(bytes_of_run(spec_as_built(spec, scene), elements, growth_by_search(scene)));
+}
+
+std::int64_t checkpoint_of_run(const SceneSpec& spec, const Scene& scene) {
+  const Share share = share_of_element(spec_as_built(spec, scene), kShareInCheckpoint * growth_by_search(scene));
+  return std::llround((share.state + share.touches + kOfFrame) * static_cast<double>(scene.element_count()));
 }
 
 std::int64_t most_memory_of_run(const SceneSpec& spec, std::int64_t elements) {

@@ -1,6 +1,7 @@
 #include "cellcrush/simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -18,6 +19,27 @@ struct Simulation::Impl {
   Impl(std::shared_ptr<const Scene> built, int threads)
       : scene(std::move(built)), state(make_initial_state(*scene)), workspace(threads), sampler(*scene) {
     make_frame(*scene, state, 0, last_good);
+  }
+
+  void start_over() {
+    state = make_initial_state(*scene);
+    sampler = Sampler(*scene);
+    rest = {};
+    status = {};
+    make_frame(*scene, state, 0, last_good);
+    last_good_step = 0;
+  }
+
+  /// Calls visit(field) for all data of a checkpoint beside the state.
+  template <class Visitor>
+  void visit_beside_state(const Visitor& visit) {
+    sampler.visit_memory(visit);
+    visit(last_good.time);
+    visit(last_good.strain);
+    visit(last_good.position);
+    visit(last_good.plastic_fraction);
+    visit(last_good_step);
+    visit(rest);
   }
 
   void keep_frame() {
@@ -60,13 +82,11 @@ namespace {
 // Changes with what follows it in a checkpoint.
 constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720006;
 
-/// Whether the states are of equal scenes, so far as their lists tell.
-bool fit(const State& one, const State& other) {
-  return one.position.size() == other.position.size() && one.rotation.size() == other.rotation.size() &&
-         one.rigid_centre.size() == other.rigid_centre.size() && one.length.size() == other.length.size() &&
-         one.fibres.stress.size() == other.fibres.stress.size() &&
-         one.single_fibres.stress.size() == other.single_fibres.stress.size() &&
-         one.wall_force.size() == other.wall_force.size() && one.contact_force.size() == other.contact_force.size();
+/// Sizes of the lists that equal scenes have alike.
+std::array<std::size_t, 8> shape_of(const State& state) {
+  return {state.position.size(),   state.rotation.size(),      state.rigid_centre.size(),
+          state.length.size(),     state.fibres.stress.size(), state.single_fibres.stress.size(),
+          state.wall_force.size(), state.contact_force.size()};
 }
 
 }  // namespace
@@ -107,52 +127,33 @@ FieldFrame Simulation::take_frame(int index) const {
 
 const FieldFrame& Simulation::last_good_frame() const { return impl_->last_good; }
 
-std::string Simulation::checkpoint() const {
-  std::string out;
-  ByteWriter writer(out);
+void Simulation::checkpoint(const ByteSink& sink) const {
+  ByteWriter writer(sink);
   writer.put(kCheckpointFormat);
   put_state(writer, impl_->state);
-  impl_->sampler.visit_memory([&writer](const auto& field) { writer.put(field); });
-  writer.put(impl_->last_good.time);
-  writer.put(impl_->last_good.strain);
-  writer.put(impl_->last_good.position);
-  writer.put(impl_->last_good.plastic_fraction);
-  writer.put(impl_->last_good_step);
-  writer.put(impl_->rest);
-  return out;
+  impl_->visit_beside_state([&writer](const auto& field) { writer.put(field); });
 }
 
-bool Simulation::restore(std::string_view checkpoint) {
-  ByteReader reader(checkpoint);
+// In place: the largest states do not fit into memory twice.
+bool Simulation::restore(ByteSource checkpoint) {
+  ByteReader reader(std::move(checkpoint));
   std::uint64_t format = 0;
-  State state;
-  state.contacts.resize(impl_->scene->bands.size());
-  Sampler sampler(*impl_->scene);
-  FieldFrame last_good;
-  std::int64_t last_good_step = 0;
-  RestWatch rest;
   reader.take(format);
-  if (format != kCheckpointFormat) {
-    return false;
+  const auto shape = shape_of(impl_->state);
+  if (format == kCheckpointFormat) {
+    // Lists of contacts hold derived data too.
+    impl_->state.contacts.assign(impl_->scene->bands.size(), ContactLists());
+    impl_->state.thickening_step.clear();
+    impl_->state.contact_tiles.clear();
+    take_state(reader, impl_->state);
+    impl_->visit_beside_state([&reader](auto& field) { reader.take(field); });
+    impl_->status = {};
+    if (reader.sound() && reader.at_end() && shape_of(impl_->state) == shape) {
+      return true;
+    }
   }
-  take_state(reader, state);
-  sampler.visit_memory([&reader](auto& field) { reader.take(field); });
-  reader.take(last_good.time);
-  reader.take(last_good.strain);
-  reader.take(last_good.position);
-  reader.take(last_good.plastic_fraction);
-  reader.take(last_good_step);
-  reader.take(rest);
-  if (!reader.sound() || !reader.at_end() || !fit(state, impl_->state)) {
-    return false;
-  }
-  impl_->state = std::move(state);
-  impl_->sampler = std::move(sampler);
-  impl_->last_good = std::move(last_good);
-  impl_->last_good_step = last_good_step;
-  impl_->rest = rest;
-  impl_->status = {};
-  return true;
+  impl_->start_over();
+  return false;
 }
 
 bool Simulation::has_ended() const { return impl_->has_ended(); }

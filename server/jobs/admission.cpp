@@ -1,10 +1,10 @@
 #include "jobs/admission.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 
+#include "allotment.h"
 #include "error.h"
 #include "jobs/queues.h"
 
@@ -15,12 +15,10 @@ constexpr std::int64_t kMebibyte = 1024 * 1024;
 
 std::string mebibytes(std::int64_t bytes) { return std::to_string(bytes / kMebibyte) + " MiB"; }
 
-std::int64_t memory_of_the_machine() { return std::int64_t{sysconf(_SC_PHYS_PAGES)} * sysconf(_SC_PAGESIZE); }
-
 }  // namespace
 
 Admission::Admission(const Parts& parts, const Limits& limits) : parts_(parts), limits_(limits) {
-  if (limits_.job_memory_bytes == 0) limits_.job_memory_bytes = memory_of_the_machine();
+  if (limits_.job_memory_bytes == 0) limits_.job_memory_bytes = usable_memory();
 }
 
 void Admission::check_time_limit(double seconds, const std::string& field) const {

@@ -170,6 +170,8 @@ WorkerExit JobRunner::run_worker(const store::StoredJob& stored, const Run& run)
   if (stored.samples > 0 && !parts_.folder.has_reports(stored.number)) throw BeginAgain{kReportsAreGone};
   worker::Order order = order_of(stored);
   order.set_threads(run.threads);
+  order.set_memory_factor(losses_.memory_factor(stored.number));
+  order.set_most_memory_bytes(parts_.most_memory_bytes);
   return parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), run.interruptions);
 }
 
@@ -261,6 +263,10 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
   if (run.trouble) return {};
   if (!got_further(stored.number)) return given_up(stored, std::move(next), run);
   spdlog::warn("{}: {}", store::name_of(stored.number), next.message);
+  if (next.cause == v1::Job::OUT_OF_MEMORY) {
+    losses_.raise_memory(stored.number);
+    next.message += " The next attempt is allowed more.";
+  }
   return tried_again(std::move(next));
 }
 

@@ -20,11 +20,12 @@
 
 namespace cellcrush::jobs {
 
-/// Counts how often in a row the workers of a job were lost without getting further than their predecessors.
-/// Thread-safe.
+/// Counts how often in a row the workers of a job were lost without getting further than their predecessors, and how
+/// much more memory than predicted it needs. Thread-safe.
 class LossCount {
  public:
   static constexpr int kMost = 3;
+  static constexpr double kMoreMemory = 1.5;
 
   /// Adds a loss; `samples`: how many the job has. Whether the job may be retried; if not, its count is forgotten.
   bool may_retry(std::int64_t job, std::int64_t samples) {
@@ -36,9 +37,22 @@ class LossCount {
     return false;
   }
 
+  /// Order.memory_factor of the next attempt.
+  double memory_factor(std::int64_t job) {
+    const MutexLock lock(mutex_);
+    const auto found = memory_factors_.find(job);
+    return found == memory_factors_.end() ? 1.0 : found->second;
+  }
+
+  void raise_memory(std::int64_t job) {
+    const MutexLock lock(mutex_);
+    memory_factors_.try_emplace(job, 1.0).first->second *= kMoreMemory;
+  }
+
   void forget(std::int64_t job) {
     const MutexLock lock(mutex_);
     losses_.erase(job);
+    memory_factors_.erase(job);
   }
 
  private:
@@ -49,6 +63,7 @@ class LossCount {
 
   Mutex mutex_;
   std::map<std::int64_t, Losses> losses_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::map<std::int64_t, double> memory_factors_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
 /// Changes the state of a job. False if its present state does not allow that. Throws the other errors of the journal.
@@ -70,7 +85,8 @@ class JobRunner {
     metrics::Metrics& metrics;
     QueueHold& hold;
     std::chrono::milliseconds checkpoint_interval;
-    double longest_job_s;  ///< wall-clock limit of a job; 0: none
+    double longest_job_s;            ///< wall-clock limit of a job; 0: none
+    std::int64_t most_memory_bytes;  ///< a raised limit of a job's memory does not exceed it; 0: none
     /// Called with the waiting jobs that were CANCELLED because a job of their sweep failed.
     std::function<void(const std::vector<std::int64_t>&)> stopped = [](const auto&) {};
   };

@@ -1,11 +1,13 @@
 #include "jobs/local_process.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -16,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "allotment.h"
+#include "jobs/outcome.h"
 #include "jobs/report_feed.h"
 #include "jobs/worker_process.h"
 #include "store/durable_file.h"
@@ -50,6 +54,9 @@ class WorkerFollower {
   WorkerFollower(const WorkerFollower&) = delete;
   WorkerFollower& operator=(const WorkerFollower&) = delete;
 
+  /// The most memory that the worker was seen to have, bytes.
+  [[nodiscard]] std::int64_t most_memory() const { return most_memory_; }
+
   /// Delivers the reports of earlier workers. Returns the final report, if the last worker made one. False if a report
   /// is malformed.
   bool catch_up() { return feed_.read(false) != ReportFeed::Reading::broken; }
@@ -66,6 +73,7 @@ class WorkerFollower {
     while (true) {
       // Checked before reading the reports, so that everything written before the end is read.
       const bool ended = process.has_ended();
+      if (!ended) most_memory_ = std::max(most_memory_, worker::peak_memory_of(process.number()));
       const auto reading = feed_.read(true);
       if (reading == ReportFeed::Reading::broken) return exit_of(process, WorkerExit::Kind::broken);
       if (ended) return exit_of(process, WorkerExit::Kind::exited);
@@ -157,6 +165,7 @@ class WorkerFollower {
   bool told_to_end_ = false;
   Clock::time_point last_sign_;  ///< of life
   std::uint64_t used_ = 0;       ///< processor time at last_sign_, in the kernel's ticks
+  std::int64_t most_memory_ = 0;
 };
 
 // The value of "oom_kill" in a file with one name and number per line.
@@ -192,6 +201,13 @@ WorkerExit follow(WorkerProcess& process, WorkerFollower& follower, const Worker
     WorkerExit out = follower.follow(process);
     const bool was_killed = out.kind == WorkerExit::Kind::signalled && out.code == SIGKILL;
     out.out_of_memory = (was_killed || out.kind == WorkerExit::Kind::gone) && oom_kills() > before;
+    if (out.out_of_memory) {
+      constexpr std::int64_t kOneMebibyte = 1024 * 1024;
+      out.detail = fmt::format(
+          "The kernel killed the worker process, which used {} MiB: its machine or control group, with {} MiB, ran out "
+          "of memory.",
+          follower.most_memory() / kOneMebibyte, usable_memory() / kOneMebibyte);
+    }
     return out;
   } catch (...) {
     process.end();
@@ -213,7 +229,8 @@ std::optional<WorkerExit> LocalProcess::read_final_report(const store::JobFolder
   const Interruptions none;
   WorkerFollower follower(folder, events, none, stall_limit_);
   if (!follower.catch_up()) return WorkerExit{.kind = WorkerExit::Kind::broken};
-  if (!follower.last_word() || follower.last_word()->has_suspended_step()) return std::nullopt;
+  if (!follower.last_word() || follower.last_word()->has_suspended_step() || needs_more_memory(*follower.last_word()))
+    return std::nullopt;
   return WorkerExit{.kind = WorkerExit::Kind::gone, .final = follower.last_word()};
 }
 

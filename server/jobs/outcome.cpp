@@ -96,8 +96,13 @@ store::StateChange waits_for(const Trouble& trouble) {
   return out;
 }
 
+bool needs_more_memory(const worker::Final& final) {
+  return final.cause() == v1::Job::OUT_OF_MEMORY && !final.has_summary();
+}
+
 bool is_last_word(const WorkerExit& exit) {
-  return exit.final && !exit.final->has_suspended_step() && !exit.final->has_begin_again();
+  return exit.final && !exit.final->has_suspended_step() && !exit.final->has_begin_again() &&
+         !needs_more_memory(*exit.final);
 }
 
 bool is_lost(const WorkerExit& exit) {
@@ -139,9 +144,10 @@ store::StateChange outcome_of(const WorkerExit& exit) {
     case WorkerExit::Kind::cancelled: return cancelled_without_result();
     default: break;
   }
+  if (exit.final && needs_more_memory(*exit.final)) return of_final(*exit.final);
   if (exit.out_of_memory) {
     return failed(v1::Job::OUT_OF_MEMORY,
-                  "The kernel killed the worker process: the machine or its control group ran out of memory.",
+                  exit.detail.empty() ? "The kernel killed the worker process for lack of memory." : exit.detail,
                   "Use fewer cells or elements_per_wall, run fewer jobs at once (--workers), or provide more memory.");
   }
   const Loss loss = loss_of(exit);

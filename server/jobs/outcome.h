@@ -19,6 +19,9 @@ Trouble trouble_of_exit(const WorkerExit& exit);
 /// The job waits as before, until the shortage ends.
 store::StateChange waits_for(const Trouble& trouble);
 
+/// Whether a run ended because it needs more memory than it was allowed. It may be retried with more.
+bool needs_more_memory(const worker::Final& final);
+
 /// Whether the worker ended the job: its final report then overrides the exit status of the process.
 bool is_last_word(const WorkerExit& exit);
 

@@ -64,7 +64,7 @@ struct Queues::Queue {
             },
             Hold::Clock::now, queue_name(name)),
         runner({parts.folder, parts.journal, parts.reader, parts.hub, used, parts.metrics, hold,
-                parts.checkpoint_interval, parts.longest_job_s,
+                parts.checkpoint_interval, parts.longest_job_s, parts.most_memory_bytes,
                 [this](const std::vector<std::int64_t>& stopped) {
                   scheduler.forget(stopped);
                   for (const std::int64_t job : stopped) scheduler.end_unfollowed(job);

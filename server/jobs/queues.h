@@ -29,9 +29,10 @@ class Queues {
     std::function<void(bool open)> told;
     HoldTimes hold_times;
     std::chrono::milliseconds checkpoint_interval;
-    double longest_job_s;      ///< wall-clock limit of a job; 0: none
-    int owner_max_running;     ///< jobs of one owner that run at once on one executor; 0: no limit
-    std::string default_name;  ///< executor of requests that name none
+    double longest_job_s;            ///< wall-clock limit of a job; 0: none
+    std::int64_t most_memory_bytes;  ///< a raised limit of a job's memory does not exceed it; 0: none
+    int owner_max_running;           ///< jobs of one owner that run at once on one executor; 0: no limit
+    std::string default_name;        ///< executor of requests that name none
   };
 
   struct NamedExecutor {

@@ -52,6 +52,7 @@ jobs::WorkerExit exit_of_last_word(const Ended& ended, const Attempt& attempt, c
   jobs::WorkerExit out{.kind = kind_of(ended.kind()), .code = ended.code(), .out_of_memory = ended.out_of_memory()};
   if (ended.has_final()) out.final = ended.final();
   const std::string where = host.empty() ? "" : " on " + host;
+  if (out.out_of_memory) out.detail = slurm_name(attempt) + where + ": " + ended.message();
   // What a node lacks is a loss of this attempt: other nodes may have it.
   const bool lacks = out.final && out.final->shortage() != 0;
   if (out.kind == ExitKind::not_started || lacks) {

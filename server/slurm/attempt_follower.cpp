@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "jobs/outcome.h"
 #include "slurm/attempt_exit.h"
 #include "store/durable_file.h"
 
@@ -135,8 +136,7 @@ bool AttemptFollower::is_complete(const Ended& ended) const {
 std::optional<worker::Final> AttemptFollower::final_report() const {
   if (feed_.last_word() || !final_before_) return feed_.last_word();
   // A job with another attempt was not at its end before.
-  const bool ends_job =
-      !final_before_->has_suspended_step() && !final_before_->has_begin_again() && final_before_->shortage() == 0;
+  const bool ends_job = jobs::is_last_word(jobs::WorkerExit{.final = final_before_}) && final_before_->shortage() == 0;
   return ends_job ? final_before_ : std::nullopt;
 }
 

@@ -107,6 +107,7 @@ Ended AttemptRun::last_word_of(const jobs::WorkerExit& exit) const {
   out.set_kind(ended_kind(exit.kind));
   out.set_code(exit.code);
   out.set_out_of_memory(exit.out_of_memory);
+  out.set_message(exit.detail);
   if (exit.final) *out.mutable_final() = *exit.final;
   if (exit.kind == jobs::WorkerExit::Kind::not_started)
     out.set_message("no worker could be started: " + std::generic_category().message(exit.code) + ".");

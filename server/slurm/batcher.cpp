@@ -27,9 +27,8 @@ constexpr std::chrono::milliseconds kToGather{300};
 // Slurm's MaxArraySize is 1001 unless the site has raised it.
 constexpr std::size_t kMostTasks = 1000;
 constexpr std::int64_t kMebibyte = 1024 * 1024;
-// For the program itself, its buffers and what the prediction misses.
-constexpr double kMemoryFactor = 1.3;
-constexpr std::int64_t kMemoryBeside = 200;
+// For the task's own process, and the files that the worker's has mapped.
+constexpr std::int64_t kMemoryBeside = 64;
 constexpr std::int64_t kMemoryStep = 128;
 // Contacts and slower nodes.
 constexpr double kTimeFactor = 3.0;
@@ -61,8 +60,8 @@ std::string comment_of(const Batch& batch) {
 }  // namespace
 
 Need need_of(int threads, std::int64_t memory_bytes, double seconds) {
-  const auto mib = static_cast<std::int64_t>(kMemoryFactor * static_cast<double>(memory_bytes) / kMebibyte);
-  return {threads, (mib + kMemoryBeside + kMemoryStep - 1) / kMemoryStep * kMemoryStep, seconds};
+  const std::int64_t mib = memory_bytes / kMebibyte + kMemoryBeside;
+  return {threads, (mib + kMemoryStep - 1) / kMemoryStep * kMemoryStep, seconds};
 }
 
 std::vector<Pack> pack(const std::vector<Need>& attempts, std::chrono::duration<double> task_length,

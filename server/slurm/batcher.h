@@ -29,8 +29,8 @@ struct Need {
   bool operator==(const Need&) const = default;
 };
 
-/// What sbatch asks for on behalf of an attempt whose run is predicted to take this much. Memory in steps, so that
-/// attempts of one sweep share an array.
+/// What sbatch asks for on behalf of an attempt whose worker may use this much memory (translate/worker_memory.h).
+/// Memory in steps, so that attempts of one sweep share an array.
 Need need_of(int threads, std::int64_t memory_bytes, double seconds);
 
 /// Attempts, by index, that one task computes one after the other.

@@ -17,6 +17,7 @@
 #include "store/resource_name.h"
 #include "store/result_writer.h"
 #include "translate/case_to_spec.h"
+#include "translate/worker_memory.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -120,7 +121,9 @@ Need SlurmExecutor::predict(const worker::Order& order, Attempt& attempt) {
   attempt.set_most_bytes(most_bytes_of(order.case_(), verdict));
   store::QueuedJob job;
   job.element_steps = verdict.element_steps;
-  return need_of(order.threads(), verdict.most_memory_bytes,
+  return need_of(order.threads(),
+                 translate::memory_limit(verdict.most_memory_bytes, order.threads(),
+                                         std::max(order.memory_factor(), 1.0), order.most_memory_bytes()),
                  jobs::predicted_seconds(job, {order.threads(), 0}, order.threads(), step_cost_));
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <new>
 #include <string_view>
 #include <system_error>
 
@@ -15,12 +16,14 @@ namespace {
 struct Reason {
   std::string text;
   Shortage shortage = Shortage::none;
+  bool is_memory = false;
 };
 
 herr_t note_reason(unsigned position, const H5E_error2_t* error, void* data) {
   auto& reason = *static_cast<Reason*>(data);
   if (error->desc == nullptr || reason.shortage != Shortage::none) return 0;
   if (position == 0) reason.text = error->desc;
+  reason.is_memory |= std::string_view(error->desc).find("memory allocation failed") != std::string_view::npos;
   for (const int code : {ENOSPC, EDQUOT, EFBIG, EMFILE, ENFILE, EACCES, EROFS, EIO}) {
     const std::string text = std::generic_category().message(code);
     if (std::string_view(error->desc).find(text) != std::string_view::npos) reason = {text, shortage_of_errno(code)};
@@ -31,6 +34,7 @@ herr_t note_reason(unsigned position, const H5E_error2_t* error, void* data) {
 [[noreturn]] void fail(const std::string& what) {
   Reason reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, note_reason, &reason);
+  if (reason.is_memory) throw std::bad_alloc();
   const std::string message = what + " failed: " + (reason.text.empty() ? "HDF5 gave no reason" : reason.text) + ".";
   if (reason.shortage != Shortage::none) throw ServiceError(reason.shortage, message);
   throw ServiceError(ServiceError::Kind::internal, message);

@@ -62,8 +62,12 @@ class ResultWriter {
   bool has_positions_ = false;
 };
 
-/// Size of a result's datasets before compression, plus an allowance for the structure of the file.
+/// Size of a result: its datasets as they are usually compressed, and the structure of the file.
 std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
+                                    std::int64_t frames);
+
+/// Size of the reports of the same run.
+std::int64_t predicted_report_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
                                     std::int64_t frames);
 
 }  // namespace cellcrush::store

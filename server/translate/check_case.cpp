@@ -13,6 +13,7 @@
 #include "translate/loads_places.h"
 #include "translate/results.h"
 #include "translate/spec_to_case.h"
+#include "translate/worker_memory.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -145,7 +146,6 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   out.meshes->know(spec, *scene);
   const auto facts = facts_of(*scene);
   describe(facts, out.response);
-  out.response.set_predicted_memory_bytes(memory_of_run(spec, *scene));
   *out.response.mutable_completed_case() = to_case(complete_spec(spec, *scene));
   if (submitted.lattice().has_frame()) {
     restore_names(submitted.lattice().frame(),
@@ -157,6 +157,9 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   for (int i = 0; i < walls.size(); ++i) walls[i].set_id(rigid_walls_of(submitted)[i].id());
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;
+  out.checkpoint_bytes = checkpoint_of_run(spec, *scene);
+  out.response.set_predicted_memory_bytes(
+      memory_of_worker({memory_of_run(spec, *scene), facts.element_count, out.sample_count}));
   return out;
 }
 

@@ -1,14 +1,13 @@
 #include "worker/checkpoint_file.h"
 
-#include <fcntl.h>
+#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "cellcrush/simd.h"
@@ -18,47 +17,119 @@
 #include "store/durable_file.h"
 #include "store/report_log.h"
 #include "translate/case_to_spec.h"
+#include "worker/piece_file.h"
 
 namespace cellcrush::worker {
 namespace {
 
-// "CELLCRUSH CHECKPOINT 2 CRC-32 SIZE\n", then a Checkpoint of that many bytes.
-constexpr const char* kTitle = "CELLCRUSH CHECKPOINT 2";
+// "CELLCRUSH CHECKPOINT 2 CRC-32 SIZE\n", then a Checkpoint of that many bytes. Its simulation may exceed what protobuf
+// can hold, so it is written and found without it.
+constexpr std::string_view kTitle = "CELLCRUSH CHECKPOINT 2";
+constexpr std::size_t kLongestHead = 80;
+constexpr std::size_t kLargestBeside = std::size_t{1} << 20;  // of a checkpoint without its simulation
 
-std::string head_of(const std::string& bytes) {
-  const auto crc = crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-  return std::string(kTitle) + " " + std::to_string(crc) + " " + std::to_string(bytes.size());
-}
+// What CRC-32 and size of bytes come to.
+struct Sum {
+  uLong crc = 0;
+  std::uint64_t size = 0;
 
-void write_file(const std::filesystem::path& path, const std::string& head, const std::string& bytes) {
-  OpenFile file = store::open_own(path, O_WRONLY | O_CREAT | O_TRUNC);
-  for (const auto* part : {&head, &bytes}) store::write_all(file, path, *part);
-  if (!file.close()) store::throw_file_error(path, "written", errno);
-}
-
-// The checkpoint, or why it cannot be used.
-struct Reading {
-  std::optional<Checkpoint> checkpoint;
-  std::string refused;
+  void add(std::string_view bytes) {
+    // Of a null pointer, zlib gives the sum of nothing.
+    if (bytes.empty()) return;
+    crc = crc32_z(crc, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    size += bytes.size();
+  }
+  [[nodiscard]] std::string head() const { return fmt::format("{} {} {}\n", kTitle, crc, size); }
 };
 
-Reading read(const std::filesystem::path& path, const Checkpoint::Origin& wanted) {
-  const std::string name = path.filename().string();
-  std::ifstream file(path, std::ios::binary);
-  std::string head;
-  if (!std::getline(file, head)) return {std::nullopt, name + " is empty."};
-  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  Reading out;
-  if (head != head_of(bytes) || !out.checkpoint.emplace().ParseFromString(bytes)) {
-    out.checkpoint.reset();
-    out.refused = name + " is damaged.";
-  } else if (out.checkpoint->origin().SerializeAsString() != wanted.SerializeAsString()) {
-    out.refused = name + " was written by solver " + out.checkpoint->origin().solver_revision() + " with " +
-                  out.checkpoint->origin().simd_target() + ", but this is solver " + wanted.solver_revision() +
-                  " with " + wanted.simd_target() + ".";
-    out.checkpoint.reset();
+constexpr std::uint64_t kKeyOfSimulation = (Checkpoint::kSimulationFieldNumber << 3U) | 2U;
+
+void append_varint(std::string& bytes, std::uint64_t value) {
+  for (; value > 0x7F; value >>= 7U) bytes += static_cast<char>((value & 0x7FU) | 0x80U);
+  bytes += static_cast<char>(value);
+}
+
+std::optional<std::uint64_t> read_varint(PieceReader& file) {
+  std::uint64_t value = 0;
+  for (unsigned shift = 0; shift < 64; shift += 7) {
+    char byte = 0;
+    if (!file.read(&byte, 1)) return std::nullopt;
+    value |= (static_cast<std::uint64_t>(byte) & 0x7FU) << shift;
+    if ((static_cast<unsigned char>(byte) & 0x80U) == 0) return value;
   }
-  return out;
+  return std::nullopt;
+}
+
+// Where the simulation's bytes are.
+struct Range {
+  std::uint64_t begin = 0;
+  std::uint64_t size = 0;
+};
+
+// A checkpoint from here to the end of the file: the simulation is found, all else is appended to `beside`. False if it
+// is malformed.
+bool read_fields(PieceReader& file, Range& simulation, std::string& beside) {
+  while (file.left() > 0 && beside.size() < kLargestBeside) {
+    const auto key = read_varint(file);
+    const std::uint64_t wire_type = key.value_or(7) & 7U;
+    std::uint64_t size = sizeof(std::uint64_t);
+    if (wire_type == 0 || wire_type == 2) {
+      const auto value = read_varint(file);
+      if (!value) return false;
+      size = wire_type == 2 ? *value : 0;
+      if (key == kKeyOfSimulation) {
+        simulation = {file.place(), size};
+        if (size > file.left()) return false;
+        file.go_to(file.place() + size);
+        continue;
+      }
+      append_varint(beside, *key);
+      append_varint(beside, *value);
+    } else if (wire_type == 1) {
+      append_varint(beside, *key);
+    } else {
+      return false;
+    }
+    if (size > kLargestBeside) return false;
+    const std::size_t before = beside.size();
+    beside.resize(before + size);
+    if (!file.read(beside.data() + before, size)) return false;
+  }
+  return file.left() == 0;
+}
+
+// Whether the rest of the file has the sum that its first line says.
+bool has_sum(PieceReader& file, const std::string& head) {
+  Sum sum;
+  while (file.left() > 0) sum.add(file.next(file.left()));
+  return head == sum.head();
+}
+
+// The checkpoint in a file, or why it cannot be used.
+void read(const std::filesystem::path& path, const Checkpoint::Origin& wanted, FoundCheckpoint& out) {
+  const std::string name = path.filename().string();
+  const auto file = std::make_shared<PieceReader>(path);
+  std::string head;
+  for (char c = 0; head.size() < kLongestHead && c != '\n' && file->read(&c, 1);) head += c;
+  const std::uint64_t begin = file->place();
+  const bool is_sound = has_sum(*file, head);
+  Range simulation;
+  std::string beside;
+  Checkpoint checkpoint;
+  file->go_to(begin);
+  if (head.empty()) {
+    out.refused.push_back(name + " is empty.");
+  } else if (!is_sound || !read_fields(*file, simulation, beside) || !checkpoint.ParseFromString(beside)) {
+    out.refused.push_back(name + " is damaged.");
+  } else if (checkpoint.origin().SerializeAsString() != wanted.SerializeAsString()) {
+    out.refused.push_back(name + " was written by solver " + checkpoint.origin().solver_revision() + " with " +
+                          checkpoint.origin().simd_target() + ", but this is solver " + wanted.solver_revision() +
+                          " with " + wanted.simd_target() + ".");
+  } else {
+    file->go_to(simulation.begin);
+    out.simulation = {simulation.size, [file](char* to, std::size_t size) { return file->read(to, size); }};
+    out.checkpoint = std::move(checkpoint);
+  }
 }
 
 }  // namespace
@@ -94,9 +165,20 @@ std::optional<Checkpoint::Origin> find_other_origin(const store::JobFolder& fold
   return std::nullopt;
 }
 
-void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint) {
-  const std::string bytes = checkpoint.SerializeAsString();
-  write_file(folder.partial_checkpoint(), head_of(bytes) + "\n", bytes);
+void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint, const SimulationBytes& simulation) {
+  std::uint64_t size = 0;
+  simulation([&](std::string_view bytes) { size += bytes.size(); });
+  std::string beside = checkpoint.SerializeAsString();
+  append_varint(beside, kKeyOfSimulation);
+  append_varint(beside, size);
+  Sum sum;
+  sum.add(beside);
+  simulation([&](std::string_view bytes) { sum.add(bytes); });
+  PieceWriter file(folder.partial_checkpoint());
+  file.write(sum.head());
+  file.write(beside);
+  simulation([&](std::string_view bytes) { file.write(bytes); });
+  file.close();
   static_cast<void>(store::rename_own(folder.checkpoint(), folder.previous_checkpoint()));
   store::publish_file(folder.partial_checkpoint(), folder.checkpoint());
 }
@@ -109,12 +191,8 @@ FoundCheckpoint find_checkpoint(const store::JobFolder& folder, const Checkpoint
       out.refused.push_back(path.filename().string() + " is not a regular file.");
       continue;
     }
-    auto reading = read(path, origin);
-    if (reading.checkpoint) {
-      out.checkpoint = std::move(reading.checkpoint);
-      return out;
-    }
-    out.refused.push_back(std::move(reading.refused));
+    read(path, origin, out);
+    if (out.checkpoint) return out;
   }
   return out;
 }

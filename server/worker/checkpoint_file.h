@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cellcrush/byte_stream.h"
 #include "store/job_folder.h"
 #include "store/report.pb.h"
 #include "translate/results.h"
@@ -24,13 +26,18 @@ Checkpoint::Origin origin_of(const Order& order);
 /// The first origin that differs from `origin` among earlier workers in the folder.
 std::optional<Checkpoint::Origin> find_other_origin(const store::JobFolder& folder, const Checkpoint::Origin& origin);
 
+/// Passes the bytes of Checkpoint.simulation on, the same in every call.
+using SimulationBytes = std::function<void(const ByteSink&)>;
+
 /// Makes a checkpoint durable under a temporary name, then renames it; the previous one is kept. A complete checkpoint
-/// remains whenever the process is killed. Throws ServiceError: storage_full or internal.
-void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint);
+/// remains whenever the process is killed. `checkpoint` is without the simulation, whose bytes are written in pieces,
+/// so that none of them is in memory twice. Throws ServiceError: storage_full or internal.
+void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint, const SimulationBytes& simulation);
 
 /// Result of find_checkpoint.
 struct FoundCheckpoint {
-  std::optional<Checkpoint> checkpoint;  ///< the newest usable one
+  std::optional<Checkpoint> checkpoint;  ///< the newest usable one, without its simulation
+  ByteSource simulation;                 ///< the bytes of its simulation, read from the file in pieces, once
   std::vector<std::string> refused;      ///< why newer ones are not usable, one sentence each
 };
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -87,6 +88,15 @@ std::optional<ProcessTimes> times_of(pid_t process) {
     if (i == kStartTime) out.start = std::stoull(field);
   }
   return out;
+}
+
+std::int64_t peak_memory_of(pid_t process) {
+  constexpr std::int64_t kKibibyte = 1024;
+  std::ifstream file("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("VmHWM:")) return kKibibyte * std::strtoll(line.c_str() + 6, nullptr, 10);
+  }
+  return 0;
 }
 
 }  // namespace cellcrush::worker

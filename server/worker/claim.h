@@ -31,4 +31,7 @@ struct ProcessTimes {
 };
 std::optional<ProcessTimes> times_of(pid_t process);
 
+/// The most resident memory that a process has had, bytes; 0 if there is no such process.
+std::int64_t peak_memory_of(pid_t process);
+
 }  // namespace cellcrush::worker

@@ -11,14 +11,20 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cellcrush/run_memory.h"
+#include "cellcrush/scene.h"
 #include "error.h"
 #include "store/own_folder.h"
+#include "translate/case_to_spec.h"
 #include "translate/results.h"
+#include "translate/worker_memory.h"
 #include "worker/checkpoint_file.h"
 #include "worker/give_up.h"
 #include "worker/large_pages.h"
+#include "worker/memory_limit.h"
 #include "worker/run_output.h"
 #include "worker/stage_timer.h"
+#include "worker/worker_main.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -38,6 +44,15 @@ struct CannotContinue {
   std::string why;
 };
 
+// 0: none.
+std::int64_t memory_limit_of(const Order& order, const Scene& scene) {
+  if (order.memory_factor() <= 0.0) return 0;
+  const SceneSpec spec = translate::to_spec(order.case_()).spec;
+  const auto predicted = translate::memory_of_worker(
+      {memory_of_run(spec, scene), static_cast<std::int64_t>(scene.element_count()), spec.output.sample_count});
+  return translate::memory_limit(predicted, order.threads(), order.memory_factor(), order.most_memory_bytes());
+}
+
 // One run: the simulation, and the destination of its output.
 class Run {
  public:
@@ -48,12 +63,13 @@ class Run {
         requested_stop_(requested_stop),
         origin_(origin_of(order)),
         scene_(scene_of(order)),
+        memory_limit_(memory_limit_of(order, *scene_), [this] { end_for_memory(); }),
         facts_(facts_of(*scene_)),
         simulation_(scene_, order.threads()) {}
 
   Final to_the_end() {
     const auto found = find_checkpoint(folder_, origin_);
-    const bool resumes = found.checkpoint && restore(*found.checkpoint);
+    const bool resumes = found.checkpoint && restore(found);
     if (!resumes) start_at_step_0();
     use_large_pages(simulation_);
     say_begun(found.refused);
@@ -69,10 +85,19 @@ class Run {
   }
 
  private:
-  bool restore(const Checkpoint& checkpoint) {
-    if (!simulation_.restore(checkpoint.simulation())) return false;
+  // On whichever thread ran out of memory: no report is being written meanwhile.
+  [[noreturn]] void end_for_memory() {
+    Report report;
+    *report.mutable_final() = out_of_memory();
+    log_.append(report);
+    log_.synchronize();
+    _exit(kReported);
+  }
+
+  bool restore(const FoundCheckpoint& found) {
+    const Checkpoint& checkpoint = *found.checkpoint;
     output_.emplace(folder_, log_, order_, scene_);
-    if (!output_->restore(checkpoint)) return false;
+    if (!output_->restore(checkpoint) || !simulation_.restore(found.simulation)) return false;
     const auto earlier = run_time_of(checkpoint);
     earlier_seconds_ = earlier.processor;
     stage_timer_.set_earlier(earlier.stages);
@@ -87,7 +112,6 @@ class Run {
                            " with " + other->simd_target() + ", but this is solver " + origin_.solver_revision() +
                            " with " + origin_.simd_target() + "."};
     }
-    simulation_ = Simulation(scene_, order_.threads());
     output_.emplace(folder_, log_, order_, scene_);
   }
 
@@ -179,13 +203,12 @@ class Run {
     Checkpoint out;
     *out.mutable_origin() = origin_;
     out.set_step(simulation_.step());
-    out.set_simulation(simulation_.checkpoint());
     out.set_sample_count(output_->sample_count());
     out.set_frame_count(output_->frame_count());
     out.set_processor_seconds(seconds_used());
     for (const double seconds : stage_timer_.seconds()) out.add_stage_seconds(seconds);
     out.set_clock_seconds(clock_seconds());
-    write_checkpoint(folder_, out);
+    write_checkpoint(folder_, out, [this](const ByteSink& sink) { simulation_.checkpoint(sink); });
   }
 
   [[nodiscard]] double seconds_used() const { return earlier_seconds_ + processor_seconds(CLOCK_PROCESS_CPUTIME_ID); }
@@ -251,6 +274,7 @@ class Run {
   const RequestedStop& requested_stop_;
   Checkpoint::Origin origin_;
   std::shared_ptr<const Scene> scene_;
+  MemoryLimit memory_limit_;
   SceneFacts facts_;
   Simulation simulation_;
   StageTimer stage_timer_;
@@ -291,8 +315,7 @@ Final end_of(const store::JobFolder& folder, const Order& order, store::ReportLo
     if (error.shortage() != Shortage::none) return left_for(error, folder, order);
     loss = failure_of(error);
   } catch (const std::bad_alloc&) {
-    loss = failure(v1::Job::OUT_OF_MEMORY, "The run ran out of memory.",
-                   "Use fewer cells or elements_per_wall, or a machine with more memory.");
+    return out_of_memory();
   } catch (const std::exception& error) {
     loss = failure(v1::Job::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
                    "Submit the case again. If the failure repeats, report it together with the case.");

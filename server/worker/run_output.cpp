@@ -98,7 +98,7 @@ void RunOutput::take(const Report& reported) {
 
 void RunOutput::put_mesh() {
   Report report;
-  *report.mutable_mesh() = mesh_;
+  *report.mutable_mesh() = std::move(mesh_);
   log_.append(report);
 }
 

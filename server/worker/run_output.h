@@ -56,7 +56,7 @@ class RunOutput {
   /// Takes a sample or frame that was reported before. Repeated ones have the same bits; the first one counts.
   void take(const Report& reported);
 
-  void put_mesh();
+  void put_mesh();  ///< at most once
   void put_sample(Sample sample);
   void put_frame(const FieldFrame& frame);
   /// Only if enough time has passed since the last one.
@@ -80,7 +80,7 @@ class RunOutput {
   const Order& order_;
   std::shared_ptr<const Scene> scene_;
   SceneFacts facts_;
-  v1::Mesh mesh_;
+  v1::Mesh mesh_;  ///< empty once it was put
   ProgressMeter meter_;
   store::ResultWriter writer_;
   std::vector<Sample> samples_;

@@ -53,6 +53,8 @@ void worker_main(const std::filesystem::path& folder, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(kNoReport);
   }
+  // When the kernel must end a process for lack of memory, rather this one than the daemon.
+  std::ofstream("/proc/self/oom_score_adj") << 500;
   // Runs inside the folder, wherever that is moved: after a restore the path may belong to another job.
   const OpenFile own = store::try_open_own(store::canonical_of(folder.parent_path()) / folder.filename(), kFolder);
   if (!own || fchdir(own.get()) != 0) _exit(kNoReport);

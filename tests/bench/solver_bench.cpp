@@ -38,7 +38,7 @@ std::runtime_error broken(const std::filesystem::path& file, const char* what) {
 void save_state(const std::filesystem::path& file, const State& state) {
   std::filesystem::create_directories(file.parent_path());
   std::string bytes;
-  ByteWriter writer(bytes);
+  ByteWriter writer(append_to(bytes));
   put_state(writer, state);
   const std::filesystem::path partial = file.string() + ".partial";
   {
@@ -57,7 +57,7 @@ std::optional<State> load_state(const std::filesystem::path& file) {
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   const std::string read = std::move(bytes).str();
-  ByteReader reader(read);
+  ByteReader reader(source_of(read));
   State state;
   take_state(reader, state);
   if (!reader.sound() || !reader.at_end()) throw broken(file, "is cut short; remove it.");

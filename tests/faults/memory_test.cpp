@@ -1,11 +1,13 @@
 // Workers that get too little memory, and memory that a daemon gives back.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <thread>
 
 #include "faults/fault_fixture.h"
 #include "server/daemon_fixture.h"
@@ -13,6 +15,7 @@
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
+#include "worker/claim.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -40,7 +43,7 @@ class LittleMemoryTest : public DaemonFixture {
     v1::Job now;
     wait_until([&] {
       now = client.get(job);
-      const bool is_held = now.state() == v1::Job::PENDING && !now.cause_message().empty();
+      const bool is_held = client.queue().holds_size() > 0;
       return now.state() == v1::Job::FAILED || is_held;
     });
     return now.state();
@@ -53,8 +56,8 @@ class LittleMemoryTest : public DaemonFixture {
 TEST_F(LittleMemoryTest, AWorkerThatRunsOutOfMemoryFailsItsJobAndTheDaemonGoesOn) {
   auto client = this->client();
   v1::Case wide = endless_case();
-  wide.mutable_lattice()->mutable_hexagon()->set_columns(300);
-  wide.mutable_lattice()->mutable_hexagon()->set_rows(300);
+  wide.mutable_lattice()->mutable_hexagon()->set_columns(200);
+  wide.mutable_lattice()->mutable_hexagon()->set_rows(200);
   std::set<v1::Job::Cause> causes;
   const int step = rounds(64, 16);
   for (int mebibytes = 32; mebibytes <= 256; mebibytes += step) {
@@ -78,6 +81,57 @@ TEST_F(LittleMemoryTest, AWorkerThatRunsOutOfMemoryFailsItsJobAndTheDaemonGoesOn
   limit_memory("unlimited");
   const std::string next = client.create(small_case());
   expect_success(client, next);
+}
+
+// The first worker gets so little that it cannot compute the crush; those after it get what they ask for.
+TEST_F(LittleMemoryTest, TheNextAttemptIsAllowedMoreAndAWorkerKeepsToItsLimit) {
+  std::ofstream(script()) << "#!/bin/sh\nif rm " << limit().string() << " 2>/dev/null; then ulimit -d 40000; fi\nexec "
+                          << CELLCRUSHD_PROGRAM << " \"$@\"\n";
+  auto client = this->client();
+  v1::Case wide = endless_case();
+  wide.mutable_lattice()->mutable_hexagon()->set_columns(200);
+  wide.mutable_lattice()->mutable_hexagon()->set_rows(200);
+  const auto limit_of_worker = [&](const std::string& job) {
+    rlimit out{};
+    const pid_t worker = client.worker_of(job);
+    // The limit is set once the scene is built.
+    wait_until([&] { return prlimit(worker, RLIMIT_DATA, nullptr, &out) != 0 || out.rlim_cur != RLIM_INFINITY; });
+    EXPECT_TRUE(client.cancel(job).ok());
+    return static_cast<double>(out.rlim_cur);
+  };
+  const double first = limit_of_worker(client.create(wide));
+  limit_memory("once");
+  const std::string job = client.create(wide);
+  wait_until([&] { return client.get(job).attempt() == 2; });
+  EXPECT_NEAR(limit_of_worker(job), 1.5 * first, 1e6);
+  std::string messages;
+  for (const auto& event : client.watch(job).events) messages += event.state().cause_message();
+  EXPECT_THAT(messages, ::testing::HasSubstr("more than the 39 MiB of memory that it was allowed; it used "));
+  EXPECT_THAT(messages, ::testing::HasSubstr("The next attempt is allowed more."));
+  expect_success(client, client.create(small_case()));
+}
+
+// Polled: what it takes in its last moment is missed.
+TEST_F(LittleMemoryTest, WhatAWorkerUsesIsPredictedWithin15Percent) {
+  limit_memory("unlimited");
+  auto client = this->client();
+  for (const int rows : {5, 1000}) {
+    v1::Case wide = small_case();
+    wide.mutable_lattice()->mutable_hexagon()->set_rows(rows);
+    wide.mutable_loading()->set_end_strain(rows == 5 ? 0.5 : 0.02);
+    v1::CheckCaseRequest check;
+    *check.mutable_case_() = wide;
+    const auto predicted = answer_of(*client.cases, &v1::Cases::Stub::CheckCase, check).predicted_memory_bytes();
+    const std::string job = client.create(wide);
+    const pid_t worker = client.worker_of(job);
+    std::int64_t used = 0;
+    while (const std::int64_t now = worker::peak_memory_of(worker)) {
+      used = std::max(used, now);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    expect_success(client, job);
+    EXPECT_NEAR(static_cast<double>(predicted), static_cast<double>(used), 0.15 * static_cast<double>(used));
+  }
 }
 
 class SweepMemoryTest : public FaultFixture {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
+#include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
 
 namespace cellcrush::scenes {
@@ -25,6 +27,12 @@ inline std::uint64_t hash_of(const State& state) {
     }
   });
   return hash;
+}
+
+inline std::string checkpoint_of(const Simulation& simulation) {
+  std::string out;
+  simulation.checkpoint(append_to(out));
+  return out;
 }
 
 }  // namespace cellcrush::scenes

@@ -73,7 +73,7 @@ struct HeldJobs {
   store::JournalReader reader{folder.journal()};
   HeldWorker worker;
   jobs::QueueHold hold{jobs::HoldTimes{}};
-  jobs::JobRunner runner{{folder, journal, reader, hub, worker, metrics, hold, std::chrono::milliseconds(50), 0.0}};
+  jobs::JobRunner runner{{folder, journal, reader, hub, worker, metrics, hold, std::chrono::milliseconds(50), 0.0, 0}};
   jobs::Scheduler scheduler{{folder, journal, reader, metrics, runner, hold, worker}};
 };
 

@@ -1,7 +1,9 @@
 #include "worker/checkpoint_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <string>
@@ -27,8 +29,17 @@ class CheckpointFileTest : public ::testing::Test {
     Checkpoint checkpoint;
     *checkpoint.mutable_origin() = origin();
     checkpoint.set_step(step);
-    checkpoint.set_simulation(std::string(5000, 's'));
-    write_checkpoint(job_, checkpoint);
+    write_checkpoint(job_, checkpoint, [](const ByteSink& sink) {
+      for (const std::string_view piece : {std::string_view("simu"), std::string_view(), std::string_view("lation")})
+        sink(piece);
+      sink(std::string(1'000'000, 's'));
+    });
+  }
+
+  static void expect_simulation(const FoundCheckpoint& found, const std::string& expected) {
+    std::string bytes(found.simulation.size, ' ');
+    EXPECT_TRUE(found.simulation.read(bytes.data(), bytes.size()));
+    EXPECT_TRUE(bytes == expected);
   }
 
   static void replace(const std::filesystem::path& path, const std::string& bytes) {
@@ -46,13 +57,33 @@ TEST_F(CheckpointFileTest, TheNewestCounts) {
   ASSERT_TRUE(found.checkpoint);
   EXPECT_EQ(found.checkpoint->step(), 30);
   EXPECT_TRUE(found.refused.empty());
+  expect_simulation(found, "simulation" + std::string(1'000'000, 's'));
+}
+
+// Its simulation stood between the other fields.
+TEST_F(CheckpointFileTest, OneOfAnEarlierVersionIsRead) {
+  Checkpoint checkpoint;
+  *checkpoint.mutable_origin() = origin();
+  checkpoint.set_step(1'000'000'000'000);
+  checkpoint.set_simulation("simulation");
+  checkpoint.set_sample_count(17);
+  checkpoint.add_stage_seconds(1.5);
+  checkpoint.set_clock_seconds(2.5);
+  const std::string bytes = checkpoint.SerializeAsString();
+  const auto crc = crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  replace(job_.checkpoint(), fmt::format("CELLCRUSH CHECKPOINT 2 {} {}\n", crc, bytes.size()) + bytes);
+  const auto found = find_checkpoint(job_, origin());
+  ASSERT_TRUE(found.checkpoint);
+  expect_simulation(found, "simulation");
+  checkpoint.clear_simulation();
+  EXPECT_EQ(found.checkpoint->SerializeAsString(), checkpoint.SerializeAsString());
 }
 
 TEST_F(CheckpointFileTest, ATornOrBitFlippedOneIsRefusedByNameAndTheOneBeforeCounts) {
   write(10);
   write(20);
   const std::string whole = testing::text_of_file(job_.checkpoint());
-  for (std::size_t i = 0; i < whole.size(); i += 13) {
+  for (std::size_t i = 0; i < whole.size(); i += i < 200 ? 13 : 49'999) {
     std::string flipped = whole;
     flipped[i] = static_cast<char>(flipped[i] ^ 1);
     for (const auto& bytes : {flipped, whole.substr(0, i)}) {

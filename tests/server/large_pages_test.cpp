@@ -5,13 +5,20 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "bench/machine.h"
 #include "cellcrush/simulation.h"
+#include "programs/temporary_folder.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
+#include "scenes/state_hash.h"
+#include "worker/checkpoint_file.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -44,13 +51,38 @@ TEST(LargePages, AreUnderMostOfASimulation) {
 TEST(LargePages, ChangeNoNumber) {
   Simulation simulation(large_specimen());
   simulation.advance(20);
-  const auto bytes = simulation.checkpoint();
+  const auto bytes = scenes::checkpoint_of(simulation);
   use_large_pages(simulation);
-  EXPECT_TRUE(simulation.checkpoint() == bytes);
+  EXPECT_TRUE(scenes::checkpoint_of(simulation) == bytes);
   simulation.advance(20);
   Simulation other(large_specimen());
   other.advance(40);
-  EXPECT_TRUE(simulation.checkpoint() == other.checkpoint());
+  EXPECT_TRUE(scenes::checkpoint_of(simulation) == scenes::checkpoint_of(other));
+}
+
+/// How far writing a checkpoint and resuming from it raise the memory above that of the run, as a share of it; none
+/// if the run does not resume.
+std::optional<double> measure_checkpoint(const store::JobFolder& folder) {
+  Simulation simulation(large_specimen());
+  simulation.advance(20);
+  const double run = bench::resident_bytes();
+  std::ofstream("/proc/self/clear_refs") << 5;  // the peak is now what is resident
+  write_checkpoint(folder, {}, [&](const ByteSink& sink) { simulation.checkpoint(sink); });
+  const auto found = find_checkpoint(folder, {});
+  if (!found.checkpoint || !simulation.restore(found.simulation)) return std::nullopt;
+  return bench::greatest_resident_bytes() / run - 1.0;
+}
+
+TEST(Checkpoint, IsWrittenAndReadInLessThanATenthOfTheRunsMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "Sanitizers take memory of their own.";
+#endif
+  const testing::TemporaryFolder folder;
+  const store::JobFolder job(folder.path());
+  const auto share = bench::measure_apart([&] { return measure_checkpoint(job); });
+  ASSERT_TRUE(share && *share);
+  EXPECT_LT(**share, 0.1);
+  EXPECT_GT(std::filesystem::file_size(job.checkpoint()), 10'000'000U);
 }
 
 }  // namespace

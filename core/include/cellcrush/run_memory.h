@@ -13,16 +13,19 @@ namespace cellcrush {
 //
 // Counted: the arrays of scene and state, by the lists that checkpoint, hash and large pages go by; candidates and
 // touches, which grow with the strain; cells, columns and frames; the heap's reserve.
-// Not counted: the program, its libraries and threads; samples and frames that a caller keeps; copies of the state
-// while a checkpoint is written; scratch of a second thread; what sorts or builds for a while.
+// Not counted: the program, its libraries and threads; samples and frames that a caller keeps; scratch of a second
+// thread; what sorts or builds for a while.
 //
 // tests/core/memory/run_memory_test.cpp holds the prediction against resident bytes.
 
 /// Memory of a run, bytes. REQUIRES: `scene` was built from `spec`.
 std::int64_t memory_of_run(const SceneSpec& spec, const Scene& scene);
 
-/// The same before the scene is built, or more: contacts may be searched by buckets after all, and a lattice that is
-/// cut into bands needs less. REQUIRES: a spec without problems, and the number of its elements.
+/// Size of a checkpoint at the end of a run, bytes. REQUIRES: as above.
+std::int64_t checkpoint_of_run(const SceneSpec& spec, const Scene& scene);
+
+/// memory_of_run before the scene is built, or more: contacts may be searched by buckets after all, and a lattice that
+/// is cut into bands needs less. REQUIRES: a spec without problems, and the number of its elements.
 std::int64_t most_memory_of_run(const SceneSpec& spec, std::int64_t elements);
 
 }  // namespace cellcrush

@@ -7,9 +7,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "cellcrush/byte_stream.h"
 #include "cellcrush/sample.h"
 #include "cellcrush/scene_spec.h"
 #include "cellcrush/stage.h"
@@ -111,13 +111,13 @@ class Simulation {
   /// Its index is 0.
   [[nodiscard]] const FieldFrame& last_good_frame() const;
 
-  /// All data needed to resume the run, for the same build on the same kind of processor. After restore(), everything
-  /// has the same bits as in an uninterrupted run.
-  [[nodiscard]] std::string checkpoint() const;
+  /// Passes on all data needed to resume the run, for the same build on the same kind of processor; makes no copy of
+  /// it. After restore(), everything has the same bits as in an uninterrupted run.
+  void checkpoint(const ByteSink& sink) const;
 
-  /// Resumes from a checkpoint of a run of an equal scene that had not stopped. Returns false, and changes nothing, if
-  /// the bytes are no such checkpoint.
-  bool restore(std::string_view checkpoint);
+  /// Resumes from a checkpoint of a run of an equal scene that had not stopped. Returns false if the bytes are no such
+  /// checkpoint; the run is then at its start.
+  bool restore(ByteSource checkpoint);
 
   /// Calls visit(first byte, bytes) for the arrays of the scene and of the state. Their addresses stay valid until a
   /// step enlarges the contact lists, or until restore().

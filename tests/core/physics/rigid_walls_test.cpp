@@ -161,9 +161,9 @@ TEST(RigidWall, GoesOnFromACheckpointToTheSameBits) {
   for (int piece = 0; piece < 20; ++piece) {
     const std::int64_t steps = scene->schedule.step_count / 20;
     whole.advance(steps);
-    const std::string checkpoint = pieces->checkpoint();
+    const std::string checkpoint = scenes::checkpoint_of(*pieces);
     pieces = std::make_unique<Simulation>(scene);
-    ASSERT_TRUE(pieces->restore(checkpoint));
+    ASSERT_TRUE(pieces->restore(source_of(checkpoint)));
     pieces->advance(steps);
     forces[0].push_back(whole.take_sample().rigid_walls.at(0).tangential_force);
     forces[1].push_back(pieces->take_sample().rigid_walls.at(0).tangential_force);

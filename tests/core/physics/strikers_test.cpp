@@ -175,9 +175,9 @@ TEST(EndAtRest, IsAtTheSameStepWhateverPiecesAndCheckpoints) {
   auto pieces = std::make_unique<Simulation>(scene, 2);
   while (!pieces->has_ended()) {
     pieces->advance(scene->schedule.step_count / 7 + 13);
-    const std::string checkpoint = pieces->checkpoint();
+    const std::string checkpoint = scenes::checkpoint_of(*pieces);
     pieces = std::make_unique<Simulation>(scene);
-    ASSERT_TRUE(pieces->restore(checkpoint));
+    ASSERT_TRUE(pieces->restore(source_of(checkpoint)));
   }
   EXPECT_EQ(pieces->step(), whole.step());
   EXPECT_EQ(scenes::hash_of(pieces->state()), scenes::hash_of(whole.state()));

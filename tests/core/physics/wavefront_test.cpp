@@ -170,7 +170,7 @@ TEST(Wavefront, GoOnFromACheckpoint) {
   Simulation whole(scene);
   whole.advance(200);
   Simulation resumed(scene, 2);
-  ASSERT_TRUE(resumed.restore(whole.checkpoint()));
+  ASSERT_TRUE(resumed.restore(source_of(scenes::checkpoint_of(whole))));
   whole.advance(200);
   resumed.advance(200);
   EXPECT_EQ(scenes::hash_of(resumed.state()), scenes::hash_of(whole.state()));
