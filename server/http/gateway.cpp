@@ -98,11 +98,11 @@ class Gateway::TlsContext {
 // Members are used on the thread, except in the constructor and the destructor.
 struct Gateway::Impl {
   Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-       const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins)
+       const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins,
+       const PublicUrl& public_url)
       : tls(gate),
         port(address, "--http"),
-        parts{
-            gate, methods, limits, absl::StrJoin(framing_origins, " "), port.address().port, tls.current() != nullptr},
+        parts{gate, methods, limits, absl::StrJoin(framing_origins, " "), public_url, tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
@@ -187,8 +187,9 @@ struct Gateway::Impl {
 };
 
 Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-                 const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins)
-    : impl_(std::make_unique<Impl>(address, gate, methods, limits, framing_origins)) {}
+                 const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins,
+                 const PublicUrl& public_url)
+    : impl_(std::make_unique<Impl>(address, gate, methods, limits, framing_origins, public_url)) {}
 
 Gateway::~Gateway() { stop(); }
 

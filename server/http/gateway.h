@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "access/gate.h"
+#include "http/public_url.h"
 #include "listen_address.h"
 #include "net/connection_limits.h"
 #include "rpc/method_table.h"
@@ -16,10 +17,12 @@ namespace cellcrush::http {
 class Gateway {
  public:
   /// Listens from construction on, on an address that the gate permits. `methods` answers the calls; it and `gate`
-  /// outlive it. Pages of `framing_origins` may frame the web page. Throws ServiceError: failed_precondition if the
+  /// outlive it. Pages of `framing_origins` may frame the web page. Browsers may ask for
+  /// `public_url`. Throws ServiceError: failed_precondition if the
   /// address is in use, invalid if OpenSSL refuses the files of TLS.
   Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-          const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins = {});
+          const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins = {},
+          const PublicUrl& public_url = {});
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;
