@@ -11,6 +11,7 @@
 #include "error.h"
 #include "store/data_folder.h"
 #include "store/durable_file.h"
+#include "store/file_lock.h"
 
 namespace cellcrush::store {
 namespace {
@@ -60,7 +61,7 @@ StagedFolder::StagedFolder(const std::filesystem::path& place)
   if (error) throw_file_error(place_.parent_path(), "created", error.value());
   if (mkdir(partial_.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(partial_, "created", errno);
   lock_ = open_file(partial_, O_RDONLY | O_DIRECTORY, "used");
-  if (flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
+  if (!try_lock(lock_, partial_)) {
     throw refusal("Another process is creating " + place_.string() +
                   ". Wait until it is done, or give another folder.");
   }
