@@ -31,12 +31,12 @@ constexpr const char* kFooter =
     "3 no connection; 4 connection lost before the end; 5 not found; 130 interrupted by Ctrl-C (a job of the daemon "
     "continues; a run stops at a checkpoint).";
 
-ExitCode run_action(const Session& session, const std::vector<std::string>& words) {
+ExitCode run_action(const Session& session) {
   try {
     return session.action();
   } catch (const CommandError& error) {
     const bool is_absent = error.code() == ExitCode::not_found || error.code() == ExitCode::no_connection;
-    const std::string hint = is_absent ? file_hint(words) : "";
+    const std::string hint = is_absent ? file_hint(session.words) : "";
     print_error(hint.empty() ? error : CommandError(error.code(), error.message() + ' ' + hint), session.json);
     return error.code();
   } catch (const std::exception& error) {
@@ -58,6 +58,7 @@ ExitCode run_command_line(int argc, char** argv) {
   app.footer(kFooter);
   app.formatter(std::make_shared<HelpFormatter>(std::min(terminal_width(), kMostHelpColumns)));
   Session session;
+  session.words = {argv + 1, argv + argc};
   add_shared_options(app, session);
   add_case_commands(app, session);
   add_run_command(app, session);
@@ -85,7 +86,7 @@ ExitCode run_command_line(int argc, char** argv) {
     print_error(CommandError(ExitCode::refused, usage_message(app, error)), session.json);
     return ExitCode::refused;
   }
-  const ExitCode code = run_action(session, {argv + 1, argv + argc});
+  const ExitCode code = run_action(session);
   if (std::fflush(stdout) != 0 && code == ExitCode::done) return ExitCode::refused;
   return code;
 }

@@ -265,7 +265,8 @@ struct Daemon::Impl {
   void serve_http() {
     if (!wanted_http) return;
     try {
-      gateway.emplace(*wanted_http, gate, service.methods, service.board, options.connections, options.framing_origins);
+      gateway.emplace(*wanted_http, gate, service.methods, service.board, options.connections, options.framing_origins,
+                      http::parse_public_url(options.public_url));
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
       warn_without_http(error);

@@ -33,6 +33,8 @@ struct DaemonOptions {
   std::string http;
   /// Origins, such as "https://grafana.example.org", whose pages may show the web page in a frame.
   std::vector<std::string> framing_origins;
+  /// Address of the page for users, where a proxy or tunnel stands before it. Empty: that of `http`.
+  std::string public_url;
   /// Number of jobs that run at once on this machine. 0: the number of cores that the daemon may use (allotment.h).
   int workers = 0;
   /// Program started as `PROGRAM worker ...`.

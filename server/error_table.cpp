@@ -104,6 +104,13 @@ std::string bounded_details(const std::string& message, const ProblemList& probl
   return out;
 }
 
+// Has details, unlike a status that gRPC makes of a broken connection.
+grpc::Status own_status(grpc::StatusCode code, const std::string& message) {
+  google::rpc::Status status;
+  status.set_code(code);
+  return {code, message, status.SerializeAsString()};
+}
+
 }  // namespace
 
 grpc::Status status_of(const ProblemList& problems, const std::string& subject) {
@@ -139,17 +146,17 @@ grpc::Status status_of(const std::exception& error) {
     const bool is_fault =
         refused->kind() == ServiceError::Kind::internal || refused->kind() == ServiceError::Kind::data_loss;
     if (is_fault) spdlog::error("A call failed: {}", error.what());
-    return {code_of(refused->kind()), message_of(error.what())};
+    return own_status(code_of(refused->kind()), message_of(error.what()));
   }
   if (const auto* refused = dynamic_cast<const RefusedCase*>(&error))
     return status_of(refused->problems, refused->subject);
   if (const auto* refused = dynamic_cast<const InvalidField*>(&error))
     return invalid_argument(refused->field(), refused->message(), refused->remedy());
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
-    return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-            "The daemon is out of memory. Use a smaller case, or try again later."};
+    return own_status(grpc::StatusCode::RESOURCE_EXHAUSTED,
+                      "The daemon is out of memory. Use a smaller case, or try again later.");
   spdlog::error("A call failed: {}", error.what());
-  return {grpc::StatusCode::INTERNAL, message_of(std::string("Internal error of the daemon: ") + error.what())};
+  return own_status(grpc::StatusCode::INTERNAL, message_of(std::string("Internal error of the daemon: ") + error.what()));
 }
 
 }  // namespace cellcrush

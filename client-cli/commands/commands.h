@@ -22,6 +22,7 @@ struct Session {
   bool json = false;
   std::string server;
   CredentialFiles credentials;
+  std::vector<std::string> words;    ///< of the command line
   std::function<ExitCode()> action;  ///< set by the chosen command; may throw CommandError
 
   Session();

@@ -5,6 +5,7 @@
 #include "case_file/case_source.h"
 #include "columns/result_columns.h"
 #include "commands/commands.h"
+#include "commands/creation.h"
 #include "commands/sweep_axis.h"
 #include "commands/watch.h"
 #include "terminal/number_text.h"
@@ -24,6 +25,7 @@ struct ConvergeOptions {
   double wanted_error = 0.05;
   bool only_cost = false;
   std::string executor;
+  std::string request_id;
 };
 
 v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection& connection) {
@@ -65,11 +67,8 @@ ExitCode run_converge(Session& session, const ConvergeOptions& options) {
   Connection& connection = session.connection();
   v1::CreateSweepRequest request = build_request(options, connection);
   const Interruption interruption;
-  const auto create = [&](bool validate_only) {
-    request.set_validate_only(validate_only);
-    return connection.call(connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience);
-  };
-  const v1::Sweep checked = create(true);
+  request.set_validate_only(true);
+  const auto checked = connection.call(connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience);
   const std::string cost = fmt::format("{}, predicted to take {} of one core\n",
                                        run_count_text(static_cast<int>(options.meshes.size()) * options.seeds),
                                        duration_text(checked.predicted_seconds()));
@@ -78,7 +77,10 @@ ExitCode run_converge(Session& session, const ConvergeOptions& options) {
     return ExitCode::done;
   }
   if (!session.json) fmt::print(stderr, "{}{}", notes_text(checked.notes()), cost);
-  const std::string name = create(false).name();
+  request.set_validate_only(false);
+  request.set_request_id(options.request_id);
+  const std::string name =
+      create(session, connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience).name();
   if (!session.json) {
     fmt::print("{}\n", name);
     std::fflush(stdout);
@@ -109,6 +111,8 @@ void add_converge_command(CLI::App& app, Session& session) {
              "Relative error that the plateau stresses may have, above 0 and at most 1 (default: 0.05)")
       ->check(CLI::Range(1e-6, 1.0));
   add_executor_option(*converge, options->executor);
+  add_option(*converge, kIdentityOptions, "--request-id", options->request_id,
+             "Id of the request, up to 128 characters; asking again returns the same sweep (default: a new one)");
   add_option(*converge, kOutputOptions, "--cost", options->only_cost, "Print the predicted cost and queue nothing");
   add_examples(*converge, {"cellcrush converge preset:hexagon-small --set lattice.imperfection.amplitude_mm=0.01",
                            "cellcrush converge my.txtpb --meshes 4,8,16 --seeds 1 --cost",

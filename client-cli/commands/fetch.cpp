@@ -7,10 +7,10 @@
 #include <fstream>
 #include <regex>
 #include <set>
-#include <thread>
 
 #include "columns/history_csv.h"
 #include "commands/commands.h"
+#include "commands/result_download.h"
 #include "connection/connection.h"
 #include "connection/frames.h"
 #include "terminal/case_text.h"
@@ -52,10 +52,15 @@ class FetchedFiles {
  public:
   // A file that may replace one that begins with one of the signatures. Throws CommandError as OutputFile does.
   OutputFile& add(const fs::path& path, std::initializer_list<std::string_view> signatures) {
-    check_may_overwrite(path, signatures);
-    paths_.push_back(path);
-    files_.push_back(std::make_unique<OutputFile>(path));
-    return *files_.back();
+    return add(path, signatures, std::make_unique<OutputFile>(path));
+  }
+
+  // The same for one that an earlier command may have begun.
+  OutputFile& add_continued(const fs::path& path, std::initializer_list<std::string_view> signatures) {
+    const fs::path part = path.string() + ".part";
+    std::error_code error;
+    if (fs::file_size(part, error) > 0 && !error) check_may_overwrite(part, signatures);
+    return add(path, signatures, OutputFile::continued(path));
   }
 
   // After it commit() needs no more room on the disk.
@@ -71,49 +76,16 @@ class FetchedFiles {
   [[nodiscard]] const std::vector<fs::path>& paths() const { return paths_; }
 
  private:
+  OutputFile& add(const fs::path& path, std::initializer_list<std::string_view> signatures,
+                  std::unique_ptr<OutputFile> file) {
+    check_may_overwrite(path, signatures);
+    paths_.push_back(path);
+    return *files_.emplace_back(std::move(file));
+  }
+
   std::vector<fs::path> paths_;
   std::vector<std::unique_ptr<OutputFile>> files_;
 };
-
-// Appends chunks to the file; returns whether the end was reached.
-grpc::Status download_from(Connection& connection, v1::DownloadResultRequest& request, OutputFile& file,
-                           std::int64_t& total) {
-  bool is_whole = true;
-  const auto take = [&](const v1::DownloadResultResponse& chunk) {
-    is_whole = is_whole && chunk.offset() == request.offset();
-    if (!is_whole) return false;
-    file.write(chunk.data());
-    request.set_offset(chunk.offset() + static_cast<std::int64_t>(chunk.data().size()));
-    total = chunk.total_size();
-    return true;
-  };
-  const v1::DownloadResultRequest from = request;
-  grpc::Status status =
-      connection.read(connection.jobs(), &v1::Jobs::Stub::DownloadResult, from, std::chrono::minutes(10), take);
-  if (is_whole) return status;
-  return {grpc::StatusCode::DATA_LOSS, fmt::format("bytes are missing from offset {}", request.offset())};
-}
-
-void download_result(Connection& connection, const std::string& name, OutputFile& file) {
-  constexpr int kAttempts = 5;
-  v1::DownloadResultRequest request;
-  request.set_name(name);
-  std::int64_t total = 0;
-  for (int attempt = 1;; ++attempt) {
-    const std::int64_t before = request.offset();
-    const grpc::Status status = download_from(connection, request, file, total);
-    if (status.ok() && total > 0 && request.offset() == total) return;
-    const ExitCode code = status.ok() ? ExitCode::cut_off : exit_code_of(status.error_code());
-    if (code == ExitCode::refused || code == ExitCode::not_found) throw error_of(status);
-    if (request.offset() > before) attempt = 1;
-    if (attempt == kAttempts) {
-      throw CommandError(ExitCode::cut_off,
-                         fmt::format("the download of result.h5 broke off at byte {} of {}: {}", request.offset(),
-                                     total, status.ok() ? "the stream ended early" : status.error_message()));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(250 * attempt));
-  }
-}
 
 // The files that a collection of this command names.
 std::set<std::string> files_of_collection(const fs::path& collection) {
@@ -207,7 +179,7 @@ void check_may_write_results(const fs::path& folder) {
 ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::path& folder, const ResultForm& form) {
   const OutputFolder made(folder);  // outlives the files
   FetchedFiles files;
-  OutputFile& result = files.add(folder / "result.h5", kResultStarts);
+  OutputFile& result = files.add_continued(folder / "result.h5", kResultStarts);
   const std::string case_text = case_file_text(job.case_(), "Case of " + job.name());
   files.add(folder / "case.txtpb", {kCaseSignature}).write(case_text);
   const auto history = fetch_history(connection, job.name());

@@ -6,6 +6,7 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
+#include "commands/creation.h"
 #include "commands/sweep_axis.h"
 #include "commands/watch.h"
 #include "terminal/terminal.h"
@@ -35,9 +36,9 @@ struct SweepOptions : SubmitOptions {
 void add_submit_options(CLI::App& command, SubmitOptions& options, const std::string& what, const char* watching) {
   add_case_options(command, options.scene);
   add_option(command, kOutputOptions, "--watch", options.watch, watching);
-  add_option(
-      command, kIdentityOptions, "--request-id", options.request_id,
-      "Id of the request, up to 128 characters; submitting it again returns the same " + what + " (default: none)");
+  add_option(command, kIdentityOptions, "--request-id", options.request_id,
+             "Id of the request, up to 128 characters; submitting it again returns the same " + what +
+                 " (default: a new one)");
   add_option(command, kIdentityOptions, "--label", options.labels,
              "Label KEY=VALUE for list --filter; KEY up to 63 and VALUE up to 255 characters (may be repeated up "
              "to 64 times; default: none)")
@@ -106,7 +107,7 @@ ExitCode run_submit(Session& session, const SubmitOptions& options) {
   *request.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
   // From here on Ctrl-C ends the watch properly, even right after the job was queued.
   const auto interruption = options.watch ? std::make_unique<Interruption>() : nullptr;
-  const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::CreateJob, request);
+  const auto job = create(session, connection.jobs(), &v1::Jobs::Stub::CreateJob, request);
   return finish(session, job, interruption.get(), watch_job);
 }
 
@@ -117,9 +118,11 @@ ExitCode run_sweep(Session& session, const SweepOptions& options) {
   *request.mutable_sweep()->mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
   const auto interruption = options.watch ? std::make_unique<Interruption>() : nullptr;
   // The server answers only after checking all points.
-  if (!session.json && isatty(STDERR_FILENO) != 0)
+  if (!session.json && isatty(STDERR_FILENO) != 0) {
+    for (const v1::SweepAxis& axis : request.sweep().axes()) fmt::print(stderr, "{}\n", axis_text(axis));
     fmt::print(stderr, "Checking {:.0f} points...\n", count_points(request.sweep()));
-  const auto sweep = connection.call(connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience);
+  }
+  const auto sweep = create(session, connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience);
   return finish(session, sweep, interruption.get(), watch_sweep);
 }
 

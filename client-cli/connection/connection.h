@@ -2,6 +2,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -17,6 +18,11 @@
 #include "connection/credentials.h"
 
 namespace cellcrush::client {
+
+/// Pauses between attempts after the connection was lost.
+inline constexpr std::array<std::chrono::milliseconds, 5> kPauses = {
+    {std::chrono::milliseconds(250), std::chrono::milliseconds(500), std::chrono::seconds(1), std::chrono::seconds(2),
+     std::chrono::seconds(4)}};
 
 /// A channel to one server, with a stub for each service. It connects on first use. If no server answers, it reports
 /// that within two seconds, and within one if the server refuses the connection. Not thread-safe, except for calls on
@@ -87,6 +93,8 @@ class Connection {
   static constexpr std::chrono::seconds kPatience{60};
   /// Largest request that a server accepts, in bytes: 4 MiB.
   static constexpr std::int64_t kLargestRequest = 4 * 1024 * 1024;
+  /// Throws CommandError (refused) for a larger one.
+  static void check_request_size(std::int64_t size);
 
  private:
   template <typename Request>
@@ -106,7 +114,6 @@ class Connection {
   [[nodiscard]] std::string find_nearest_name(const std::string& name) const;
   [[nodiscard]] std::string find_nearest_preset(const std::string& word) const;
 
-  static void check_request_size(std::int64_t size);
   void require_server();
   /// Throws CommandError (refused) if the server is another user's, was not named, and the request changes something.
   void require_named(const google::protobuf::Descriptor& request) const;

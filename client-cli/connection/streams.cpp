@@ -36,7 +36,6 @@ extern "C" void on_interrupt(int /*signal*/) {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr std::array kPauses = {250ms, 500ms, 1000ms, 2000ms, 4000ms};
 constexpr auto kSilence = 60s;
 
 // Cancels a call if the user interrupts or the server falls silent. Lives as long as the call.

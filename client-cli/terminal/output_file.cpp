@@ -1,6 +1,7 @@
 #include "terminal/output_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -28,6 +29,27 @@ mode_t find_umask() {
 
 }  // namespace
 
+OutputFile::OutputFile(std::filesystem::path path, std::string temporary, int descriptor)
+    : path_(std::move(path)), temporary_(std::move(temporary)), file_(fdopen(descriptor, "a+b")), keeps_part_(true) {}
+
+std::unique_ptr<OutputFile> OutputFile::continued(const std::filesystem::path& path) {
+  const std::string part = path.string() + ".part";
+  const int descriptor =
+      open(part.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kReadableFile);
+  if (descriptor < 0) refuse(part + ": cannot be written: " + std::strerror(errno));
+  std::unique_ptr<OutputFile> file(new OutputFile(path, part, descriptor));
+  struct stat status {};
+  const bool is_regular = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  // A file system without locks has one command at a time, by the user's care.
+  const bool is_locked = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  struct stat named {};
+  const bool is_taken = is_locked || lstat(part.c_str(), &named) != 0 || named.st_ino != status.st_ino;
+  if (is_regular && !is_taken) return file;
+  file->temporary_.clear();
+  refuse(part + (is_taken ? ": another command is writing it; wait for its end, or name another folder"
+                          : ": is not a file; move it away or name another folder"));
+}
+
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_.string() + ".XXXXXX") {
   const int descriptor = mkostemp(temporary_.data(), O_CLOEXEC);
   if (descriptor < 0) {
@@ -39,17 +61,32 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), tem
 }
 
 OutputFile::~OutputFile() {
+  const bool has_part =
+      keeps_part_ && std::fflush(file_) == 0 && std::fseek(file_, 0, SEEK_END) == 0 && std::ftell(file_) > 0;
   if (file_ != nullptr) std::fclose(file_);
-  if (!temporary_.empty()) unlink(temporary_.c_str());
+  if (!temporary_.empty() && !has_part) unlink(temporary_.c_str());
 }
 
 void OutputFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("cannot be written");
 }
 
+void OutputFile::read_back(const std::function<void(std::string_view part)>& take) {
+  std::vector<char> buffer(1 << 16);
+  std::rewind(file_);
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file_)) take({buffer.data(), count});
+  if (std::ferror(file_) != 0) fail("cannot be read");
+  std::fseek(file_, 0, SEEK_END);
+}
+
+void OutputFile::restart() {
+  if (std::fflush(file_) != 0 || ftruncate(fileno(file_), 0) != 0) fail("cannot be written");
+}
+
 void OutputFile::finish() {
   if (file_ == nullptr) return;
   if (std::fflush(file_) != 0 || fsync(fileno(file_)) != 0) fail("cannot be written");
+  keeps_part_ = false;
   const int closed = std::fclose(std::exchange(file_, nullptr));
   if (closed != 0) fail("cannot be written");
 }
@@ -60,7 +97,10 @@ void OutputFile::commit() {
   temporary_.clear();
 }
 
-void OutputFile::fail(const char* what) const { refuse(path_.string() + ": " + what + ": " + std::strerror(errno)); }
+void OutputFile::fail(const char* what) {
+  keeps_part_ = false;
+  refuse(path_.string() + ": " + what + ": " + std::strerror(errno));
+}
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
   OutputFile file(path);

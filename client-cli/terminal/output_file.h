@@ -2,7 +2,9 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,21 +17,30 @@ namespace cellcrush::client {
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path path);
+  /// One that continues what an earlier one has left under the name of `path` and ".part". Without commit() its bytes
+  /// stay there, unless the disk refuses some.
+  static std::unique_ptr<OutputFile> continued(const std::filesystem::path& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view bytes);
+  /// What is written so far, in parts.
+  void read_back(const std::function<void(std::string_view part)>& take);
+  /// Deletes what is written so far.
+  void restart();
   /// Afterwards commit() needs no more room on the disk. Nothing can be written after it.
   void finish();
   void commit();
 
  private:
-  [[noreturn]] void fail(const char* what) const;
+  OutputFile(std::filesystem::path path, std::string temporary, int descriptor);
+  [[noreturn]] void fail(const char* what);
 
   std::filesystem::path path_;
   std::string temporary_;
   std::FILE* file_ = nullptr;
+  bool keeps_part_ = false;  ///< true only while file_ is open
 };
 
 /// Writes a whole file of that kind.

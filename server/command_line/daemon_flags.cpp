@@ -11,6 +11,8 @@
 #include <stdexcept>
 
 #include "access/token_file.h"
+#include "error.h"
+#include "http/public_url.h"
 #include "slurm/cluster_options.h"
 #include "usage/command_entries.h"
 #include "usage/suggestion.h"
@@ -61,6 +63,15 @@ std::string group_scope_problem(const std::string& text) {
   const auto sign = text.rfind('=');
   if (sign != std::string::npos && sign > 0 && access::parse_scope(text.substr(sign + 1))) return "";
   return fmt::format("\"{}\" is not GROUP=SCOPE. The scope is read, submit or admin, as in students=submit.", text);
+}
+
+std::string public_url_problem(const std::string& text) {
+  try {
+    (void)http::parse_public_url(text);
+    return "";
+  } catch (const ServiceError& error) {
+    return error.what();
+  }
 }
 
 // Reads a TOML file of options and rejects a key that is not an option. Otherwise a misspelt key would silently leave a
@@ -136,6 +147,11 @@ void DaemonFlags::add_addresses(CLI::App& app) {
                  "repeated (default: none)")
       ->check(origin_problem)
       ->type_name("ORIGIN");
+  app.add_option("--public-url", options_.public_url,
+                 "Address of the web page for users where a proxy or tunnel stands before it, such as "
+                 "https://site.example.org/crush/ (default: that of --http)")
+      ->check(public_url_problem)
+      ->type_name("URL");
   app.add_option("--metrics", options_.metrics,
                  "Loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)");
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "http/public_url.h"
+
 namespace cellcrush::http {
 
 /// Headers by which a browser says for whom it asks. Empty: absent.
@@ -18,15 +20,10 @@ struct HttpRefusal {
   std::string why;
 };
 
-/// The port on which a request came.
-struct HttpPort {
-  int number = 0;
-  bool has_tls = false;
-};
-
 /// Refuses requests that a page of another site makes through the user's browser. A foreign origin gives 403. On a port
-/// in plain text, which is on loopback, a foreign name that resolves to loopback (DNS rebinding) gives 421. With TLS
-/// the certificate has the names.
-std::optional<HttpRefusal> check_browser(const BrowserHeaders& headers, const HttpPort& port);
+/// in plain text, which is on loopback, a foreign name that resolves to loopback (DNS rebinding) gives 421: the name
+/// must be loopback's, with any port because of tunnels, or that of the public URL. With TLS the certificate has the
+/// names.
+std::optional<HttpRefusal> check_browser(const BrowserHeaders& headers, bool has_tls, const PublicUrl& public_url);
 
 }  // namespace cellcrush::http

@@ -114,7 +114,7 @@ asio::awaitable<void> Connection::serve_requests() {
     parser.body_limit(kLargestBody);
     parser.header_limit(kLargestHeader);
     if (!co_await read(parser, first)) break;
-    keep_alive_ = parser.get().keep_alive();
+    prepare_for(parser.get());
     co_await answer(parser.get());
     keep_alive_ = keep_alive_ && !parts_.stopping;
   }
@@ -137,6 +137,14 @@ asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
                              is_body ? "The body is larger than 4 MiB." : "The headers are larger than 16 KiB."};
   if (is_body || error == bhttp::error::header_limit) co_await send_error(is_body ? 413 : 431, refused);
   co_return false;
+}
+
+void Connection::prepare_for(Request& request) {
+  keep_alive_ = request.keep_alive();
+  is_chunked_ = request.version() >= 11;  // HTTP/1.0, as of nginx by default, has no chunks
+  auto asked = find_asked_path({request.target().data(), request.target().size()}, parts_.public_url);
+  request.target(asked.target);
+  root_ = std::move(asked.root);
 }
 
 asio::awaitable<void> Connection::answer(const Request& request) {
@@ -181,12 +189,13 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
     return Refusal{400,
                    {StatusCode::PERMISSION_DENIED, "One Host header, and at most one Origin header, must be sent."}};
   }
-  // The content policy of the page names the sites that may frame it.
-  const bool is_frame = !parts_.framing_origins.empty() && request.method() == bhttp::verb::get &&
-                        request["Sec-Fetch-Mode"] == "navigate" && request["Sec-Fetch-Dest"] == "iframe";
+  // A link on another site may open the page. The content policy of the page names the sites that may frame it.
+  const auto place = request["Sec-Fetch-Dest"];
+  const bool is_visit = request.method() == bhttp::verb::get && request["Sec-Fetch-Mode"] == "navigate" &&
+                        (place == "document" || (place == "iframe" && !parts_.framing_origins.empty()));
   const BrowserHeaders headers{request[Field::host], request[Field::origin],
-                               is_frame ? std::string_view() : std::string_view(request["Sec-Fetch-Site"])};
-  if (const auto refusal = check_browser(headers, {parts_.port, parts_.has_tls}))
+                               is_visit ? std::string_view() : std::string_view(request["Sec-Fetch-Site"])};
+  if (const auto refusal = check_browser(headers, parts_.has_tls, parts_.public_url))
     return Refusal{refusal->status, {StatusCode::PERMISSION_DENIED, refusal->why}};
   const auto* method = method_of(request);
   if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
@@ -287,7 +296,7 @@ asio::awaitable<void> Connection::answer_stream(std::shared_ptr<Call> call, cons
   }
   const std::string end = envelope(kEndOfStream, end_of_stream_json(status));
   co_await send_chunk(end);
-  co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);
+  co_await send_last_chunk();
 }
 
 void Connection::watch_client() {
@@ -324,9 +333,10 @@ asio::awaitable<void> Connection::answer_sign_in(const Request& request, const S
 
 asio::awaitable<void> Connection::answer_file(const Request& request) {
   const web::PageFile* file = web::find_page_file(request.target());
-  const std::string_view small =
-      web::accepts_gzip(request[Field::accept_encoding]) ? web::gzip_of(*file) : std::string_view();
-  const std::string_view bytes = small.empty() ? file->bytes : small;
+  const std::string start = web::is_start(*file) ? web::start_below(*file, root_) : "";
+  const bool is_small = start.empty() && web::accepts_gzip(request[Field::accept_encoding]);
+  const std::string_view small = is_small ? web::gzip_of(*file) : std::string_view();
+  const std::string_view bytes = !start.empty() ? start : small.empty() ? file->bytes : small;
   const std::string tag = web::entity_tag(bytes);
   const bool known = request[Field::if_none_match] == tag;
   auto response = new_response<bhttp::string_body>(known ? 304 : 200, keep_alive_, "no-cache");
@@ -349,6 +359,7 @@ asio::awaitable<void> Connection::answer_download(const Request& request) {
   auto status = cellcrush::answer([&] {
     download = open_download({request.target().data(), request.target().size()});
   });
+  if (download && request[Field::if_range].empty()) download->begin_at(request[Field::range]);
   const bool wants_body = request.method() == bhttp::verb::get;
   bool has_begun = false;
   while (status.ok()) {
@@ -358,7 +369,7 @@ asio::awaitable<void> Connection::answer_download(const Request& request) {
       ended = batch.end.has_value();
       if (ended) status = *batch.end;
       if (!status.ok()) break;
-      if (!std::exchange(has_begun, true)) co_await send_stream_head(download->content_type, download->file_name);
+      if (!std::exchange(has_begun, true)) co_await send_stream_head(download->content_type, download.get());
       if (!wants_body) break;
       if (!batch.bytes.empty()) co_await send_chunk(batch.bytes);
     }
@@ -366,11 +377,12 @@ asio::awaitable<void> Connection::answer_download(const Request& request) {
     if (!wants_body || !download->has_more()) break;
   }
   if (!has_begun) {
-    co_await send(http_status(status.error_code()), kText, status.error_message() + '\n');
+    const bool is_past_end = status.error_code() == grpc::StatusCode::OUT_OF_RANGE;
+    co_await send(is_past_end ? 416 : http_status(status.error_code()), kText, status.error_message() + '\n');
   } else if (!status.ok()) {
     keep_alive_ = false;
   } else if (wants_body) {
-    co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);
+    co_await send_last_chunk();
   }
 }
 
@@ -389,11 +401,15 @@ asio::awaitable<void> Connection::send_error(unsigned status, const grpc::Status
   co_await send(status, "application/json", std::move(body));
 }
 
-asio::awaitable<void> Connection::send_stream_head(const std::string& content_type, const std::string& file_name) {
+asio::awaitable<void> Connection::send_stream_head(const std::string& content_type, const Download* file) {
+  const bool has_size = file != nullptr && file->size;
+  keep_alive_ = keep_alive_ && (is_chunked_ || has_size);
+  is_chunked_ = is_chunked_ && !has_size;
   auto response = new_response<bhttp::empty_body>(200, keep_alive_, "no-store");
   response.set(Field::content_type, content_type);
-  if (!file_name.empty()) response.set(Field::content_disposition, "attachment; filename=\"" + file_name + "\"");
-  response.chunked(true);
+  if (file != nullptr) describe(*file, response);
+  response.set("X-Accel-Buffering", "no");  // nginx passes each chunk on at once
+  if (!has_size) response.chunked(is_chunked_);
   bhttp::response_serializer<bhttp::empty_body> serializer(response);
   stream_.plain().expires_after(parts_.limits.idle);
   co_await bhttp::async_write_header(stream_, serializer, asio::use_awaitable);
@@ -401,7 +417,15 @@ asio::awaitable<void> Connection::send_stream_head(const std::string& content_ty
 
 asio::awaitable<void> Connection::send_chunk(const std::string& data) {
   stream_.plain().expires_after(parts_.limits.idle);
-  co_await asio::async_write(stream_, bhttp::make_chunk(asio::buffer(data)), asio::use_awaitable);
+  if (is_chunked_) {
+    co_await asio::async_write(stream_, bhttp::make_chunk(asio::buffer(data)), asio::use_awaitable);
+  } else {
+    co_await asio::async_write(stream_, asio::buffer(data), asio::use_awaitable);
+  }
+}
+
+asio::awaitable<void> Connection::send_last_chunk() {
+  if (is_chunked_) co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);
 }
 
 void Connection::close(bool also_calls) {

@@ -10,6 +10,7 @@
 #include "http/call.h"
 #include "http/connect_protocol.h"
 #include "http/download.h"
+#include "http/public_url.h"
 #include "http/sign_in.h"
 #include "http/stream.h"
 #include "net/connection_limits.h"
@@ -25,7 +26,7 @@ struct GatewayParts {
   const rpc::HealthBoard& board;
   net::ConnectionLimits limits;
   std::string framing_origins;  ///< which may frame the page, separated by spaces; empty: none
-  int port = 0;
+  PublicUrl public_url;
   bool has_tls = false;
   bool stopping = false;
 };
@@ -51,6 +52,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Serves requests until the client or the daemon has had enough.
   boost::asio::awaitable<void> serve_requests();
   boost::asio::awaitable<bool> read(Parser& parser, bool first);
+  /// Takes the public path off the target, and notes how an answer is to be streamed.
+  void prepare_for(Request& request);
   boost::asio::awaitable<void> answer(const Request& request);
   /// A request that is answered without a call or a file.
   struct Refusal {
@@ -76,9 +79,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::asio::awaitable<void> answer_stream(std::shared_ptr<Call> call, const Encoding& encoding, grpc::Status status);
   boost::asio::awaitable<void> send(unsigned status, const std::string& type, std::string body);
   boost::asio::awaitable<void> send_error(unsigned status, const grpc::Status& error);
-  /// `file_name`: under which the client saves the body; empty: not as a file.
-  boost::asio::awaitable<void> send_stream_head(const std::string& content_type, const std::string& file_name = {});
+  /// `file`: of which the body is, once its first answer is there; null: of none.
+  boost::asio::awaitable<void> send_stream_head(const std::string& content_type, const Download* file = nullptr);
   boost::asio::awaitable<void> send_chunk(const std::string& data);
+  boost::asio::awaitable<void> send_last_chunk();
   /// Cancels the call as soon as the client closes its side.
   void watch_client();
 
@@ -87,8 +91,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::beast::flat_buffer buffer_;
   GatewayParts& parts_;
   std::shared_ptr<Call> call_;  ///< null while none runs
+  std::string root_;            ///< of the page, relative to the address of the request
   bool keep_alive_ = false;
   bool is_head_ = false;  ///< the request asks for no body
+  bool is_chunked_ = false;  ///< the answer that is being streamed; else it ends with the connection
 };
 
 }  // namespace cellcrush::http

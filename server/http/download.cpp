@@ -1,5 +1,6 @@
 #include "http/download.h"
 
+#include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,11 +26,18 @@ class ResultDownload final : public Download {
     method = "/cellcrush.v1.Jobs/DownloadResult";
     content_type = "application/x-hdf5";
     file_name = "job-" + id + ".h5";
+    has_ranges = true;
   }
 
-  void ask(Message& request) const override { static_cast<v1::DownloadResultRequest&>(request).set_name(name_); }
+  void ask(Message& request) const override {
+    auto& download = static_cast<v1::DownloadResultRequest&>(request);
+    download.set_name(name_);
+    download.set_offset(first);
+  }
   void write(const Message& answer, std::string& to) override {
-    to += static_cast<const v1::DownloadResultResponse&>(answer).data();
+    const auto& chunk = static_cast<const v1::DownloadResultResponse&>(answer);
+    to += chunk.data();
+    size = chunk.total_size();
   }
 
  private:
@@ -123,6 +131,26 @@ std::string between(std::string_view path, std::string_view start, std::string_v
 }
 
 }  // namespace
+
+void Download::begin_at(std::string_view range) {
+  constexpr std::string_view kStart = "bytes=";
+  std::int64_t from = 0;
+  const bool is_from =
+      range.starts_with(kStart) && range.ends_with('-') &&
+      absl::SimpleAtoi(std::string(range.substr(kStart.size(), range.size() - kStart.size() - 1)), &from);
+  if (has_ranges && is_from && from > 0) first = from;
+}
+
+void describe(const Download& file, boost::beast::http::response_header<>& to) {
+  using Field = boost::beast::http::field;
+  to.set(Field::content_disposition, "attachment; filename=\"" + file.file_name + "\"");
+  if (!file.size) return;
+  to.set(Field::accept_ranges, "bytes");
+  to.set(Field::content_length, std::to_string(*file.size - file.first));
+  if (file.first == 0) return;
+  to.result(boost::beast::http::status::partial_content);
+  to.set(Field::content_range, fmt::format("bytes {}-{}/{}", file.first, *file.size - 1, *file.size));
+}
 
 std::shared_ptr<Download> open_download(std::string_view target) {
   const std::string_view path = target.substr(0, target.find('?'));

@@ -2,7 +2,10 @@
 
 #include <google/protobuf/message.h>
 
+#include <boost/beast/http.hpp>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,6 +20,14 @@ class Download {
   std::string content_type;  ///< of the file
   std::string file_name;     ///< under which a browser saves it
 
+  /// Of a file whose size its first answer brings, and which can be sent from a byte on.
+  bool has_ranges = false;
+  std::int64_t first = 0;            ///< byte to begin at
+  std::optional<std::int64_t> size;  ///< of the whole file
+
+  /// Follows a Range header "bytes=N-", by which clients continue a download; any other is ignored.
+  void begin_at(std::string_view range);
+
   /// Fills the request of the next call.
   virtual void ask(google::protobuf::Message& request) const = 0;
   /// Appends the part of the file that the answer brings.
@@ -24,6 +35,9 @@ class Download {
   /// Whether another call must follow.
   [[nodiscard]] virtual bool has_more() const { return false; }
 };
+
+/// The headers of a file whose first answer is there.
+void describe(const Download& file, boost::beast::http::response_header<>& to);
 
 /// The file of the path "/jobs/7/history.csv", "/jobs/7/result.h5" or "/sweeps/3.csv", perhaps with "?decimal=comma";
 /// null for another path. Throws ServiceError (invalid) for other parameters.

@@ -104,7 +104,7 @@ class Gateway::TlsContext {
 struct Gateway::Impl {
   Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
        const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
-       const std::vector<std::string>& framing_origins)
+       const std::vector<std::string>& framing_origins, const PublicUrl& public_url)
       : tls(gate),
         port(address, "--http"),
         parts{gate,
@@ -112,7 +112,7 @@ struct Gateway::Impl {
               board,
               limits,
               absl::StrJoin(framing_origins, " "),
-              port.address().port,
+              public_url,
               tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
@@ -200,8 +200,8 @@ struct Gateway::Impl {
 
 Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
                  const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
-                 const std::vector<std::string>& framing_origins)
-    : impl_(std::make_unique<Impl>(address, gate, methods, board, limits, framing_origins)) {}
+                 const std::vector<std::string>& framing_origins, const PublicUrl& public_url)
+    : impl_(std::make_unique<Impl>(address, gate, methods, board, limits, framing_origins, public_url)) {}
 
 Gateway::~Gateway() { stop(); }
 

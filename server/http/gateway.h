@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "access/gate.h"
+#include "http/public_url.h"
 #include "listen_address.h"
 #include "net/connection_limits.h"
 #include "rpc/health_service.h"
@@ -18,11 +19,12 @@ namespace cellcrush::http {
 class Gateway {
  public:
   /// Listens from construction on, on an address that the gate permits. `methods` answers the calls, `board` /healthz
-  /// and /readyz; they and `gate` outlive it. Pages of `framing_origins` may frame the web page. Throws ServiceError:
-  /// failed_precondition if the address is in use, invalid if OpenSSL refuses the files of TLS.
+  /// and /readyz; they and `gate` outlive it. Pages of `framing_origins` may frame the web page. Browsers may ask for
+  /// `public_url`. Throws ServiceError: failed_precondition if the address is in use, invalid if OpenSSL refuses the
+  /// files of TLS.
   Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
           const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
-          const std::vector<std::string>& framing_origins = {});
+          const std::vector<std::string>& framing_origins = {}, const PublicUrl& public_url = {});
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;

@@ -1,5 +1,7 @@
 #include "rpc/result_sources.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -128,14 +130,32 @@ DownloadSource::DownloadSource(const std::filesystem::path& path, std::int64_t o
 
 std::optional<DownloadSource::Message> DownloadSource::next() {
   if (ended()) return std::nullopt;
-  if (!sent_) store::check_seal_if_any(path_);
+  if (!sent_) begin();
   Message out;
   out.set_offset(offset_);
   out.set_total_size(file_.size());
   out.set_data(file_.read(offset_, kDownloadChunk));
   offset_ += static_cast<std::int64_t>(out.data().size());
+  add_to_crc(out.data());
+  out.set_crc32(crc_);
   sent_ = true;
   return out;
+}
+
+void DownloadSource::begin() {
+  store::check_seal_if_any(path_);
+  for (std::int64_t at = 0; at < offset_;) {
+    const auto left = static_cast<std::size_t>(offset_ - at);
+    const std::string part = file_.read(at, std::min(kDownloadChunk, left));
+    if (part.empty()) break;
+    add_to_crc(part);
+    at += static_cast<std::int64_t>(part.size());
+  }
+}
+
+void DownloadSource::add_to_crc(const std::string& bytes) {
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  crc_ = static_cast<std::uint32_t>(crc32_z(crc_, data, bytes.size()));
 }
 
 }  // namespace cellcrush::rpc

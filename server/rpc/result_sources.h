@@ -77,9 +77,14 @@ class DownloadSource final : public PlainSource<v1::DownloadResultResponse> {
   [[nodiscard]] std::string resume_advice() const { return "with offset " + std::to_string(offset_); }
 
  private:
+  /// Checks the file, and sums up what the caller has of it.
+  void begin();
+  void add_to_crc(const std::string& bytes);
+
   std::filesystem::path path_;
   store::InputFile file_;
   std::int64_t offset_;
+  std::uint32_t crc_ = 0;  ///< of all bytes before offset_
   bool sent_ = false;
 };
 

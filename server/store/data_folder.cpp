@@ -15,6 +15,7 @@
 
 #include "error.h"
 #include "store/durable_file.h"
+#include "store/file_lock.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::store {
@@ -78,9 +79,9 @@ void warn_of_readers(const std::filesystem::path& root) {
 }
 
 // An exiting daemon still holds the lock for a moment after it stops listening.
-bool lock_within(const OpenFile& file, std::chrono::milliseconds limit) {
+bool lock_within(const OpenFile& file, const std::filesystem::path& path, std::chrono::milliseconds limit) {
   const auto end = std::chrono::steady_clock::now() + limit;
-  while (flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+  while (!try_lock(file, path)) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -101,7 +102,7 @@ void remove_file(const std::filesystem::path& path) {
 
 std::optional<std::string> daemon_of(const std::filesystem::path& root) {
   const OpenFile lock = try_open_own(root / "lock", O_RDONLY);
-  if (!lock || flock(lock.get(), LOCK_SH | LOCK_NB) == 0) return std::nullopt;
+  if (!lock || flock(lock.get(), LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK) return std::nullopt;
   return read_text(lock);
 }
 
@@ -115,7 +116,7 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
   make_folder_in_root(root_ / "jobs");
   const auto lock_path = root_ / "lock";
   lock_ = open_own(lock_path, O_RDWR | O_CREAT, "used");
-  if (!lock_within(lock_, kToEnd)) {
+  if (!lock_within(lock_, lock_path, kToEnd)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        "The data folder " + root_.string() + " is in use by a running daemon (process " +
                            read_text(lock_) + "). Stop that daemon, or use another folder with --data.");

@@ -24,7 +24,7 @@ std::optional<std::string> daemon_of(const std::filesystem::path& root);
 class DataFolder {
  public:
   /// Creates the folder if it is absent, readable for its owner only, and takes the lock. Throws ServiceError:
-  /// failed_precondition if another daemon holds the lock, internal if the folder is unusable.
+  /// failed_precondition if another daemon holds the lock or there are no locks, internal if the folder is unusable.
   explicit DataFolder(const std::filesystem::path& root);
 
   [[nodiscard]] std::filesystem::path journal() const { return root_ / "journal.sqlite"; }

@@ -11,6 +11,7 @@
 #include "error.h"
 #include "store/data_folder.h"
 #include "store/durable_file.h"
+#include "store/file_lock.h"
 
 namespace cellcrush::store {
 namespace {
@@ -64,7 +65,7 @@ StagedFolder::StagedFolder(const std::filesystem::path& place)
     throw_file_error(partial_, "created", error);
   require_own_folder(partial_, partial_.string());
   lock_ = open_own(partial_, O_RDONLY | O_DIRECTORY, "used");
-  if (flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
+  if (!try_lock(lock_, partial_)) {
     throw refusal("Another process is creating " + place_.string() +
                   ". Wait until it is done, or give another folder.");
   }

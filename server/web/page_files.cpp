@@ -49,6 +49,12 @@ const PageFile* find_page_file(std::string_view path) {
   return found == files.end() ? nullptr : &*found;
 }
 
+bool is_start(const PageFile& file) { return file.name == "index.html"; }
+
+std::string start_below(const PageFile& file, const std::string& root) {
+  return absl::StrReplaceAll(std::string(file.bytes), {{"=\"./", "=\"" + root}});
+}
+
 std::string_view gzip_of(const PageFile& file) {
   static std::map<std::string_view, std::string> made;
   const auto found = made.find(file.name);

@@ -15,6 +15,10 @@ struct PageFile {
 /// index.html, because the page reads the path itself.
 const PageFile* find_page_file(std::string_view path);
 
+/// The start page, index.html, whose links lead to files in `root`, such as "../": a path relative to its own address.
+bool is_start(const PageFile& file);
+std::string start_below(const PageFile& file, const std::string& root);
+
 /// The file in gzip form, made at the first call; empty if that would not be smaller. `file` is of find_page_file. Not
 /// thread-safe.
 std::string_view gzip_of(const PageFile& file);

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"

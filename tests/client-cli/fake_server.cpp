@@ -1,5 +1,7 @@
 #include "fake_server.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,12 +15,20 @@ namespace {
 
 grpc::Status not_found(const std::string& name) { return {grpc::StatusCode::NOT_FOUND, "there is no " + name}; }
 
+// As the client says itself when nothing comes.
+const grpc::Status kLost{grpc::StatusCode::DEADLINE_EXCEEDED, "Deadline Exceeded"};
+
 }  // namespace
 
 struct FakeServer::Shared {
   Script script;
   mutable std::mutex mutex;  ///< guards `asked` and the counters of the script
   Asked asked;
+
+  bool loses_answer() {
+    const std::lock_guard lock(mutex);
+    return script.lost_creates-- > 0;
+  }
 
   // Notes what a service was asked.
   template <typename Value>
@@ -70,7 +80,7 @@ class FakeServer::Jobs : public v1::Jobs::Service {
   grpc::Status CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request, v1::Job* response) override {
     shared_.note(&Asked::creates, *request);
     *response = shared_.script.job;
-    return shared_.script.create_status;
+    return shared_.loses_answer() ? kLost : shared_.script.create_status;
   }
 
   grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest* request, v1::Job* response) override {
@@ -169,6 +179,9 @@ class FakeServer::Jobs : public v1::Jobs::Service {
       v1::DownloadResultResponse chunk;
       chunk.set_offset(static_cast<std::int64_t>(at));
       chunk.set_data(file.substr(at, std::min(kChunk, end - at)));
+      const auto* begin = reinterpret_cast<const unsigned char*>(file.data());
+      chunk.set_crc32(static_cast<std::uint32_t>(crc32_z(0, begin, at + chunk.data().size())));
+      if (shared_.script.damages_downloads) chunk.mutable_data()->front() ^= 1;
       chunk.set_total_size(static_cast<std::int64_t>(file.size()));
       writer->Write(chunk);
     }
@@ -224,6 +237,7 @@ class FakeServer::Sweeps : public v1::Sweeps::Service {
   grpc::Status CreateSweep(grpc::ServerContext*, const v1::CreateSweepRequest* request, v1::Sweep* response) override {
     shared_.note(&AskedOfSweeps::creates, *request);
     *response = shared_.script.sweeps.sweep;
+    if (shared_.loses_answer()) return kLost;
     return find(shared_.script.sweeps.sweep.name());
   }
 

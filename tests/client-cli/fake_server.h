@@ -34,19 +34,21 @@ struct Script {
   v1::Preset preset;
   v1::CheckCaseResponse check;
   grpc::Status create_status;
+  int lost_creates = 0;              ///< so many answers of CreateJob and CreateSweep are lost
   v1::Job job;                       ///< known under its name; other names are NOT_FOUND
   std::vector<v1::JobEvent> events;  ///< behind the snapshot, with their sequence numbers
   int cut_streams = 0;               ///< so many watches end with UNAVAILABLE before the last event
   std::size_t events_before_cut = 3;
   bool hold = false;  ///< a watch stays open behind the last event
   std::vector<v1::Sample> samples;
-  std::vector<MeshFrame> stages;  ///< ascending in strain; frames are sent in two parts
-  std::string result;             ///< result.h5
-  std::string page;               ///< of ExportJob; without one the job has not ended
-  bool cut_export = false;        ///< whether it ends half way
-  int cut_downloads = 0;          ///< so many downloads end half way
-  bool changes_jobs = false;      ///< whether CancelJob and DeleteJob are there
-  int message_limit = 0;          ///< bytes of a request it takes; 0 for gRPC's own limit
+  std::vector<MeshFrame> stages;   ///< ascending in strain; frames are sent in two parts
+  std::string result;              ///< result.h5
+  std::string page;                ///< of ExportJob; without one the job has not ended
+  bool cut_export = false;         ///< whether it ends half way
+  int cut_downloads = 0;           ///< so many downloads end half way
+  bool damages_downloads = false;  ///< one byte is changed on the way
+  bool changes_jobs = false;       ///< whether CancelJob and DeleteJob are there
+  int message_limit = 0;           ///< bytes of a request it takes; 0 for gRPC's own limit
   SweepScript sweeps;
   std::optional<v1::Queue> queue;  ///< of GetQueue
   std::optional<v1::WhoAmIResponse> who;

@@ -91,8 +91,37 @@ TEST(Fetch, ACutDownloadGoesOnWhereItStopped) {
   EXPECT_EQ(server.asked().offsets, (std::vector<std::int64_t>{0, half}));
   script.cut_downloads = 1000;
   const FakeServer other(script);
-  EXPECT_EQ(fetch(other, other.folder() / "run").exit_code, 4);
-  EXPECT_FALSE(fs::exists(other.folder() / "run"));
+  const ProgramResult cut = fetch(other, other.folder() / "run");
+  EXPECT_EQ(cut.exit_code, 4);
+  EXPECT_THAT(cut.errors, HasSubstr("broke off at byte " + std::to_string(half)));
+  EXPECT_EQ(file_count(other.folder() / "run"), 1) << "the part, for the next fetch";
+}
+
+TEST(Fetch, ContinuesWhatAnEarlierCommandLeftIfItIsOfThisFile) {
+  const Script script = finished_script();
+  const auto part = [&](const FakeServer& server, const std::string& bytes) {
+    fs::create_directory(server.folder() / "run");
+    std::ofstream(server.folder() / "run" / "result.h5.part") << bytes;
+    EXPECT_EQ(fetch(server, server.folder() / "run").exit_code, 0);
+    EXPECT_EQ(text_of_file(server.folder() / "run" / "result.h5"), script.result);
+    EXPECT_FALSE(fs::exists(server.folder() / "run" / "result.h5.part"));
+    return server.asked().offsets;
+  };
+  using Offsets = std::vector<std::int64_t>;
+  EXPECT_EQ(part(FakeServer(script), script.result.substr(0, 1500)), (Offsets{1500}));
+  std::string other = script.result.substr(0, 1500);
+  other.back() ^= 1;
+  EXPECT_EQ(part(FakeServer(script), other), (Offsets{1500, 0}));
+}
+
+TEST(Fetch, BytesThatChangedOnTheWayAreRefused) {
+  Script script = finished_script();
+  script.damages_downloads = true;
+  const FakeServer server(script);
+  const ProgramResult result = fetch(server, server.folder() / "run");
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.errors, HasSubstr("result.h5 was damaged on its way"));
+  EXPECT_FALSE(fs::exists(server.folder() / "run"));
 }
 
 TEST(Fetch, AFullDiskLeavesTheFolderAsItWas) {

@@ -132,6 +132,31 @@ TEST(List, ShowsLabelsWhereThereAreAny) {
   EXPECT_THAT(result.output, HasSubstr("batch=7, who=me"));
 }
 
+TEST(Submit, RepeatsARequestWhoseAnswerWasLostUnderOneId) {
+  Script script = preset_script();
+  script.lost_creates = 2;
+  const FakeServer server(script);
+  const ProgramResult result = server.run({"submit", "preset:type-i"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output, "jobs/test\n");
+  const auto creates = server.asked().creates;
+  ASSERT_EQ(creates.size(), 3U);
+  EXPECT_GT(creates[0].request_id().size(), 30U);
+  for (const auto& create : creates) EXPECT_EQ(create.request_id(), creates[0].request_id());
+}
+
+TEST(Submit, NamesTheCommandThatAsksAgainWhereTheAnswerStaysLost) {
+  Script script = preset_script();
+  script.lost_creates = 1000;
+  const FakeServer server(script);
+  const ProgramResult result = server.run({"submit", "preset:type-i", "--note", "it's new"});
+  EXPECT_EQ(result.exit_code, 4);
+  const auto creates = server.asked().creates;
+  EXPECT_GT(creates.size(), 3U);
+  EXPECT_THAT(result.errors, HasSubstr("run: cellcrush submit preset:type-i --note 'it'\\''s new' --server " +
+                                       server.address() + " --request-id " + creates[0].request_id()));
+}
+
 TEST(Submit, SendsAPriorityAndRefusesOneOutOfRange) {
   const FakeServer server(preset_script());
   for (const char* priority : {"7", "-7"}) {

@@ -30,7 +30,10 @@ TEST(Sweep, OnATerminalItSaysHowManyPointsAreChecked) {
   Program program({"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100,2e2", "--over",
                    "lattice.imperfection.seed=seeds:20", "--server", server.address()},
                   80);
-  EXPECT_EQ(program.wait().output, "Checking 60 points...\r\nsweeps/test\r\n");
+  EXPECT_EQ(program.wait().output,
+            "loading.speed_m_per_s = 50, 100, 200 m/s (3 values)\r\n"
+            "lattice.imperfection.seed = 1 to 20 (20 values)\r\n"
+            "Checking 60 points...\r\nsweeps/test\r\n");
 }
 
 TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {

@@ -11,6 +11,7 @@ namespace cellcrush::e2e {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // As the small case, of several seconds, so that two signals find it under way.
@@ -69,6 +70,16 @@ TEST_F(Run, GivesTheBitsOfADaemonAndLeavesTheResultsAlone) {
   for (const auto& entry : fs::directory_iterator(output)) names.push_back(entry.path().filename());
   EXPECT_THAT(names, ::testing::UnorderedElementsAre("case.txtpb", "history.csv", "result.h5"));
   EXPECT_EQ(bytes_of(output / "history.csv"), history_of_the_daemon(submitted));
+}
+
+TEST_F(Run, NamesAFileSystemWithoutLocks) {
+  std::vector<std::string> command = {"/usr/bin/env", std::string("LD_PRELOAD=") + CELLCRUSH_NO_LOCKS};
+  for (const auto& word : words(write_file("small.txtpb", small_case()), folder() / "out")) command.push_back(word);
+  const Outcome outcome = run(command, kShortLimit);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
+  EXPECT_THAT(outcome.errors, AllOf(HasSubstr("mounted at /"), HasSubstr("has no locks: No locks available."),
+                                    HasSubstr("cellcrush run -o")));
+  EXPECT_FALSE(fs::exists(folder() / "out"));
 }
 
 TEST_F(Run, StoppedBySignalsItContinuesToTheSameBits) {

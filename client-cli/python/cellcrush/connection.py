@@ -20,7 +20,10 @@ DEFAULT_ADDRESS = "127.0.0.1:50551"
 # A mesh of a large lattice is one message; the daemon is called directly, whatever proxy the environment names.
 OPTIONS = [("grpc.max_receive_message_length", -1), ("grpc.max_send_message_length", -1), ("grpc.enable_http_proxy", 0),
            ("grpc.initial_reconnect_backoff_ms", 100), ("grpc.min_reconnect_backoff_ms", 500),
-           ("grpc.max_reconnect_backoff_ms", 1000)]
+           ("grpc.max_reconnect_backoff_ms", 1000),
+           # Tunnels and proxies cut what is silent for a minute.
+           ("grpc.keepalive_time_ms", 20_000), ("grpc.keepalive_timeout_ms", 20_000),
+           ("grpc.http2.max_pings_without_data", 0)]
 CALL_TIMEOUT_S = 120.0
 SILENCE_S = 60.0  # a living watch sends something every 15 s
 MAX_PAUSE_S = 5.0

@@ -3,13 +3,14 @@ from __future__ import annotations
 
 import pathlib
 import sys
+import zlib
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List
 
 from cellcrush.arrays import Array, Frames, Mesh, Values, frames_from, mesh_from, samples_array
 from cellcrush.connection import Connection
 from cellcrush.display import Bar, html_table
-from cellcrush.errors import JobFailed
+from cellcrush.errors import FileError, JobFailed
 from cellcrush.results import PathLike, Results
 from cellcrush.v1 import event_pb2, job_pb2, jobs_service_pb2
 from cellcrush.v1.case_pb2 import Case
@@ -281,11 +282,14 @@ class Job(Results):
         """Saves the result file, whole: until then a file of this name stays as it is."""
         target = pathlib.Path(path)
         request = jobs_service_pb2.DownloadResultRequest(name=self.name)
-        size = -1
+        size, crc = -1, 0
         with whole_file(target) as file:
             for chunk in self._connection.follow(self._connection.jobs.DownloadResult, lambda: request,
                                                  lambda: request.offset == size):
                 file.write(chunk.data)
+                crc = zlib.crc32(chunk.data, crc)
+                if chunk.HasField("crc32") and chunk.crc32 != crc:
+                    raise FileError(f"{path}: the file was damaged on its way. Download it again.")
                 request.offset, size = chunk.offset + len(chunk.data), chunk.total_size
         return target
 

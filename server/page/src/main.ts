@@ -23,6 +23,7 @@ import { route, startRouter, valuesOfUrl } from "./router";
 import { HelpPage } from "./server/help";
 import { ServerPage } from "./server/page";
 import { SweepPage } from "./sweep/page";
+import { urlOf } from "./dom/base";
 
 const kConnectionWords: Record<Connection, string> = {
   connecting: "connecting",
@@ -49,9 +50,9 @@ function topBar(): HTMLElement {
   };
   watch.freshStarts.add(() => void tellVersion().catch(() => undefined));
   return h("header", { class: "top" },
-    h("a", { class: "brand", href: "/" }, iconOfPage(), "cellcrush"),
-    h("nav", {}, h("a", { href: "/" }, "Jobs"), h("a", { href: "/new" }, "New case"),
-      h("a", { href: "/server" }, "Server"), h("a", { href: "/help" }, "Help")),
+    h("a", { class: "brand", href: urlOf("/") }, iconOfPage(), "cellcrush"),
+    h("nav", {}, h("a", { href: urlOf("/") }, "Jobs"), h("a", { href: urlOf("/new") }, "New case"),
+      h("a", { href: urlOf("/server") }, "Server"), h("a", { href: urlOf("/help") }, "Help")),
     h("span", { class: "spacer" }), version, themeChoice(),
     hasToken() ? button("Forget the token", forgetToken, { class: "quiet" }) : null, status, retry);
 }
@@ -65,8 +66,9 @@ function themeChoice(): HTMLElement {
 }
 
 function iconOfPage(): HTMLElement {
-  const { href } = document.querySelector<HTMLLinkElement>("link[rel=icon]")!;
-  return h("img", { src: href, alt: "", width: 22, height: 22 });
+  const link = document.querySelector<HTMLLinkElement>("link[rel=icon]")!;
+  link.href = String(link.href); // relative to the address at the start, which the router changes
+  return h("img", { src: link.href, alt: "", width: 22, height: 22 });
 }
 
 // The job of a file that was exported.
@@ -88,7 +90,7 @@ route(/^\/help$/, () => new HelpPage());
 route(/^/, () => ({
   title: "Not found", destroy: () => undefined,
   element: h("div", { class: "page" }, h("h1", {}, "There is no such page"),
-    h("p", { class: "empty" }, h("a", { href: "/" }, "All jobs"))),
+    h("p", { class: "empty" }, h("a", { href: urlOf("/") }, "All jobs"))),
 }));
 
 startTheme();

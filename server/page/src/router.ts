@@ -1,5 +1,6 @@
 // Views by path, without loading the page again.
 import { isExported } from "./api/exported";
+import { pathIn } from "./dom/base";
 import { printable } from "./dom/element";
 
 export interface View {
@@ -25,7 +26,7 @@ function show(): void {
   current?.destroy();
   current = undefined;
   for (const { path, build } of routes) {
-    const match = location.pathname.match(path);
+    const match = pathIn(location.pathname).match(path);
     if (!match) continue;
     current = build(match, valuesOfUrl());
     break;

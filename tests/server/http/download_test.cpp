@@ -21,6 +21,8 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+std::string body_of(const std::string& answer) { return answer.substr(answer.find("\r\n\r\n") + 4); }
+
 class HttpDownloadTest : public HttpFixture {
  protected:
   void SetUp() override {
@@ -51,7 +53,15 @@ TEST_F(HttpDownloadTest, AResultHasTheBytesOfTheCall) {
   const std::string answer = get("/" + job + "/result.h5");
   EXPECT_THAT(lower_case(answer), HasSubstr("filename=\"job-1.h5\""));
   grpc::Status status;
-  EXPECT_EQ(dechunked(answer), client().download(job, 0, status));
+  const std::string bytes = client().download(job, 0, status);
+  EXPECT_THAT(answer, HasSubstr("Content-Length: " + std::to_string(bytes.size()) + "\r\n"));
+  EXPECT_EQ(body_of(answer), bytes);
+  const std::string rest = get("/" + job + "/result.h5", "Range: bytes=1000-\r\n");
+  EXPECT_THAT(rest, AllOf(StartsWith("HTTP/1.1 206"),
+                          HasSubstr("Content-Range: bytes 1000-" + std::to_string(bytes.size() - 1) + "/")));
+  EXPECT_EQ(body_of(rest), bytes.substr(1000));
+  const std::string past = "Range: bytes=" + std::to_string(bytes.size() + 1) + "-\r\n";
+  EXPECT_THAT(get("/" + job + "/result.h5", past), StartsWith("HTTP/1.1 416"));
   const std::string head = exchange(request("HEAD /" + job + "/result.h5", ""));
   EXPECT_THAT(head, StartsWith("HTTP/1.1 200"));
   EXPECT_TRUE(head.ends_with("\r\n\r\n")) << "no body";

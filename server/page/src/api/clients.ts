@@ -1,6 +1,6 @@
 // Clients of the daemon's services, on the origin of the page; in an exported page, of the file itself. Their
 // errors as sentences, and the problems that a refused call carries.
-import { Code, ConnectError, createClient } from "@connectrpc/connect";
+import { Code, ConnectError, createClient, type Interceptor } from "@connectrpc/connect";
 import { createConnectTransport } from "@connectrpc/connect-web";
 import { Admin } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Cases } from "../../gen/cellcrush/v1/cases_service_pb";
@@ -9,9 +9,16 @@ import { ProblemListSchema, type Problem } from "../../gen/cellcrush/v1/problem_
 import { Sweeps } from "../../gen/cellcrush/v1/sweeps_service_pb";
 import { exportedTransport, isExported } from "./exported";
 import { withToken } from "./token";
+import { urlOf } from "../dom/base";
+
+// The proxy of notebook servers passes on as they come only the answers to who asks so.
+const asStream: Interceptor = (next) => (request) => {
+  if (request.stream) request.header.set("accept", "text/event-stream");
+  return next(request);
+};
 
 const transport = isExported ? exportedTransport
-  : createConnectTransport({ baseUrl: location.origin, useBinaryFormat: true, interceptors: [withToken] });
+  : createConnectTransport({ baseUrl: urlOf(""), useBinaryFormat: true, interceptors: [withToken, asStream] });
 
 export const api = {
   admin: createClient(Admin, transport),

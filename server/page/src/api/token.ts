@@ -1,8 +1,9 @@
 // The token that a daemon with --tokens asks for. It stays in the tab, or in the browser if the user wants that.
 import { Code, ConnectError, type Interceptor } from "@connectrpc/connect";
+import { base } from "../dom/base";
 import { h, labelled, setText } from "../dom/element";
 
-const kKey = "cellcrush-token";
+const kKey = `cellcrush-token${base}`; // another path of the site may be another daemon
 let isAsking = false;
 
 // None where the browser keeps nothing, as for a page in a frame of another site.

@@ -1,8 +1,8 @@
 // The one stream of a tab: all jobs and sweeps, and the samples and frames of the jobs that a view asks for.
 //
 // The watch reconnects with growing delays and continues with its token, so no change is lost while the daemon is away.
-// A tab that was hidden for a minute closes its stream. A tab that has no place for a lasting stream (takePlace) asks
-// every few seconds for what has changed since.
+// A tab that was hidden for a minute closes its stream. A tab that has no place for a lasting stream (takePlace), or
+// that is behind a proxy which passes an answer on only as a whole, asks every few seconds for what has changed.
 import { create } from "@bufbuild/protobuf";
 import { Code, ConnectError } from "@connectrpc/connect";
 import type { JobEvent } from "../../gen/cellcrush/v1/event_pb";
@@ -50,8 +50,9 @@ export interface WatchedJob {
 const kFirstDelayMs = 500;
 const kLongestDelayMs = 15_000;
 const kSilenceMs = 45_000; // a live stream sends a bookmark every 15 s
+const kFirstMs = 5_000; // until the first message of a stream
 const kHiddenMs = 60_000;
-const kBriefMs = 1_500; // for which a stream without a place is open, and the time until its next one
+const kBriefMs = 1_500; // after which the daemon ends a brief stream, and the time until the next one
 const kBetweenMs = 3_000;
 
 class Watch {
@@ -72,6 +73,7 @@ class Watch {
   private timer = 0;
   private silence = 0;
   private hiding = 0;
+  private lasting: "untried" | "works" | "held up" = "untried";
 
   start(): void {
     document.addEventListener("visibilitychange", () => this.followVisibility());
@@ -125,18 +127,11 @@ class Watch {
     const giveBack = await takePlace();
     abort.signal.addEventListener("abort", () => giveBack?.());
     if (abort.signal.aborted) return giveBack?.();
-    if (!giveBack) setTimeout(() => this.pause(abort), kBriefMs);
-    await this.read(abort);
+    await this.read(abort, !giveBack || this.lasting === "held up");
     giveBack?.();
   }
 
-  private pause(of: AbortController): void {
-    if (of.signal.aborted) return;
-    if (this.state === "live") this.restart(kBetweenMs);
-    else setTimeout(() => this.pause(of), kBriefMs);
-  }
-
-  private async read(abort: AbortController): Promise<void> {
+  private async read(abort: AbortController, isBrief: boolean): Promise<void> {
     const request = {
       resumeToken: this.token,
       jobs: [...this.watched.values()].map((job) =>
@@ -144,22 +139,29 @@ class Watch {
           name: job.name, afterSequence: job.sequence, frames: true, encoding: FieldFrame_Encoding.PACKED,
         })),
     };
+    const headers = isBrief ? { "Connect-Timeout-Ms": `${kBriefMs}` } : undefined;
+    this.expectWithin(kFirstMs);
     try {
-      for await (const message of api.jobs.watchJobs(request, { signal: abort.signal })) {
+      for await (const message of api.jobs.watchJobs(request, { signal: abort.signal, headers })) {
         if (abort.signal.aborted) return;
+        if (!isBrief) this.lasting = "works";
         this.expectWithin(kSilenceMs);
         this.receive(message);
       }
       if (!abort.signal.aborted) this.reconnect();
     } catch (error) {
-      if (!abort.signal.aborted) this.recover(ConnectError.from(error));
+      if (abort.signal.aborted) return;
+      const failure = ConnectError.from(error);
+      if (isBrief && failure.code === Code.DeadlineExceeded) this.restart(kBetweenMs);
+      else this.recover(failure);
     }
   }
 
   private expectWithin(milliseconds: number): void {
     clearTimeout(this.silence);
     this.silence = window.setTimeout(() => {
-      if (this.state === "live") this.reconnect();
+      if (this.lasting === "untried") this.lasting = "held up";
+      this.reconnect();
     }, milliseconds);
   }
 
@@ -170,8 +172,13 @@ class Watch {
     this.reconnect();
   }
 
+  // Proxies end what is open for long: a cut that the next stream repairs is no news.
+  private get isFirstCut(): boolean {
+    return this.state === "live" && this.delay === kFirstDelayMs;
+  }
+
   private reconnect(): void {
-    this.setState("away");
+    if (!this.isFirstCut) this.setState("away");
     this.restart(this.delay * (0.75 + 0.5 * Math.random()));
     this.delay = Math.min(2 * this.delay, kLongestDelayMs);
   }

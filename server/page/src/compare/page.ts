@@ -14,6 +14,7 @@ import { PlayerBar } from "../picture/player_bar";
 import { go, keepInUrl, type View } from "../router";
 import { saveChartButton } from "../take_away/menus";
 import { comparisonChart, comparisonTable } from "./side_by_side";
+import { urlOf } from "../dom/base";
 
 const kMostJobs = 6;
 const kDrawMs = 200;
@@ -74,7 +75,7 @@ export class ComparePage implements View {
     const ids = [...new Set((query.get("jobs") ?? "").split(",").filter((id) => /^\d+$/.test(id)))].slice(0, kMostJobs);
     this.player.wanted = placeIn(query) ?? 0.4;
     this.jobs = ids.map((id, i) => new Compared(new JobData(`jobs/${id}`), i, () =>
-      go(`/compare?jobs=${ids.filter((other) => other !== id).join(",")}`)));
+      go(urlOf(`/compare?jobs=${ids.filter((other) => other !== id).join(",")}`))));
     this.bar = new PlayerBar(this.player, {
       neighbour: (direction) => this.neighbour(direction),
       text: (value) => `strain ${value.toFixed(3)}`,
@@ -96,7 +97,7 @@ export class ComparePage implements View {
       h("header", { class: "job-header" }, h("div", { class: "title-row" }, h("h1", {}, this.title),
         h("span", { class: "spacer" }), colourLegend())),
       this.jobs.length === 0 ? h("p", { class: "empty" }, "Select jobs to compare in the ",
-        h("a", { href: "/" }, "list of jobs"), ".") : null,
+        h("a", { href: urlOf("/") }, "list of jobs"), ".") : null,
       h("div", { hidden: this.jobs.length === 0 },
         h("div", { class: "card compare-player" }, this.bar.element),
         h("div", { class: "compared-grid", "data-count": this.jobs.length }, ...this.jobs.map((job) => job.element))),

@@ -1,4 +1,5 @@
 // Numbers, times, sizes, and names of jobs and sweeps as text.
+import { urlOf } from "./base";
 
 const kMissing = "–";
 
@@ -97,7 +98,7 @@ export function plural(value: number, noun: string): string {
 }
 
 // Names, such as "jobs/12", are the paths of their pages without the first slash.
-export const pathOf = (name: string): string => `/${name}`;
+export const pathOf = (name: string): string => urlOf(`/${name}`);
 export const idOf = (name: string): string => name.slice(name.indexOf("/") + 1);
 
 /** The order of names by number. */

@@ -11,6 +11,7 @@ import { NoteEditor } from "../jobs/note";
 import { causeWords, hasEnded, setChip, stateChip, titleOf, whereOf } from "../jobs/states";
 import type { JobStore } from "../jobs/store";
 import { go } from "../router";
+import { urlOf } from "../dom/base";
 
 // An exported page has no other pages to link to.
 function link(name: string, text: string): HTMLElement | string {
@@ -53,7 +54,7 @@ export class JobHeader {
     if (this.shownState === job.state) return;
     this.shownState = job.state;
     if (isExported) return;
-    replaceChildren(this.actions, ...actionsOf(job, this.store, () => go("/")).map((action) =>
+    replaceChildren(this.actions, ...actionsOf(job, this.store, () => go(urlOf("/"))).map((action) =>
       h("button", { type: "button", class: action.danger ? "danger-quiet" : "", disabled: action.why !== "",
                     title: action.why,
                     click: () => void attempt(() => action.run(job)) }, icon(action.icon), action.label)));

@@ -24,6 +24,7 @@ import { addSaving, takeAwayOfPicture } from "../take_away/menus";
 import { JobHeader } from "./header";
 import { JobData } from "./job_data";
 import { resultsList } from "./results";
+import { urlOf } from "../dom/base";
 
 const kCurvesMs = 200; // at most five updates of the curves in a second
 const kUrlMs = 400;
@@ -137,7 +138,7 @@ export class JobPage implements View {
 
   private showError(error: unknown): void {
     replaceChildren(this.problem, isNotFound(error) ? `${this.title} does not exist, or was deleted. ` : "",
-      isNotFound(error) ? h("a", { href: "/" }, "All jobs") : errorText(error),
+      isNotFound(error) ? h("a", { href: urlOf("/") }, "All jobs") : errorText(error),
       isAway(error) ? " The page tries again." : "");
     this.header.element.hidden = this.grid.hidden = isNotFound(error);
   }

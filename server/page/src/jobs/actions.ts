@@ -8,6 +8,7 @@ import type { IconName } from "../dom/icons";
 import { go } from "../router";
 import { hasEnded, titleOf } from "./states";
 import type { JobStore } from "./store";
+import { urlOf } from "../dom/base";
 
 export interface Action {
   icon: IconName;
@@ -47,7 +48,7 @@ export function actionsOf(job: Job, store: JobStore, removed?: () => void): Acti
   };
   const fork: Action = {
     why: "", icon: "fork", label: "New case from this one",
-    run: async (job) => go(`/new?from=${job.name}`),
+    run: async (job) => go(urlOf(`/new?from=${job.name}`)),
   };
   const remove: Action = {
     why, icon: "trash", label: "Delete", danger: true,

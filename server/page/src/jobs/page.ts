@@ -11,6 +11,7 @@ import { kActiveStates, kStates, stateWord, titleOf } from "./states";
 import { JobStore } from "./store";
 import { SweepsList } from "./sweeps_list";
 import { JobTable } from "./table";
+import { urlOf } from "../dom/base";
 
 const kPage = 50;
 const kMostPagesAtOnce = 6; // while few of the jobs on a page pass the filter
@@ -158,7 +159,7 @@ export class JobsPage implements View {
     this.show();
     this.empty.hidden = !error && [...this.store.jobs.values()].some((job) => this.isShown(job));
     if (!error && !this.text.value && !this.state.value && !this.empty.hidden) {
-      this.empty.append(" ", h("a", { href: "/new" }, "Start from a preset."));
+      this.empty.append(" ", h("a", { href: urlOf("/new") }, "Start from a preset."));
     }
   }
 
@@ -171,7 +172,7 @@ export class JobsPage implements View {
   }
 
   private openComparison(): void {
-    go(`/compare?jobs=${this.selected.map(idOf).join(",")}`);
+    go(urlOf(`/compare?jobs=${this.selected.map(idOf).join(",")}`));
   }
 
   destroy(): void {

@@ -8,6 +8,7 @@ import { FrameStore } from "../frames/frame_store";
 import { streamFrames } from "../job/job_data";
 import { hasEnded, stateWord } from "../jobs/states";
 import { SmallPicture } from "../picture/small_picture";
+import { urlOf } from "../dom/base";
 
 const kFrames = 32; // of each job
 const kAgainMs = 4000; // for the frames of a running job
@@ -84,7 +85,7 @@ export class CrushCell {
 
   showAt(strain: number): void {
     const { result, job } = this.row;
-    this.link.href = `/${job}?strain=${Number(strain.toFixed(3))}`;
+    this.link.href = urlOf(`/${job}?strain=${Number(strain.toFixed(3))}`);
     const state = result ? stateWord(result.state) : "";
     const { frames, lattice } = this.frames;
     this.note.hidden = frames.length > 0;

@@ -22,6 +22,7 @@ import { SweepOverlay } from "./overlay";
 import { SweepData } from "./sweep_data";
 import { SweepMap } from "./sweep_map";
 import { SweepTableView } from "./table";
+import { urlOf } from "../dom/base";
 
 const kEndStrain = 0.8; // the default
 
@@ -65,7 +66,7 @@ export class SweepPage implements View {
       this.map.element, this.crushes.element,
       h("div", { class: "toolbar table-head" }, h("h2", {}, "Jobs"), h("span", { class: "spacer" }), this.table.menu,
         h("span", { class: "take-away" }, saveButton("CSV", "Save the table as a CSV file", async () =>
-          download(await (await get(`/sweeps/${idOf(name)}.csv`)).blob(), `sweep-${idOf(name)}.csv`)))),
+          download(await (await get(urlOf(`/sweeps/${idOf(name)}.csv`))).blob(), `sweep-${idOf(name)}.csv`)))),
       this.table.element);
     this.stops = [
       this.overlay.changes.add(() => {
@@ -144,7 +145,7 @@ export class SweepPage implements View {
     const { name } = this;
     const may = allowed(this.data.sweep?.owner);
     replaceChildren(this.actions,
-      rows.length > 0 && action("fork", "New case from this one", async () => go(`/new?from=${rows[0].job}`)),
+      rows.length > 0 && action("fork", "New case from this one", async () => go(urlOf(`/new?from=${rows[0].job}`))),
       failed > 0 && action("retry", `Retry ${plural(failed, "failed job")}`, async () => {
         await api.sweeps.retryFailedJobs({ name });
         await this.data.load();
@@ -159,7 +160,7 @@ export class SweepPage implements View {
         const detail = `Its ${plural(rows.length, "job")} disappear with their results. This cannot be undone.`;
         if (!await ask(`Delete sweep ${idOf(name)}?`, detail, "Delete the sweep")) return;
         await api.sweeps.deleteSweep({ name });
-        go("/");
+        go(urlOf("/"));
       }, { class: "danger-quiet", ...may }));
   }
 

@@ -6,6 +6,7 @@ import type { CellColumn } from "../dom/table_view";
 import { kFirstMeasures, kMeasures, titleOfMeasure, unitFor, type Measure } from "../job/measures";
 import { axisName, isSeed } from "./points";
 import type { TableData } from "./table";
+import { urlOf } from "../dom/base";
 
 const kMostCompared = 6;
 type Means = SweepTable_SeedMeans;
@@ -25,7 +26,7 @@ export function meanOfField(means: Means | undefined, field: string): SweepTable
 /** The page of a job, or the comparison of as many as fit. */
 export function jobsLink(rows: SweepTable_Row[]): string {
   const ids = rows.map(({ job }) => idOf(job));
-  return ids.length === 1 ? `/jobs/${ids[0]}` : `/compare?jobs=${ids.slice(0, kMostCompared).join(",")}`;
+  return ids.length === 1 ? urlOf(`/jobs/${ids[0]}`) : urlOf(`/compare?jobs=${ids.slice(0, kMostCompared).join(",")}`);
 }
 
 function ofMeasure(measure: Measure, all: Means[]): CellColumn<Means> {
