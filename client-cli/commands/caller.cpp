@@ -54,7 +54,7 @@ void add_caller_commands(CLI::App& app, Session& session) {
   CLI::App* whoami = add_command(app, session, kServerCommands, "whoami",
                                  "Print who you are to the server, what you may do, and whose the server is",
                                  [&session] { return run_whoami(session); });
-  add_examples(*whoami, {"cellcrush whoami", "cellcrush whoami --server crusher:50551 --json"});
+  add_examples(*whoami, {"cellcrush whoami", "cellcrush whoami --json"});
   const auto name = std::make_shared<std::string>();
   CLI::App* open = add_command(app, session, kServerCommands, "open",
                                "Print a link that signs a browser in, once and within 5 minutes; on a desktop, open it",
