@@ -99,7 +99,8 @@ grpc::ChannelArguments channel_arguments() {
 Connection::Connection(std::string address, Credentials credentials)
     : address_(std::move(address)),
       credentials_(std::move(credentials)),
-      channel_(grpc::CreateCustomChannel(address_, channel_credentials(credentials_), channel_arguments())),
+      channel_(grpc::experimental::CreateCustomChannelWithInterceptors(
+          address_, channel_credentials(credentials_), channel_arguments(), ServerEpoch::interceptors_for(epoch_))),
       cases_(v1::Cases::NewStub(channel_)),
       jobs_(v1::Jobs::NewStub(channel_)),
       sweeps_(v1::Sweeps::NewStub(channel_)),

@@ -15,12 +15,13 @@
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "command_error.h"
 #include "connection/credentials.h"
+#include "connection/server_epoch.h"
 
 namespace cellcrush::client {
 
 /// A channel to one server, with a stub for each service. It connects on first use. If no server answers, it reports
-/// that within two seconds, and within one if the server refuses the connection. Not thread-safe, except for calls on
-/// the stubs.
+/// that within two seconds, and within one if the server refuses the connection. Its calls are for the server that
+/// answered the first of them (ServerEpoch). Not thread-safe, except for calls on the stubs.
 class Connection {
  public:
   /// `address` has the form of find_server_address.
@@ -80,6 +81,9 @@ class Connection {
   /// server for a similar one.
   CommandError error_about(const std::string& name, const grpc::Status& status);
 
+  /// Whether another server has answered than at first, or one with other data; it refuses all calls.
+  [[nodiscard]] bool meets_another_server() const { return epoch_->has_changed(); }
+
   static constexpr std::chrono::seconds kPatience{60};
   /// Largest request that a server accepts, in bytes: 4 MiB.
   static constexpr std::int64_t kLargestRequest = 4 * 1024 * 1024;
@@ -109,6 +113,7 @@ class Connection {
 
   std::string address_;
   Credentials credentials_;
+  std::shared_ptr<ServerEpoch> epoch_ = std::make_shared<ServerEpoch>();
   std::shared_ptr<grpc::Channel> channel_;
   bool connected_ = false;
   std::unique_ptr<v1::Cases::Stub> cases_;
