@@ -7,11 +7,12 @@ import { Cases } from "../../gen/cellcrush/v1/cases_service_pb";
 import { Jobs } from "../../gen/cellcrush/v1/jobs_service_pb";
 import { ProblemListSchema, type Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { Sweeps } from "../../gen/cellcrush/v1/sweeps_service_pb";
+import { withEpoch } from "./epoch";
 import { exportedTransport, isExported } from "./exported";
 import { withToken } from "./token";
 
 const transport = isExported ? exportedTransport
-  : createConnectTransport({ baseUrl: location.origin, useBinaryFormat: true, interceptors: [withToken] });
+  : createConnectTransport({ baseUrl: location.origin, useBinaryFormat: true, interceptors: [withToken, withEpoch] });
 
 export const api = {
   admin: createClient(Admin, transport),
