@@ -35,6 +35,9 @@ class Connection {
   /// Whether the server answers within `patience`.
   bool wait(std::chrono::milliseconds patience);
 
+  /// Notices whether the connection was lost while nobody called, so that the next call does not fail by that.
+  void refresh() { static_cast<void>(last_failure()); }
+
   /// Gives a call the credentials and, if it is above 0, a time limit.
   void prepare(grpc::ClientContext& context, std::chrono::milliseconds patience = {}) const;
 
