@@ -95,7 +95,8 @@ std::string problems_text(const v1::ProblemList& problems) {
 std::string notes_text(const google::protobuf::RepeatedPtrField<v1::Problem>& notes) {
   std::string text;
   for (const v1::Problem& note : notes) {
-    const std::string what = fmt::format("{} = {} {} {}", note.field(), note.value(), note.message(), note.remedy());
+    const std::string value = note.value().empty() ? "" : " = " + note.value();
+    const std::string what = fmt::format("{}{} {} {}", note.field(), value, note.message(), note.remedy());
     text += wrapped(printable(what), terminal_width(), "Note: ", "    ");
   }
   return text;

@@ -81,7 +81,7 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
       reflection(rpc::make_reflection_services({"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
                                                 "cellcrush.v1.Admin", "grpc.health.v1.Health"},
                                                gate, stream_limits)),
-      methods(gate, http_pump) {
+      methods(gate, http_pump, store::epoch_for_callers(journal.epoch(), folder.journal())) {
   rpc::add_cases_methods(methods, shared);
   rpc::add_health_methods(methods, board, {pump, metrics, health_limits, options.watch_times});
   rpc::add_jobs_methods(methods, shared);

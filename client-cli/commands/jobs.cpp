@@ -117,8 +117,9 @@ ExitCode ask_and_delete(Session& session, Stub& stub,
                         grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                         const std::string& name, bool yes, std::string (*question)(Connection&, const std::string&)) {
   Connection& connection = session.connection();
-  if (!yes && !confirm([&] { return question(connection, name); })) {
-    refuse(name + " was not deleted");
+  if (!yes) {
+    if (!confirm([&] { return question(connection, name); })) refuse(name + " was not deleted");
+    connection.refresh();  // the answer may have taken hours
   }
   const Response response = connection.call_for(name, stub, method);
   session.json ? print_json(response) : fmt::print("{} deleted\n", name);

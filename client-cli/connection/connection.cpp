@@ -104,7 +104,8 @@ Connection::Connection(ServerAddress address, Credentials credentials)
     : address_(std::move(address.text)),
       may_be_others_(address.may_be_others),
       credentials_(std::move(credentials)),
-      channel_(grpc::CreateCustomChannel(address_, channel_credentials(credentials_), channel_arguments())),
+      channel_(grpc::experimental::CreateCustomChannelWithInterceptors(
+          address_, channel_credentials(credentials_), channel_arguments(), ServerEpoch::interceptors_for(epoch_))),
       cases_(v1::Cases::NewStub(channel_)),
       jobs_(v1::Jobs::NewStub(channel_)),
       sweeps_(v1::Sweeps::NewStub(channel_)),

@@ -16,6 +16,7 @@
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "command_error.h"
 #include "connection/credentials.h"
+#include "connection/server_epoch.h"
 
 namespace cellcrush::client {
 
@@ -25,8 +26,8 @@ inline constexpr std::array<std::chrono::milliseconds, 5> kPauses = {
      std::chrono::seconds(4)}};
 
 /// A channel to one server, with a stub for each service. It connects on first use. If no server answers, it reports
-/// that within two seconds, and within one if the server refuses the connection. Not thread-safe, except for calls on
-/// the stubs.
+/// that within two seconds, and within one if the server refuses the connection. Its calls are for the server that
+/// answered the first of them (ServerEpoch). Not thread-safe, except for calls on the stubs.
 class Connection {
  public:
   /// A server that may be another user's is asked whose it is; if it is not this user's, stderr says so, and calls that
@@ -42,6 +43,9 @@ class Connection {
 
   /// Whether the server answers within `patience`.
   bool wait(std::chrono::milliseconds patience);
+
+  /// Notices whether the connection was lost while nobody called, so that the next call does not fail by that.
+  void refresh() { static_cast<void>(last_failure()); }
 
   /// Gives a call the credentials and, if it is above 0, a time limit.
   void prepare(grpc::ClientContext& context, std::chrono::milliseconds patience = {}) const;
@@ -90,6 +94,9 @@ class Connection {
   /// server for a similar one.
   CommandError error_about(const std::string& name, const grpc::Status& status);
 
+  /// Whether another server has answered than at first, or one with other data; it refuses all calls.
+  [[nodiscard]] bool meets_another_server() const { return epoch_->has_changed(); }
+
   static constexpr std::chrono::seconds kPatience{60};
   /// Largest request that a server accepts, in bytes: 4 MiB.
   static constexpr std::int64_t kLargestRequest = 4 * 1024 * 1024;
@@ -125,6 +132,7 @@ class Connection {
   bool may_be_others_;
   std::string owner_;  ///< empty: this user, or it does not matter
   Credentials credentials_;
+  std::shared_ptr<ServerEpoch> epoch_ = std::make_shared<ServerEpoch>();
   std::shared_ptr<grpc::Channel> channel_;
   bool connected_ = false;
   std::unique_ptr<v1::Cases::Stub> cases_;

@@ -127,6 +127,8 @@ bool follow(Connection& connection, const FollowedStream<Event>& stream, const I
     const grpc::Status status = reader->Finish();
     if (status.ok() && stream.is_complete()) return true;
     if (interruption.requested()) return false;
+    if (connection.meets_another_server())
+      throw CommandError(ExitCode::cut_off, "lost the watch of " + stream.name + ": " + error_of(status).message());
     if (!status.ok() && !may_recover(status.error_code())) throw connection.error_about(stream.name, status);
     const std::string reason =
         status.ok() ? "the server closed the stream before " + stream.name + " ended" : error_of(status).message();

@@ -28,11 +28,12 @@ constexpr const char* kContentPolicy =
     "media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors ";
 
 template <class Body>
-bhttp::response<Body> new_response(unsigned status, bool keep_alive, const char* caching) {
+bhttp::response<Body> new_response(unsigned status, bool keep_alive, const char* caching, const std::string& epoch) {
   bhttp::response<Body> out(static_cast<bhttp::status>(status), 11);
   out.set("X-Content-Type-Options", "nosniff");
   out.set("Referrer-Policy", "no-referrer");
   out.set(Field::cache_control, caching);
+  out.set(rpc::kEpochHeader, epoch);
   out.keep_alive(keep_alive);
   return out;
 }
@@ -224,6 +225,7 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
 std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::MethodTable::Method& method,
                                              const Encoding& encoding, grpc::Status& status) {
   rpc::Incoming incoming;
+  incoming.epoch = std::string(request[rpc::kEpochHeader]);
   status = parts_.gate.check_http_call(path_of(*method.descriptor), credentials_of(request), incoming.caller);
   if (status.ok() && asks_for_compression(request, encoding))
     status = {grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed."};
@@ -243,6 +245,7 @@ std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::
 std::shared_ptr<Call> Connection::begin_call(const Request& request, const std::shared_ptr<Download>& download,
                                              grpc::Status& status) {
   rpc::Incoming incoming;
+  incoming.epoch = std::string(request[rpc::kEpochHeader]);
   status = parts_.gate.check_http_call(download->method, credentials_of(request), incoming.caller);
   if (!status.ok()) return nullptr;
   status = cellcrush::answer([&] {
@@ -339,7 +342,7 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
   const std::string_view bytes = !start.empty() ? start : small.empty() ? file->bytes : small;
   const std::string tag = web::entity_tag(bytes);
   const bool known = request[Field::if_none_match] == tag;
-  auto response = new_response<bhttp::string_body>(known ? 304 : 200, keep_alive_, "no-cache");
+  auto response = new_response<bhttp::string_body>(known ? 304 : 200, keep_alive_, "no-cache", parts_.methods.epoch());
   response.set(Field::etag, tag);
   response.set(Field::vary, "Accept-Encoding");
   const std::string& framing = parts_.framing_origins;
@@ -387,7 +390,7 @@ asio::awaitable<void> Connection::answer_download(const Request& request) {
 }
 
 asio::awaitable<void> Connection::send(unsigned status, const std::string& type, std::string body) {
-  auto response = new_response<bhttp::string_body>(status, keep_alive_, "no-store");
+  auto response = new_response<bhttp::string_body>(status, keep_alive_, "no-store", parts_.methods.epoch());
   response.set(Field::content_type, type);
   if (status == 405) response.set(Field::allow, "GET, HEAD, POST");
   response.content_length(body.size());
@@ -405,7 +408,7 @@ asio::awaitable<void> Connection::send_stream_head(const std::string& content_ty
   const bool has_size = file != nullptr && file->size;
   keep_alive_ = keep_alive_ && (is_chunked_ || has_size);
   is_chunked_ = is_chunked_ && !has_size;
-  auto response = new_response<bhttp::empty_body>(200, keep_alive_, "no-store");
+  auto response = new_response<bhttp::empty_body>(200, keep_alive_, "no-store", parts_.methods.epoch());
   response.set(Field::content_type, content_type);
   if (file != nullptr) describe(*file, response);
   response.set("X-Accel-Buffering", "no");  // nginx passes each chunk on at once

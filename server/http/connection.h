@@ -27,6 +27,7 @@ struct GatewayParts {
   net::ConnectionLimits limits;
   std::string framing_origins;  ///< which may frame the page, separated by spaces; empty: none
   PublicUrl public_url;
+  int port = 0;
   bool has_tls = false;
   bool stopping = false;
 };

@@ -113,6 +113,7 @@ struct Gateway::Impl {
               limits,
               absl::StrJoin(framing_origins, " "),
               public_url,
+              port.address().port,
               tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {

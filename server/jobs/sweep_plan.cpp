@@ -222,6 +222,26 @@ class PointChecker {
   std::vector<translate::CaseChecker> checkers_;
 };
 
+v1::Problem implausible(const std::string& field, const std::string& message, const std::string& remedy) {
+  auto note = invalid_problem(field, message, remedy);
+  note.set_kind(v1::Problem::IMPLAUSIBLE);
+  return note;
+}
+
+// Axes refuse a repeated value; only listed points repeat.
+std::optional<v1::Problem> repetition_note(const SweepPoints& points) {
+  const auto found = find_repeated(points.values);
+  if (found.count == 0) return std::nullopt;
+  const std::string many = std::to_string(found.count);
+  return implausible("sweep.points",
+                     "have " + many + (found.count == 1 ? " entry that repeats" : " entries that repeat") +
+                         " an earlier one: " + (found.count == 1 ? "" : "first ") + "point " +
+                         std::to_string(found.second + 1) + " of " + std::to_string(points.values.size()) + " (" +
+                         cut_text(text_of_point(points.fields, points.values[found.second]), kLongestTitle) +
+                         ") equals point " + std::to_string(found.first + 1) + ".",
+                     "List each point once; equal cases have equal results.");
+}
+
 // A seed places the imperfections; without any, all seeds give the same result.
 std::optional<v1::Problem> idle_seed_note(const v1::Sweep& sweep, const std::vector<std::string>& fields) {
   const auto varies = [&fields](std::string_view field) { return std::ranges::find(fields, field) != fields.end(); };
@@ -229,11 +249,8 @@ std::optional<v1::Problem> idle_seed_note(const v1::Sweep& sweep, const std::vec
   const bool has_some = imperfection.amplitude_mm() > 0.0 || imperfection.bow_mm() > 0.0 ||
                         varies("lattice.imperfection.amplitude_mm") || varies("lattice.imperfection.bow_mm");
   if (has_some || !varies(kSeedField)) return std::nullopt;
-  auto note =
-      invalid_problem(kSeedField, "has no effect: the case has no imperfections, so all seeds give the same result.",
-                      "Set lattice.imperfection.amplitude_mm or bow_mm above 0.");
-  note.set_kind(v1::Problem::IMPLAUSIBLE);
-  return note;
+  return implausible(kSeedField, "has no effect: the case has no imperfections, so all seeds give the same result.",
+                     "Set lattice.imperfection.amplitude_mm or bow_mm above 0.");
 }
 
 }  // namespace
@@ -264,6 +281,7 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
     return out;
   }
   out.notes = notes.merged();
+  if (auto note = repetition_note(points)) *out.notes.Add() = *std::move(note);
   if (auto note = idle_seed_note(sweep, points.fields)) *out.notes.Add() = *std::move(note);
   return out;
 }

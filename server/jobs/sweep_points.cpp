@@ -107,22 +107,14 @@ void append(Points& steps, const std::vector<double>& values, const std::string&
 
 // Equal steps of an axis would be the same jobs twice.
 void check_distinct(const Points& points, const std::vector<std::string>& fields, const std::string& axis) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    // A number that is not finite is refused with its field.
-    if (std::ranges::all_of(points[i], [](double value) { return std::isfinite(value); })) order.push_back(i);
-  }
-  const auto point_at = [&points](std::size_t i) -> const std::vector<double>& { return points[i]; };
-  std::ranges::stable_sort(order, {}, point_at);
-  const auto first = std::ranges::adjacent_find(order, {}, point_at);
-  if (first == order.end()) return;
-  const std::size_t second = *std::next(first);
+  const auto found = find_repeated(points);
+  if (found.count == 0) return;
   std::string values;
   for (std::size_t i = 0; i < fields.size(); ++i)
-    values += (i == 0 ? "" : ", ") + fields[i] + " = " + text_of(points[second][i]);
+    values += (i == 0 ? "" : ", ") + fields[i] + " = " + text_of(points[found.second][i]);
   throw InvalidField(axis,
-                     "has " + values + " twice, at the places " + std::to_string(*first + 1) + " and " +
-                         std::to_string(second + 1) + ".",
+                     "has " + values + " twice, at the places " + std::to_string(found.first + 1) + " and " +
+                         std::to_string(found.second + 1) + ".",
                      "Give each value once; equal cases have equal results.");
 }
 
@@ -181,6 +173,26 @@ std::vector<std::vector<double>> listed(const v1::Sweep& sweep, const std::vecto
 }
 
 }  // namespace
+
+RepeatedPoints find_repeated(const std::vector<std::vector<double>>& points) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // A number that is not finite is refused with its field.
+    if (std::ranges::all_of(points[i], [](double value) { return std::isfinite(value); })) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, {}, [&points](std::size_t i) -> const std::vector<double>& { return points[i]; });
+  RepeatedPoints out;
+  std::size_t original = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (points[order[i]] != points[order[original]]) {
+      original = i;
+    } else if (out.count++ == 0 || order[i] < out.second) {
+      out.first = order[original];
+      out.second = order[i];
+    }
+  }
+  return out;
+}
 
 std::vector<std::string> swept_fields(const v1::Sweep& sweep) {
   std::vector<std::string> out;

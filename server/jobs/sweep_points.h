@@ -17,6 +17,14 @@ struct SweepPoints {
   std::vector<std::vector<double>> values;  ///< by point: one value per field, in the order of `fields`
 };
 
+/// Points that equal an earlier one: their number, and the first of them with the point it equals, as indices.
+struct RepeatedPoints {
+  std::size_t count = 0;
+  std::size_t first = 0;
+  std::size_t second = 0;
+};
+RepeatedPoints find_repeated(const std::vector<std::vector<double>>& points);
+
 /// The fields that a sweep varies: those of its axes in order, or those of its points by name.
 std::vector<std::string> swept_fields(const v1::Sweep& sweep);
 

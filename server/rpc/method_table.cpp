@@ -116,6 +116,28 @@ void MethodTable::read_into(google::protobuf::Message& request, const char* path
                                                         " bytes. Use at most " + std::to_string(kLargestMessage) + ".");
 }
 
+std::string MethodTable::exchange_epochs(grpc::CallbackServerContext& context) const {
+  context.AddInitialMetadata(kEpochHeader, epoch_.id);
+  const auto found = context.client_metadata().find(kEpochHeader);
+  if (found == context.client_metadata().end()) return "";
+  std::string named(found->second.data(), found->second.size());
+  // Python's asyncio may drop the initial metadata of a refused stream.
+  if (named != epoch_.id) context.AddTrailingMetadata(kEpochHeader, epoch_.id);
+  return named;
+}
+
+void MethodTable::require_epoch(const std::string& named) const {
+  if (named.empty() || named == epoch_.id) return;
+  const std::string shown = named.substr(0, std::min<std::size_t>(named.find_first_not_of("0123456789abcdef"), 32));
+  throw ServiceError(
+      ServiceError::Kind::failed_precondition,
+      "This is another server, or another data folder, than the one that the call is meant for: the call names epoch " +
+          shown + ", this server has epoch " + epoch_.id +
+          (epoch_.restored.empty() ? "" : ", since the restore of " + epoch_.restored) +
+          ". Its jobs are others, even under the same names. Nothing was changed. List its jobs before you change "
+          "any.");
+}
+
 void MethodTable::run(CallPool* pool, CallPool::Task task) {
   pool != nullptr ? pool->run(std::move(task)) : task.finish(answer(task.body));
 }
@@ -140,6 +162,10 @@ const google::protobuf::MethodDescriptor* MethodTable::describe(std::string_view
 
 void MethodTable::add(const char* path, std::optional<access::Scope> scope, Method method) {
   gate_.guard(path, scope);
+  method.open = [this, open = std::move(method.open)](const Incoming& incoming) {
+    require_epoch(incoming.epoch);
+    return open(incoming);
+  };
   methods_.emplace(path, std::move(method));
 }
 

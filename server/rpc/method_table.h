@@ -21,20 +21,27 @@
 #include "rpc/call_pool.h"
 #include "rpc/source_stream.h"
 #include "rpc/stream_reactor.h"
+#include "store/journal_schema.h"
 #include "translate/case_words.h"
 
 namespace cellcrush::rpc {
 
+/// Metadata of gRPC, header of HTTP. An answer has the epoch of the daemon's data in it; a call, if it names one, the
+/// epoch that its client has seen.
+inline constexpr const char* kEpochHeader = "cellcrush-epoch";
+
 /// A call that did not come over gRPC, once the gate has admitted it.
 struct Incoming {
   access::Caller caller;
+  std::string epoch;  ///< that the call names; empty: none
   /// Reads the request; false if its bytes cannot be parsed. May throw ServiceError.
   std::function<bool(google::protobuf::Message& request)> decode;
   MessageStream::Encode encode;  ///< of the answers
 };
 
 /// All methods of the API: what each needs, and who answers it. gRPC and the Connect protocol both call through this
-/// table. Thread-safe once it is complete.
+/// table. A call that names another epoch than the daemon's is refused with failed_precondition, so that no command
+/// reaches a job of the same name on another server. Thread-safe once it is complete.
 class MethodTable {
  public:
   struct Method {
@@ -44,7 +51,8 @@ class MethodTable {
   };
 
   /// `http_pump` advances the streams that are not gRPC's. Both outlive the table.
-  MethodTable(access::Gate& gate, watch::Pump& http_pump) : gate_(gate), http_pump_(http_pump) {}
+  MethodTable(access::Gate& gate, watch::Pump& http_pump, store::Epoch epoch)
+      : gate_(gate), http_pump_(http_pump), epoch_(std::move(epoch)) {}
 
   // In both, `path` is a literal: "/cellcrush.v1.Jobs/GetJob". `scope`: what callers need; nothing: open to everybody.
   // Throws ServiceError (internal) if the .proto files have no such method.
@@ -60,7 +68,8 @@ class MethodTable {
                     auto* reactor = context->DefaultReactor();
                     const auto call = std::make_shared<GrpcCall>(gate_, *context);
                     run(pool, {call, static_cast<std::int64_t>(request->ByteSizeLong()),
-                               [call, service, handle, request, response] {
+                               [this, epoch = exchange_epochs(*context), call, service, handle, request, response] {
+                                 require_epoch(epoch);
                                  *response = (*service.*handle)(*call, *request);
                                  translate::add_words(*response);
                                },
@@ -91,10 +100,14 @@ class MethodTable {
               new grpc::internal::CallbackServerStreamingHandler<Request, Message>(
                   [this, parts, service, make, is_open = !scope](grpc::CallbackServerContext* context,
                                                                  const Request* request) {
+                    const auto epoch = exchange_epochs(*context);
                     return open_stream<Source>(
                         parts, *context,
                         [&] { return is_open ? address_of(context->peer()) : gate_.caller_of(*context).name; },
-                        [&] { return (*service.*make)(*request); });
+                        [&] {
+                          require_epoch(epoch);
+                          return (*service.*make)(*request);
+                        });
                   }));
     const StreamParts http_parts{http_pump_, parts.metrics, parts.limits, parts.times};
     const auto open = [path, http_parts, service, make](const Incoming& incoming) {
@@ -107,6 +120,9 @@ class MethodTable {
 
   /// Null if there is none.
   [[nodiscard]] const Method* find(std::string_view path) const;
+
+  /// Of the daemon's data.
+  [[nodiscard]] const std::string& epoch() const { return epoch_.id; }
 
   /// Lets gRPC call the methods. The table outlives the server that is built.
   void register_with(grpc::ServerBuilder& builder) { builder.RegisterService(&grpc_); }
@@ -163,6 +179,9 @@ class MethodTable {
   }
 
   static void read_into(google::protobuf::Message& request, const char* path, const Incoming& incoming);
+  /// Puts the daemon's epoch into the answer. The one that the call names; empty: none.
+  std::string exchange_epochs(grpc::CallbackServerContext& context) const;
+  void require_epoch(const std::string& named) const;
   static void run(CallPool* pool, CallPool::Task task);
   static std::string address_of(const std::string& peer);
   static const google::protobuf::MethodDescriptor* describe(std::string_view path,
@@ -173,6 +192,7 @@ class MethodTable {
 
   access::Gate& gate_;
   watch::Pump& http_pump_;
+  const store::Epoch epoch_;
   GrpcService grpc_;
   std::map<std::string, Method, std::less<>> methods_;
 };

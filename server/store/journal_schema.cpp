@@ -1,6 +1,9 @@
 #include "store/journal_schema.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include <system_error>
 #include <utility>
@@ -218,6 +221,15 @@ std::string fact(Database& database, const std::string& name) {
 }  // namespace
 
 Epoch read_epoch(Database& database) { return {fact(database, "epoch"), fact(database, "restored")}; }
+
+Epoch epoch_for_callers(Epoch epoch, const std::filesystem::path& journal) {
+  // Both stay when the folder is renamed or the machine starts again. A file system may know no time of birth: 0.
+  struct statx file {};
+  statx(AT_FDCWD, journal.c_str(), 0, STATX_INO | STATX_BTIME, &file);
+  epoch.id += fmt::format("{:08x}{:08x}", file.stx_ino & 0xffffffffU,
+                          static_cast<std::uint32_t>(file.stx_btime.tv_sec) ^ file.stx_btime.tv_nsec);
+  return epoch;
+}
 
 void begin_epoch(Database& database, const std::string& restored) {
   Statement write(database, "INSERT OR REPLACE INTO facts (name, value) VALUES (?1, ?2)");

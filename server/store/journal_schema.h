@@ -30,6 +30,10 @@ struct Epoch {
 /// The journal's epoch; empty if it has none yet. Throws ServiceError.
 Epoch read_epoch(Database& database);
 
+/// The epoch as callers see it: a copy of the data folder has the journal's epoch, but another one for callers, since
+/// both go on to other jobs.
+Epoch epoch_for_callers(Epoch epoch, const std::filesystem::path& journal);
+
 /// Starts a new epoch; `restored` as in Epoch. Throws ServiceError.
 void begin_epoch(Database& database, const std::string& restored);
 

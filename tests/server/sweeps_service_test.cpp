@@ -114,6 +114,29 @@ TEST_F(SweepsServiceTest, ImplausibleValuesOfSomePointsAreNotedWithTheFirst) {
   EXPECT_EQ(job_count(), 0U);
 }
 
+TEST_F(SweepsServiceTest, ListedPointsThatRepeatAreNotedWithTheFirst) {
+  const auto notes_of = [this](const std::vector<double>& speeds, bool validate_only) {
+    v1::CreateSweepRequest request;
+    request.set_validate_only(validate_only);
+    *request.mutable_sweep()->mutable_case_() = tiny_case();
+    for (const double speed : speeds) (*request.mutable_sweep()->add_points()->mutable_fields())[kSpeed] = speed;
+    auto client = this->client();
+    return create(client, request).notes();
+  };
+  for (const bool validate_only : {true, false}) {
+    const auto notes = notes_of({50.0, 80.0, 70.0, 80.0, 50.0, 80.0}, validate_only);
+    ASSERT_EQ(notes.size(), 1);
+    EXPECT_EQ(notes[0].field(), "sweep.points");
+    EXPECT_EQ(notes[0].kind(), v1::Problem::IMPLAUSIBLE);
+    EXPECT_EQ(notes[0].message(),
+              "have 3 entries that repeat an earlier one: first point 4 of 6 (loading.speed_m_per_s = 80) equals point "
+              "2.");
+  }
+  EXPECT_THAT(notes_of({50.0, 50.0}, true)[0].message(),
+              HasSubstr("have 1 entry that repeats an earlier one: point 2"));
+  EXPECT_EQ(notes_of({50.0, 80.0}, true).size(), 0);
+}
+
 TEST_F(SweepsServiceTest, WhatIsNoSweepIsRefusedByField) {
   const auto expect = [this](const v1::CreateSweepRequest& request, const std::string& text) {
     const auto status = client().try_to(request);

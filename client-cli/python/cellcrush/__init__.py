@@ -7,7 +7,8 @@
 2.4
 """
 from cellcrush.arrays import Frames, Mesh
-from cellcrush.errors import CaseError, CrushError, FileError, JobFailed, NotConnected, NotFound, Problem
+from cellcrush.errors import (CaseError, CrushError, FileError, JobFailed, NotConnected, NotFound, Problem,
+                              ServerChanged)
 from cellcrush.job import Job
 from cellcrush.private import private_server, run
 from cellcrush.result_file import ResultFile, open
@@ -16,5 +17,5 @@ from cellcrush.sweep import Sweep
 from cellcrush.v1.case_pb2 import Case
 
 __all__ = ["Case", "CaseError", "Check", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
-           "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "Sweep", "connect", "open", "private_server",
-           "run"]
+           "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "ServerChanged", "Sweep", "connect", "open",
+           "private_server", "run"]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, AsyncIterator, Dict, List, Mapping, Optio
 
 import cellcrush as _plain
 from cellcrush import (Case, CaseError, Check, CrushError, FileError, Frames, JobFailed, Mesh, NotConnected, NotFound,
-                       Problem, ResultFile)
+                       Problem, ResultFile, ServerChanged)
 from cellcrush import server as _server
 from cellcrush import sweep as _sweep
 from cellcrush.aio_job import Job, documented_as, follow
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     import pandas
 
 __all__ = ["Case", "CaseError", "Check", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
-           "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "Sweep", "connect", "open", "private_server",
-           "run"]
+           "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "ServerChanged", "Sweep", "connect", "open",
+           "private_server", "run"]
 
 
 @documented_as(_sweep.Sweep)

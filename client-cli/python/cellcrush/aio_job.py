@@ -11,7 +11,7 @@ from cellcrush import job as _job
 from cellcrush.arrays import Array, Frames, Mesh
 from cellcrush.connection import OPTIONS, RECOVERABLE, SILENCE_S, Connection, Patience
 from cellcrush.display import Bar
-from cellcrush.errors import NotConnected, raise_error
+from cellcrush.errors import NotConnected
 from cellcrush.job import JobWatch
 from cellcrush.results import PathLike
 from cellcrush.v1 import jobs_service_pb2_grpc
@@ -64,7 +64,7 @@ async def follow(connection: Connection, stub: Any, method: str, next_request: C
                 lost = "it fell silent"
             except grpc.RpcError as error:
                 if error.code() not in RECOVERABLE:
-                    raise_error(error, connection.address)
+                    connection.refuse(error)
                 lost = error.details() or ""
             finally:
                 stream.cancel()

@@ -8,11 +8,11 @@ import pwd
 import sys
 import threading
 import time
-from typing import Any, Callable, Iterator, Optional, Tuple, TypeVar
+from typing import Any, Callable, Iterator, NoReturn, Optional, Tuple, TypeVar
 
 import grpc
 
-from cellcrush.errors import CrushError, NotConnected, raise_error
+from cellcrush.errors import CrushError, NotConnected, ServerChanged, raise_error
 from cellcrush.v1 import (admin_service_pb2, admin_service_pb2_grpc, cases_service_pb2_grpc, jobs_service_pb2_grpc,
                           sweeps_service_pb2_grpc)
 
@@ -25,6 +25,7 @@ OPTIONS = [("grpc.max_receive_message_length", -1), ("grpc.max_send_message_leng
            ("grpc.keepalive_time_ms", 20_000), ("grpc.keepalive_timeout_ms", 20_000),
            ("grpc.http2.max_pings_without_data", 0)]
 CALL_TIMEOUT_S = 120.0
+EPOCH = "cellcrush-epoch"  # identifies the data of a daemon, in the metadata of its answers and of calls for it
 SILENCE_S = 60.0  # a living watch sends something every 15 s
 MAX_PAUSE_S = 5.0
 RECOVERABLE = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED, grpc.StatusCode.CANCELLED,
@@ -66,7 +67,8 @@ def _own_user() -> str:
 
 
 class Connection:
-    """A channel to a daemon. Every call of it is safe to repeat, and is repeated while the daemon does not answer."""
+    """A channel to a daemon. Every call of it is safe to repeat, and is repeated while the daemon does not answer. All
+    are for the daemon that answered first: what names a job to it is not sent to another one."""
 
     def __init__(self, address: Optional[str], ca: Optional[str], token_file: Optional[str], certificate: Optional[str],
                  key: Optional[str], patience_s: float) -> None:
@@ -153,17 +155,32 @@ class Connection:
         time.sleep(pause)
         return self._is_ready(patience.left_s())
 
+    def keep_epoch(self, answer: Any) -> None:
+        """Names the epoch of the first answer in all later calls."""
+        if EPOCH not in dict(self.metadata):
+            self.metadata += tuple(pair for pair in answer.initial_metadata() or () if pair[0] == EPOCH)
+
+    def refuse(self, error: Any) -> NoReturn:
+        """Raises the exception for a call that failed."""
+        if EPOCH in dict(tuple(error.trailing_metadata() or ())):  # of a server with another one than the call names
+            raise ServerChanged(f"{self.address}: {error.details()} connect() again to use this server.") from None
+        raise_error(error, self.address)
+
     def call(self, method: Callable[..., Event], request: Any) -> Event:
         """Calls a method; repeats it while the daemon is away."""
         self._require_named(request)
         patience = Patience(self.patience_s)
         while True:
             try:
-                return method(request, timeout=CALL_TIMEOUT_S, metadata=self.metadata)
+                answer: Event
+                answer, call = method.with_call(  # type: ignore[attr-defined]
+                    request, timeout=CALL_TIMEOUT_S, metadata=self.metadata)
+                self.keep_epoch(call)
+                return answer
             except grpc.RpcError as error:
                 lost = error.code() in (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED)
                 if not lost or not self._pause(patience):
-                    raise_error(error, self.address)
+                    self.refuse(error)
 
     def pages(self, method: Callable[..., Event], request: Any) -> Iterator[Event]:
         """All pages of a list."""
@@ -185,13 +202,14 @@ class Connection:
                 for message in stream:
                     watchdog.heard()
                     patience.renew()
+                    self.keep_epoch(stream)
                     yield message
                 if is_complete():
                     return
                 lost = "the server closed the stream"
             except grpc.RpcError as error:
                 if error.code() not in RECOVERABLE:
-                    raise_error(error, self.address)
+                    self.refuse(error)
                 lost = error.details() or ""
             finally:
                 watchdog.stop()

@@ -19,6 +19,11 @@ class NotConnected(CrushError, ConnectionError):
     """No daemon answers, or it stopped answering for longer than `patience_s`."""
 
 
+class ServerChanged(CrushError):
+    """Another daemon answers than at first, or the same one with other data: its jobs are others, even under the same
+    names. It has changed nothing; `connect` again to use it."""
+
+
 class NotFound(CrushError, LookupError):
     """No job, sweep or preset has this name."""
 

@@ -10,6 +10,7 @@ import "./style/new_case.css";
 import "./style/server.css";
 import { learnCaller } from "./api/caller";
 import { api } from "./api/clients";
+import { otherServer } from "./api/epoch";
 import { exportedBy, isExported } from "./api/exported";
 import { chooseTheme, kThemes, startTheme, theme, type Theme } from "./dom/preferences";
 import { forgetToken, hasToken } from "./api/token";
@@ -19,7 +20,7 @@ import { button, h, setText } from "./dom/element";
 import { JobPage } from "./job/page";
 import { JobsPage } from "./jobs/page";
 import { NewCasePage } from "./new_case/page";
-import { route, startRouter, valuesOfUrl } from "./router";
+import { route, showOnly, startRouter, valuesOfUrl } from "./router";
 import { HelpPage } from "./server/help";
 import { ServerPage } from "./server/page";
 import { SweepPage } from "./sweep/page";
@@ -30,6 +31,7 @@ const kConnectionWords: Record<Connection, string> = {
   live: "live",
   away: "The daemon does not answer. The page catches up when it is back.",
   hidden: "paused",
+  other: "another server",
 };
 
 function topBar(): HTMLElement {
@@ -55,6 +57,18 @@ function topBar(): HTMLElement {
       h("a", { href: urlOf("/server") }, "Server"), h("a", { href: urlOf("/help") }, "Help")),
     h("span", { class: "spacer" }), version, themeChoice(),
     hasToken() ? button("Forget the token", forgetToken, { class: "quiet" }) : null, status, retry);
+}
+
+// Nothing of the former server stays, not even a question that is open.
+function dropFormerServer(): void {
+  for (const dialog of document.querySelectorAll("dialog")) dialog.remove();
+  showOnly({
+    title: "Another server", destroy: () => undefined,
+    element: h("div", { class: "page other-server", role: "alert" }, h("h1", {}, "Another server answers here now"),
+      h("p", {}, `The server at ${location.host} has other data than the one that this tab showed: another data folder,`
+        + " or a restored backup. Its jobs are others, even under the same numbers. Nothing of it was changed."),
+      button("Show the jobs of this server", () => location.assign("/"), { class: "primary" })),
+  });
 }
 
 function themeChoice(): HTMLElement {
@@ -99,6 +113,7 @@ if (isExported) {
   void showExported(main);
 } else {
   document.body.append(h("a", { class: "skip", href: "#main" }, "To the content"), topBar(), main);
+  otherServer.add(dropFormerServer);
   watch.start();
   // Views show what the caller may do.
   void learnCaller().then(() => startRouter(main));

@@ -63,6 +63,13 @@ export function keepInUrl(values: Record<string, string | undefined>): void {
   if (text !== before) history.replaceState(null, "", text || (isExported ? "#" : location.pathname));
 }
 
+/** Shows this view alone, until the page is loaded again. Links load it. */
+export function showOnly(view: View): void {
+  routes.splice(0, routes.length, { path: /^/, build: () => view });
+  document.removeEventListener("click", followLink);
+  show();
+}
+
 // Links of the page, unless the user asks for a new tab or window.
 function followLink(event: MouseEvent): void {
   const link = (event.target as Element).closest?.("a");

@@ -1,4 +1,5 @@
 """Jobs: results as arrays, and waits that survive what happens to them."""
+import asyncio
 import contextlib
 import io
 import itertools
@@ -14,6 +15,7 @@ import unittest
 from unittest import mock
 
 import cellcrush as cc
+import cellcrush.aio
 import numpy as np
 from support import PRESET, SLOW, SMALL, WithServer
 
@@ -158,9 +160,10 @@ class Interruptions(unittest.TestCase):
                     wait(server)
             self.assertEqual(said.getvalue(), "\nthe private server stops, and its jobs with it\n")
 
-    def start(self, folder):
-        daemon = subprocess.Popen([os.environ["CELLCRUSHD"], "--data", f"{folder}/data", "--listen",
+    def start(self, folder, data="data"):
+        daemon = subprocess.Popen([os.environ["CELLCRUSHD"], "--data", f"{folder}/{data}", "--listen",
                                    f"unix:{folder}/s", "--http", "none"], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(daemon.kill)
         daemon.stdout.readline()
         daemon.stdout.close()
         return daemon
@@ -188,6 +191,26 @@ class Interruptions(unittest.TestCase):
             self.assertEqual(watched, steps)
             self.assertEqual(sweep.states, {"SUCCEEDED": 2})
             server.close()
+            daemon.terminate()
+            daemon.wait()
+
+    def test_a_handle_of_a_former_server_changes_nothing_of_the_next_one(self):
+        with tempfile.TemporaryDirectory(dir="/tmp") as folder:
+            daemon = self.start(folder)
+            server = self.enterContext(cc.connect(f"unix:{folder}/s"))
+            job, sweep = server.submit(PRESET, SMALL).wait(), server.sweep(PRESET, SMALL, depth_mm=[1, 2]).wait()
+            daemon.terminate()
+            daemon.wait()
+            daemon = self.start(folder, "second")
+            now = self.enterContext(cc.connect(f"unix:{folder}/./s"))  # a connection of its own
+            theirs = now.submit(PRESET, SMALL).wait(), now.sweep(PRESET, SMALL, depth_mm=[1, 2]).wait()
+            self.assertEqual([each.name for each in theirs], [job.name, sweep.name])
+            for call in (job.delete, job.cancel, job.refresh, job.wait, sweep.delete, sweep.retry,
+                         lambda: sweep.set_note("x"), lambda: server.submit(PRESET, SMALL),
+                         lambda: asyncio.run(cellcrush.aio.Job(job).wait())):
+                with self.assertRaisesRegex(cc.ServerChanged, r"another server, .* connect\(\) again"):
+                    call()
+            self.assertEqual((theirs[0].refresh().state, theirs[1].refresh().note), ("SUCCEEDED", ""))
             daemon.terminate()
             daemon.wait()
 

@@ -5,6 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { openPage, stage } from './browser.mjs';
+import { Daemon } from './daemon.mjs';
 
 let browser;
 const daemon = stage((its) => ({ browser } = its));
@@ -78,5 +79,27 @@ test('a tab that was asleep for an hour shows what has happened since', async ()
   await show(false);
   await page.getByText('while it slept').first().waitFor({ timeout: 15000 });
   assert.match(job, /jobs\/\d+/);
+  await page.close();
+});
+
+test('a tab drops the jobs of a server in whose place another one has come, and deletes none of its jobs', async () => {
+  const job = await createJob('hexagon-small', (each) => (each.title = 'FIRST'));
+  const { page } = await openPage(browser);
+  await page.goto(`${daemon.url}/${job}`);
+  await page.getByRole('button', { name: 'Delete' }).first().click({ timeout: 60000 });
+  await page.getByText('“FIRST” disappears').waitFor();
+  const former = new Daemon();
+  [former.folder, former.process, daemon.folder] = [daemon.folder, daemon.process, former.folder];
+  await former.remove();
+  await daemon.start();
+  let last;
+  do last = await createJob('hexagon-small', (each) => (each.title = 'SECOND')); while (last !== job);
+  await page.getByRole('heading', { name: 'Another server answers here now' }).waitFor();
+  assert.equal(await page.getByText('FIRST').count(), 0);
+  assert.equal(await page.getByText('live', { exact: true }).count(), 0);
+  assert.equal(await page.getByRole('dialog').count(), 0, 'the question went with its job');
+  await page.getByRole('button', { name: 'Show the jobs of this server' }).click();
+  await page.locator(`a[href="/${job}"]`).first().waitFor();
+  assert.equal((await daemon.call('Jobs/GetJob', { name: job })).title, 'SECOND');
   await page.close();
 });

@@ -87,7 +87,7 @@ TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
   rpc::StreamLimits limits({10, 10, 100'000'000});
   watch::Pump pump(2);
   access::Gate gate({});
-  rpc::MethodTable methods(gate, pump);
+  rpc::MethodTable methods(gate, pump, {});
   methods.stream("/cellcrush.v1.Jobs/DownloadResult", access::Scope::read, {pump, metrics, limits, {}},
                  std::make_shared<FountainService>(sent), &FountainService::open);
   rpc::HealthBoard board;

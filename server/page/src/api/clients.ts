@@ -7,6 +7,7 @@ import { Cases } from "../../gen/cellcrush/v1/cases_service_pb";
 import { Jobs } from "../../gen/cellcrush/v1/jobs_service_pb";
 import { ProblemListSchema, type Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { Sweeps } from "../../gen/cellcrush/v1/sweeps_service_pb";
+import { withEpoch } from "./epoch";
 import { exportedTransport, isExported } from "./exported";
 import { withToken } from "./token";
 import { urlOf } from "../dom/base";
@@ -18,7 +19,8 @@ const asStream: Interceptor = (next) => (request) => {
 };
 
 const transport = isExported ? exportedTransport
-  : createConnectTransport({ baseUrl: urlOf(""), useBinaryFormat: true, interceptors: [withToken, asStream] });
+  : createConnectTransport({ baseUrl: urlOf(""), useBinaryFormat: true,
+                             interceptors: [withToken, withEpoch, asStream] });
 
 export const api = {
   admin: createClient(Admin, transport),

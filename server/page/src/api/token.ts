@@ -1,5 +1,6 @@
 // The token that a daemon with --tokens asks for. It stays in the tab, or in the browser if the user wants that.
 import { Code, ConnectError, type Interceptor } from "@connectrpc/connect";
+import { nameServer, noteServer } from "./epoch";
 import { base } from "../dom/base";
 import { h, labelled, setText } from "../dom/element";
 
@@ -70,7 +71,9 @@ async function* watchRefusals<T>(messages: AsyncIterable<T>): AsyncIterable<T> {
 /** What a GET of the daemon answers, with the token. Throws its error. */
 export async function get(path: string): Promise<Response> {
   const token = storedToken();
-  const response = await fetch(path, { headers: token ? { authorization: `Bearer ${token}` } : {} });
+  const headers = nameServer(new Headers(token ? { authorization: `Bearer ${token}` } : {}));
+  const response = await fetch(path, { headers });
+  noteServer(response.headers);
   if (!response.ok) throw new Error(await response.text());
   return response;
 }

@@ -11,6 +11,7 @@ import { WatchJobRequestSchema, type WatchJobsResponse } from "../../gen/cellcru
 import { FieldFrame_Encoding } from "../../gen/cellcrush/v1/sample_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { api } from "./clients";
+import { otherServer } from "./epoch";
 import { Listeners } from "../dom/calls";
 
 const kPlaces = 4;
@@ -36,7 +37,8 @@ function holdIfFree(name: string): Promise<(() => void) | undefined> {
   });
 }
 
-export type Connection = "connecting" | "live" | "away" | "hidden";
+/** "other": another server answers, and the watch has ended. */
+export type Connection = "connecting" | "live" | "away" | "hidden" | "other";
 
 /** A job whose samples and frames a view wants, and how far it has them. */
 export interface WatchedJob {
@@ -78,6 +80,7 @@ class Watch {
   start(): void {
     document.addEventListener("visibilitychange", () => this.followVisibility());
     window.addEventListener("online", () => this.restart());
+    otherServer.add(() => this.end());
     this.restart();
   }
 
@@ -92,6 +95,12 @@ class Watch {
     };
   }
 
+  private end(): void {
+    this.setState("other");
+    clearTimeout(this.timer);
+    this.abort.abort();
+  }
+
   retryNow(): void {
     this.delay = kFirstDelayMs;
     this.restart();
@@ -99,7 +108,7 @@ class Watch {
 
   // Several changes of `watched` in a row make one new stream.
   private restart(after = 0): void {
-    if (this.state === "hidden") return;
+    if (this.state === "hidden" || this.state === "other") return;
     this.abort.abort();
     clearTimeout(this.timer);
     clearTimeout(this.silence);
@@ -184,7 +193,7 @@ class Watch {
   }
 
   private setState(state: Connection): void {
-    if (this.state === state) return;
+    if (this.state === state || this.state === "other") return;
     this.state = state;
     this.connection.tell(state);
   }
