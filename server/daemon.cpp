@@ -209,10 +209,9 @@ struct Daemon::Impl {
     };
     acceptor.emplace(std::move(ports), options.connections, std::move(parts));
     acceptor->start();
-    const auto serves_owner = [this](const ListenAddress& address) {
-      return address.kind == ListenAddress::Kind::tcp && gate.knows_local_callers(address);
-    };
-    if (std::ranges::any_of(wanted, serves_owner))
+    const auto is_tcp = [](const ListenAddress& address) { return address.kind == ListenAddress::Kind::tcp; };
+    const bool has_tcp = wanted_http || std::ranges::any_of(wanted, is_tcp);
+    if (has_tcp && gate.knows_local_callers({}))
       spdlog::info("ports of loopback serve {} alone, without a token", access::own_user());
     probe.emplace(*acceptor, plain, options.connections);
   }

@@ -179,10 +179,9 @@ std::string Connection::last_failure() {
 void Connection::require_server() {
   if (connected_) return;
   connected_ = wait(kHandshakePatience);
-  if (connected_) return;
   // A server that refuses this client keeps refusing; one that does not answer may be starting.
-  std::string reason = last_failure();
-  if (may_still_answer(address_, reason)) {
+  std::string reason = connected_ ? "" : last_failure();
+  if (!connected_ && may_still_answer(address_, reason)) {
     connected_ = wait(kConnectPatience);
     if (!connected_) reason = last_failure();
   }

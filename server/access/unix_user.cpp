@@ -140,14 +140,10 @@ const std::string& own_user() {
 std::optional<uid_t> user_of_peer(int connection) {
   const auto ends = ends_of(connection);
   if (!ends) return std::nullopt;
-  std::optional<uid_t> user;
-  if (ends->own.ss_family == AF_UNIX) {
-    user = ask_socket(connection);
-  } else if (is_loopback(ends->own) && is_loopback(ends->peer)) {
-    user = ask_kernel(*ends);
-    if (!is_established(connection)) return std::nullopt;
-  }
-  return user && is_ambiguous(*user) ? std::nullopt : user;
+  if (ends->own.ss_family == AF_UNIX) return ask_socket(connection);
+  if (!is_loopback(ends->own) || !is_loopback(ends->peer)) return std::nullopt;
+  const auto user = ask_kernel(*ends);
+  return user && is_established(connection) && !is_ambiguous(*user) ? user : std::nullopt;
 }
 
 std::vector<gid_t> groups_of_user(uid_t user) {

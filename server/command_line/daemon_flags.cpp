@@ -181,18 +181,17 @@ void DaemonFlags::add_access(CLI::App& app) {
 void DaemonFlags::add_connections(CLI::App& app) {
   auto& limits = options_.connections;
   app.add_option("--max-connections", limits.connections,
-                 "Maximum number of open connections, separately for TCP and for Unix sockets; fewer where the process "
-                 "may open "
-                 "too few files (default: 1000)")
+                 "Maximum number of open connections; the daemon's own user has a separate limit of the same size on "
+                 "Unix sockets; fewer where the process may open too few files (default: 1000)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-connections-per-address", limits.connections_per_address,
-                 "Maximum number of open TCP connections from one address (default: 500)")
+                 "Maximum number of open connections from one address, or of one other Unix user (default: 500)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-streams", limits.streams,
                  "Maximum number of open streams: watches, downloads, frames and reflection (default: 2000)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-streams-per-caller", limits.streams_per_caller,
-                 "Maximum number of open streams of one token or certificate (default: 1000)")
+                 "Maximum number of open streams of one Unix user, token or certificate (default: 1000)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option(
          "--max-call-memory", call_memory_mib_,

@@ -34,8 +34,8 @@ Acceptor::Acceptor(std::vector<ListeningPort> ports, const ConnectionLimits& lim
     : limits_(limits),
       parts_(std::move(parts)),
       ports_(std::move(ports)),
-      on_tcp_({limits.connections, limits.connections_per_address}),
-      on_unix_sockets_({limits.connections, limits.connections}),
+      of_others_({limits.connections, limits.connections_per_address}),
+      of_owner_({limits.connections, limits.connections}),
       turned_away_({kTurnedAway, kTurnedAway}),
       reserve_(open_reserve()),
       wake_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
@@ -81,10 +81,10 @@ void Acceptor::look_after_connections() {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_count_ < kBetweenCounts) return;
   last_count_ = now;
-  on_tcp_.drop_closed();
-  on_unix_sockets_.drop_closed();
+  of_others_.drop_closed();
+  of_owner_.drop_closed();
   turned_away_.drop_closed();
-  parts_.counted(on_tcp_.count() + on_unix_sockets_.count());
+  parts_.counted(of_others_.count() + of_owner_.count());
 }
 
 void Acceptor::wake() const {
@@ -157,9 +157,14 @@ void Acceptor::refuse_with_reserve(int listener) {
 }
 
 void Acceptor::take(std::size_t port, int listener, int descriptor, const sockaddr_storage& address) {
-  const std::string peer = peer_of(address);
-  const bool is_unix = ports_[port].address().kind == ListenAddress::Kind::unix_socket;
-  const auto excess = (is_unix ? on_unix_sockets_ : on_tcp_).admit(descriptor, peer);
+  std::string peer = peer_of(address);
+  ucred user{};
+  socklen_t size = sizeof(user);
+  const bool is_unix = ports_[port].address().kind == ListenAddress::Kind::unix_socket &&
+                       getsockopt(descriptor, SOL_SOCKET, SO_PEERCRED, &user, &size) == 0;
+  const bool is_owner = is_unix && user.uid == geteuid();
+  if (is_unix && !is_owner) peer = "Unix user " + std::to_string(user.uid);
+  const auto excess = (is_owner ? of_owner_ : of_others_).admit(descriptor, peer);
   if (!excess) {
     parts_.hand_over(port, listener, descriptor);
     return;

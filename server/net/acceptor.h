@@ -67,9 +67,9 @@ class Acceptor {
   Parts parts_;
   mutable Mutex mutex_;
   std::vector<ListeningPort> ports_ CELLCRUSH_GUARDED_BY(mutex_);
-  ConnectionTable on_tcp_ CELLCRUSH_GUARDED_BY(mutex_);
-  /// Separate tables, so that remote callers cannot shut out the owner.
-  ConnectionTable on_unix_sockets_ CELLCRUSH_GUARDED_BY(mutex_);
+  ConnectionTable of_others_ CELLCRUSH_GUARDED_BY(mutex_);
+  /// Those of the user that runs the daemon, on Unix sockets. Separate, so that others cannot shut out the owner.
+  ConnectionTable of_owner_ CELLCRUSH_GUARDED_BY(mutex_);
   ConnectionTable turned_away_ CELLCRUSH_GUARDED_BY(mutex_);
   int reserve_ CELLCRUSH_GUARDED_BY(mutex_) = -1;
   bool closed_ CELLCRUSH_GUARDED_BY(mutex_) = false;

@@ -8,8 +8,8 @@ namespace cellcrush::net {
 
 /// Limits on callers, so that none can exhaust the daemon.
 struct ConnectionLimits {
-  int connections = 1000;                      ///< on TCP; Unix sockets have a separate limit of the same size
-  int connections_per_address = 500;           ///< from one remote machine
+  int connections = 1000;                      ///< the daemon's own user has a separate limit on Unix sockets
+  int connections_per_address = 500;           ///< from one remote machine, or of one other Unix user
   int streams = 2000;                          ///< open watches, downloads, frames and reflection
   int streams_per_caller = 1000;               ///< of one token or certificate; without either, of all callers together
   std::int64_t memory_bytes = 256 << 20;       ///< for connections and their messages

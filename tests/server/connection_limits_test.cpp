@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "access/unix_user.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "server/daemon_process.h"
 #include "server/gate_fixture.h"
@@ -74,7 +75,7 @@ TEST_F(ConnectionLimitsTest, StreamsBeyondACallersLimitAreRefusedUntilOneEnds) {
   const auto third = client.jobs->WatchJob(three.get(), request);
   EXPECT_FALSE(third->Read(&event));
   const auto refused = third->Finish();
-  EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "local has 2 streams open"));
+  EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, access::own_user() + " has 2 streams open"));
   one->TryCancel();
   while (first->Read(&event)) continue;
   (void)first->Finish();

@@ -1,6 +1,8 @@
 // How the journal finds jobs: by indexes, with the columns that an earlier version did not have.
 #include <gmock/gmock.h>
 
+#include "access/token_file.h"
+#include "access/unix_user.h"
 #include "error.h"
 #include "server/journal_fixture.h"
 #include "store/job_filter.h"
@@ -84,11 +86,15 @@ TEST_F(JobSearchTest, NoFilterReadsTheRowsOfJobsThatAreNotWanted) {
   }
 }
 
-TEST_F(JobSearchTest, ARequestThatAVersionWithoutOwnersMadeIsThatOfTheLocalCaller) {
+TEST_F(JobSearchTest, ARequestOfAnEarlierVersionIsThatOfTheDaemonsOwnUser) {
   const auto first = create("id", "hash");
   v1::Job again;
-  again.set_owner("local");
+  again.set_owner(access::own_user());
   EXPECT_EQ(journal_->create_job(again, "id", "hash").job, first);
+  v1::Job of_local;
+  of_local.set_owner(access::kLocal);
+  const auto second = journal_->create_job(of_local, "another", "hash").job;
+  EXPECT_EQ(journal_->create_job(again, "another", "hash").job, second);
   again.set_owner("anna");
   EXPECT_NE(journal_->create_job(again, "id", "hash anna").job, first);
 }
