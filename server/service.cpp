@@ -13,6 +13,8 @@ namespace {
 
 // Health service name of the queues; not serving while one is held.
 constexpr const char* kQueueHealth = "cellcrush.queue";
+// Of the journal; not serving once it has lost changes or was found damaged.
+constexpr const char* kJournalHealth = "cellcrush.journal";
 constexpr int kPumpThreads = 2;
 constexpr int kHttpPumpThreads = 2;  // JSON is slow to make, and delays streams over HTTP only
 constexpr int kCheckThreads = 12;    // threads for large cases; they wait for each other
@@ -105,7 +107,11 @@ std::size_t Service::stream_count() const { return stream_limits.count() + healt
 void Service::start() {
   board.set(kQueueHealth, true);
   housekeeping.emplace(jobs::Housekeeping::Parts{folder, journal, reader, sweep_reader, deletion, admission, queues,
-                                                 options.housekeeping_interval, options.keep, options.clocks});
+                                                 options.housekeeping_interval, options.keep, options.clocks,
+                                                 [this](bool is_whole) {
+                                                   board.set(kJournalHealth, is_whole);
+                                                   metrics.set_journal_damaged(!is_whole);
+                                                 }});
   housekeeping->check_disk();
   deletion.finish_folders();
   queues.start();

@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// First bytes of the files that this command writes. A result begins with the daemon's seal; results of earlier daemons
-// begin as HDF5 files.
+// First bytes of the files that this command writes. A result begins as an HDF5 file; results of earlier daemons begin
+// with a seal.
 constexpr std::string_view kResultSeal = "CELLCRUSH RESULT ";
 constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
 

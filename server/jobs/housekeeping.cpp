@@ -24,6 +24,7 @@ void Housekeeping::work(const std::stop_token& stop) {
   do {
     has_more = false;
     try {
+      parts_.journal_is_whole(!parts_.journal.is_damaged());
       check_disk();
       has_more = delete_ended(stop);
       check_clocks();

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <stop_token>
 #include <thread>
 
@@ -28,6 +29,7 @@ class Housekeeping {
     std::chrono::milliseconds interval;  ///< between two rounds
     Retention::Limits keep;
     Clocks clocks;
+    std::function<void(bool)> journal_is_whole;  ///< called in every round
   };
 
   explicit Housekeeping(const Parts& parts)

@@ -97,6 +97,8 @@ struct Metrics::Impl {
                                                     .Name("cellcrush_queue_held")
                                                     .Help("1 while a queue is held for this cause, else 0.")
                                                     .Register(*registry);
+  prometheus::Gauge& journal_damaged =
+      gauge(*registry, "cellcrush_journal_damaged", "1 if the journal lost changes or was found damaged, else 0.");
   Counters& ended = counters(*registry, "cellcrush_jobs_ended_total", "Jobs that have ended, by final state.");
   prometheus::Counter& steps =
       counters(*registry, "cellcrush_steps_total", "Time steps of jobs that have ended with a result.").Add({});
@@ -156,6 +158,8 @@ void Metrics::set_jobs(const std::string& executor, std::size_t waiting, std::si
   impl_->waiting.Set(static_cast<double>(all_waiting));
   impl_->running.Set(static_cast<double>(all_running));
 }
+
+void Metrics::set_journal_damaged(bool damaged) { impl_->journal_damaged.Set(damaged ? 1.0 : 0.0); }
 
 void Metrics::set_holds(const std::set<Shortage>& holds) { impl_->set_holds(holds); }
 

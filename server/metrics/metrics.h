@@ -31,6 +31,9 @@ class Metrics {
   /// The shortages that hold a queue now.
   void set_holds(const std::set<Shortage>& holds);
 
+  /// Whether the journal has lost changes or was found damaged.
+  void set_journal_damaged(bool damaged);
+
   void set_speed(std::int64_t job, double steps_per_second);
   void observe_commit(double seconds);
   void observe_event(double seconds);

@@ -16,6 +16,7 @@
 #include "error.h"
 #include "log_format.h"
 #include "store/case_hash.h"
+#include "store/journal_mending.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::rpc {
@@ -128,6 +129,7 @@ store::StoredJob find_job(store::JournalReader& journal, const std::string& name
         ServiceError::Kind::not_found,
         "There is no job \"" + name + "\". Job names look like jobs/12; ListJobs (`cellcrush list`) lists them.");
   }
+  if (stored->is_damaged) throw store::unreadable_entry(stored->number);
   return *std::move(stored);
 }
 

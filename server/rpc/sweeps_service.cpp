@@ -13,6 +13,7 @@
 #include "jobs/sweep_points.h"
 #include "rpc/request_fields.h"
 #include "rpc/services.h"
+#include "store/journal_mending.h"
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
@@ -239,8 +240,14 @@ class SweepCalls {
     return out;
   }
 
-  /// Throws ServiceError (not_found) if there is none.
+  /// Throws ServiceError: not_found if there is none, data_loss for a damaged one.
   Found find(const std::string& name) {
+    auto found = find_any(name);
+    if (!found.sweep.has_create_time()) throw store::unreadable_sweep(found.number);
+    return found;
+  }
+
+  Found find_any(const std::string& name) {
     check_length("name", name, kLongestName);
     const auto number = store::sweep_number_of(name);
     auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
@@ -253,7 +260,7 @@ class SweepCalls {
 
   /// Number of a sweep that the caller may change. Also throws ServiceError (permission_denied).
   std::int64_t find_own(const Call& call, const std::string& name) {
-    const auto found = find(name);
+    const auto found = find_any(name);
     parts_.gate.require_own(call.caller(), found.sweep.owner(), found.sweep.name());
     return found.number;
   }

@@ -21,6 +21,7 @@
 #include "store/result_seal.h"
 #include "store/sqlite.h"
 #include "store/staged_folder.h"
+#include "store/verification.h"
 
 namespace cellcrush::store {
 namespace {
@@ -34,7 +35,8 @@ struct ServedJob {
 };
 
 std::vector<ServedJob> find_served(Database& journal) {
-  Statement read(journal, "SELECT number, state, job, samples FROM jobs ORDER BY number");
+  Statement read(journal,
+                 "SELECT number, state, job, samples FROM jobs WHERE checksum = expected_checksum ORDER BY number");
   std::vector<ServedJob> out;
   while (read.step()) {
     v1::Job job;
@@ -179,6 +181,7 @@ BackupManifest take_backup(const std::filesystem::path& given, const std::filesy
     FileBackup files(data_folder, staged.path(), live);
     for (const ServedJob& job : find_served(copy)) files.copy(job, manifest);
     remove_deleted(copy, files.deleted());
+    for (auto& problem : problems_of_rows(copy)) manifest.lost.push_back(std::move(problem));
   }
   manifest.files.push_back(digest_of(copy_path));
   manifest.files.back().path = kJournalName;

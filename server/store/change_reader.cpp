@@ -1,5 +1,9 @@
 #include "store/change_reader.h"
 
+#include <string>
+
+#include "error.h"
+
 namespace cellcrush::store {
 
 ChangeReader::ChangeReader(const std::filesystem::path& path) : database_(path) {}
@@ -31,11 +35,19 @@ bool ChangeReader::has_all_after(std::int64_t change) {
 std::vector<Change> ChangeReader::after(std::int64_t change, int limit) {
   const MutexLock lock(mutex_);
   Statement read(database_,
-                 "SELECT number, kind, resource, sequence FROM changes WHERE number > ?1 ORDER BY number LIMIT ?2");
+                 "SELECT number, kind, resource, sequence, checksum = expected_checksum FROM changes WHERE number > ?1 "
+                 "ORDER BY number LIMIT ?2");
   read.bind(1, change).bind(2, limit);
   std::vector<Change> out;
-  while (read.step())
+  while (read.step()) {
+    if (read.integer(4) == 0) {
+      if (!out.empty()) break;
+      throw ServiceError(ServiceError::Kind::data_loss, "Change " + std::to_string(read.integer(0)) +
+                                                            " cannot be read: the journal was damaged. Watch again " +
+                                                            "from the beginning.");
+    }
     out.push_back({read.integer(0), static_cast<ChangeKind>(read.integer(1)), read.integer(2), read.integer(3)});
+  }
   return out;
 }
 

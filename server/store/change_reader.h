@@ -42,7 +42,7 @@ class ChangeReader {
   /// call, and so once for all callers that have seen the same announcements.
   bool has_after(std::int64_t change, const Stamp& stamp);
 
-  /// Up to `limit` changes after this one, in order.
+  /// Up to `limit` changes after this one, in order. Ends before a damaged one; throws data_loss if that is the first.
   std::vector<Change> after(std::int64_t change, int limit);
 
  private:

@@ -17,6 +17,7 @@ std::optional<std::string> daemon_of(const std::filesystem::path& root);
 /// The folder that one daemon at a time owns:
 ///   lock            held while a daemon runs; holds its process number
 ///   journal.sqlite  journal_format.md
+///   journal.changes change_count.h
 ///   ballast         room for what is owed when the disk is full
 ///   ballast.start   room for a start on a full disk
 ///   jobs/N/         what job N leaves: result.h5 (result_format.md)

@@ -37,6 +37,8 @@ std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool ne
     }
     next = batch.back().number;
     for (auto& job : batch) {
+      // The indexes and labels by which jobs are found have no checksum.
+      if (!job.is_damaged && !matches(wanted, job.job)) continue;
       bytes += job.job.ByteSizeLong();
       out.push_back(std::move(job));
       if (static_cast<int>(out.size()) == limit || bytes > most_bytes) return out;
@@ -52,11 +54,9 @@ std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool n
   const std::string direction = newest_first ? " DESC" : "";
   const std::string number = conditions.numbers().column;
   Statement read(database_,
-                 "SELECT number, job, submitted_case, last_sequence, state, samples FROM jobs WHERE number IN "
-                 "(SELECT " +
-                     number + " FROM " + conditions.numbers().table + " WHERE " + number + " > ?1 AND " + number +
-                     " < ?2" + conditions.sql() + " ORDER BY " + number + direction + " LIMIT ?3) ORDER BY number" +
-                     direction,
+                 std::string("SELECT ") + kJobColumns + " FROM jobs WHERE number IN (SELECT " + number + " FROM " +
+                     conditions.numbers().table + " WHERE " + number + " > ?1 AND " + number + " < ?2" +
+                     conditions.sql() + " ORDER BY " + number + direction + " LIMIT ?3) ORDER BY number" + direction,
                  Statement::Reuse::no);
   read.bind(1, range.low).bind(2, range.high).bind(3, limit);
   conditions.bind_to(read);

@@ -22,7 +22,9 @@ void add_state(Database& database, std::int64_t number, const v1::Job& job, std:
   const std::string bytes = job_bytes(job);
   Statement insert(database, "INSERT OR REPLACE INTO events (job, sequence, payload) VALUES (?1, ?2, ?3)");
   insert.bind(1, number).bind(2, sequence).bind_blob(3, bytes).run();
-  Statement update(database, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
+  Statement update(database,
+                   "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4, states = states + (last_sequence < ?4) "
+                   "WHERE number = ?1");
   update.bind(1, number).bind(2, job.state()).bind_blob(3, bytes).bind(4, sequence).run();
 }
 

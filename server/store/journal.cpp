@@ -43,12 +43,33 @@ Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCom
       on_durable_(std::move(on_durable)),
       database_(path),
       clock_(prepare_journal(database_, data_folder_), std::move(uptime)),
-      writes_(database_, std::move(on_commit)) {
-  mend_jobs(database_, clock_.seconds());
+      changes_(data_folder_),
+      writes_(database_, [this, on_commit = std::move(on_commit)](double seconds) {
+        changes_.note(database_);
+        if (on_commit) on_commit(seconds);
+      }) {
+  note_lost_changes();
+  mend_jobs(database_, data_folder_, clock_.seconds());
   prepare_giving_back(database_);
   epoch_ = read_epoch(database_);
   upkeep_.emplace(path, kUpkeepInterval);
   committer_ = std::thread([this] { commit_gathered_when_due(); });
+}
+
+void Journal::note_lost_changes() {
+  lost_changes_ = changes_.lost(database_);
+  if (lost_changes_ > 0) {
+    spdlog::error(
+        "The journal lacks its last {} changes: its WAL was damaged, or an older copy is in its place. Jobs are as "
+        "they "
+        "were before; later jobs are gone. Compare `cellcrush list` with a backup, and watch jobs from the beginning.",
+        lost_changes_);
+    // Their numbers will be used again.
+    Transaction transaction(database_);
+    begin_epoch(database_, "");
+    transaction.commit();
+  }
+  changes_.note(database_);
 }
 
 Journal::~Journal() {
@@ -81,10 +102,11 @@ std::vector<std::int64_t> Journal::change_state(std::int64_t job, const StateCha
 }
 
 Journal::StoredState Journal::read_state(std::int64_t job) {
-  Statement read(database_, "SELECT job, state, last_sequence FROM jobs WHERE number = ?1");
+  Statement read(database_,
+                 "SELECT job, state, last_sequence, checksum = expected_checksum FROM jobs WHERE number = ?1");
   if (!read.bind(1, job).step()) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
   StoredState out;
-  if (!read_job_bytes(read.bytes(0), read.integer(1), out.job)) throw unreadable_entry(job);
+  if (read.integer(3) == 0 || !read_job_bytes(read.bytes(0), read.integer(1), out.job)) throw unreadable_entry(job);
   out.last_sequence = read.integer(2);
   return out;
 }

@@ -17,6 +17,7 @@
 #include "cellcrush/v1/sweep.pb.h"
 #include "clocks.h"
 #include "mutex.h"
+#include "store/change_count.h"
 #include "store/group_commit.h"
 #include "store/journal_schema.h"
 #include "store/journal_upkeep.h"
@@ -181,6 +182,10 @@ class Journal {
 
   [[nodiscard]] const Epoch& epoch() const { return epoch_; }
 
+  /// Whether changes were lost before it was opened (ChangeCount), or a check of the file since then has found damage.
+  /// Both are logged.
+  [[nodiscard]] bool is_damaged() const { return lost_changes_ > 0 || upkeep_->has_found_damage(); }
+
   /// Seconds of the service clock (ServiceClock).
   [[nodiscard]] std::int64_t service_seconds() const { return clock_.seconds(); }
 
@@ -196,6 +201,7 @@ class Journal {
   void set_measured(const std::vector<Measured>& jobs);
 
  private:
+  void note_lost_changes();
   void commit_gathered_when_due();
   // The rest is called by bodies of writes_.
 
@@ -233,6 +239,8 @@ class Journal {
   Durable on_durable_;
   Database database_;
   ServiceClock clock_;
+  ChangeCount changes_;
+  std::int64_t lost_changes_ = 0;
   Epoch epoch_;
   GroupCommit writes_;  ///< every access to database_
   mutable Mutex creations_mutex_;

@@ -8,14 +8,16 @@
 #include "store/job_rows.h"
 #include "store/job_state.h"
 #include "store/journal.h"
+#include "store/journal_mending.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
 
 std::optional<v1::Job::State> find_state(Database& database, std::int64_t job) {
-  Statement read(database, "SELECT state FROM jobs WHERE number = ?1");
+  Statement read(database, "SELECT state, checksum = expected_checksum FROM jobs WHERE number = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
+  if (read.integer(1) == 0) throw unreadable_entry(job);
   return static_cast<v1::Job::State>(read.integer(0));
 }
 

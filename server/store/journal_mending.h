@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "cellcrush/v1/job.pb.h"
@@ -16,12 +17,16 @@ bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job);
 /// The error for a row of a job that was damaged since the journal was opened: data_loss.
 ServiceError unreadable_entry(std::int64_t job);
 
+/// The error for a sweep whose request or points are damaged: data_loss.
+ServiceError unreadable_sweep(std::int64_t sweep);
+
 /// Presents a job whose journal row cannot be read as FAILED with STORE_CORRUPT, with whatever is still known.
 void set_corrupt(v1::Job& job);
 
 /// Checks every row of `jobs`, for a journal that nobody else has open. An unreadable Job is restored from its newest
-/// state event. If that is unreadable too, or the case of an unfinished job is, the job becomes FAILED with
-/// STORE_CORRUPT and ends at `service_seconds` of the service clock. Every such row is logged. Throws ServiceError.
-void mend_jobs(Database& database, std::int64_t service_seconds);
+/// state event and its reports. If that event is unreadable too, or the case of an unfinished job is, the job becomes
+/// FAILED with STORE_CORRUPT and ends at `service_seconds` of the service clock. Every such row is logged. Also forgets
+/// the changes up to a damaged one. Throws ServiceError.
+void mend_jobs(Database& database, const std::filesystem::path& data_folder, std::int64_t service_seconds);
 
 }  // namespace cellcrush::store

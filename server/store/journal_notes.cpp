@@ -4,6 +4,7 @@
 #include "store/job_rows.h"
 #include "store/job_state.h"
 #include "store/journal.h"
+#include "store/journal_mending.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::store {
@@ -20,13 +21,12 @@ bool replaces(const std::string& name, const std::string& stored, const std::str
 }
 
 v1::Sweep read_sweep(Database& database, std::int64_t sweep) {
-  Statement read(database, "SELECT sweep FROM sweeps WHERE number = ?1 AND NOT deleting");
+  Statement read(database, "SELECT sweep, checksum = expected_checksum FROM sweeps WHERE number = ?1 AND NOT deleting");
   const std::string name = sweep_name_of(sweep);
   if (!read.bind(1, sweep).step()) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name + ".");
   v1::Sweep out;
-  if (out.ParseFromString(read.bytes(0))) return out;
-  throw ServiceError(ServiceError::Kind::data_loss,
-                     "The request of " + name + " cannot be read: the journal was damaged.");
+  if (read.integer(1) != 0 && out.ParseFromString(read.bytes(0))) return out;
+  throw unreadable_sweep(sweep);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ struct JournalReader::Numbers {
   std::int64_t begun_again = 0;
   bool has_ended = false;
   std::vector<std::pair<std::int64_t, std::string>> states;  ///< sequence and payload
+  mutable std::int64_t missing = 0;  ///< number of a sample, from 1, that could not be read with these; 0: none
 
   // How many samples have numbers up to this one.
   [[nodiscard]] std::int64_t samples_up_to(std::int64_t sequence) const {
@@ -61,8 +62,9 @@ JournalReader::JournalReader(const std::filesystem::path& path)
 StoredJob JournalReader::read_job(const Statement& row) {
   StoredJob out;
   out.number = row.integer(0);
-  if (!read_job_bytes(row.bytes(1), row.integer(4), out.job)) set_corrupt(out.job);
-  if (!out.job.mutable_case_()->ParseFromString(row.bytes(2))) out.job.mutable_case_()->Clear();
+  out.is_damaged = row.integer(6) == 0 || !read_job_bytes(row.bytes(1), row.integer(4), out.job);
+  if (out.is_damaged) set_corrupt(out.job);
+  if (row.integer(7) == 0 || !out.job.mutable_case_()->ParseFromString(row.bytes(2))) out.job.mutable_case_()->Clear();
   out.job.set_name(name_of(out.number));
   out.last_sequence = row.integer(3);
   out.samples = row.integer(5);
@@ -71,10 +73,16 @@ StoredJob JournalReader::read_job(const Statement& row) {
 
 std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
   const MutexLock lock(mutex_);
-  Statement read(database_,
-                 "SELECT number, job, submitted_case, last_sequence, state, samples FROM jobs WHERE number = ?1");
-  if (!read.bind(1, job).step()) return std::nullopt;
-  return read_job(read);
+  Statement read(database_, std::string("SELECT ") + kJobColumns + " FROM jobs WHERE number = ?1");
+  if (read.bind(1, job).step()) return read_job(read);
+  // A job without its entry may still have events.
+  if (!Statement(database_, "SELECT 1 FROM events WHERE job = ?1").bind(1, job).step()) return std::nullopt;
+  StoredJob out;
+  out.number = job;
+  out.is_damaged = true;
+  set_corrupt(out.job);
+  out.job.set_name(name_of(job));
+  return out;
 }
 
 bool JournalReader::has_job(std::int64_t job) {
@@ -84,22 +92,30 @@ bool JournalReader::has_job(std::int64_t job) {
 
 std::vector<std::int64_t> JournalReader::deleted_jobs() {
   const MutexLock lock(mutex_);
-  return Statement(database_, "SELECT number FROM deleted_jobs ORDER BY number").numbers();
+  return Statement(database_, "SELECT number FROM deleted_jobs WHERE number NOT IN (SELECT number FROM jobs)")
+      .numbers();
 }
 
 JournalReader::Numbers JournalReader::numbers_of(std::int64_t job) {
   const MutexLock lock(mutex_);
   Statement read(database_,
-                 "SELECT samples, begun_again, ended_at IS NOT NULL, sequence, payload FROM jobs "
-                 "JOIN events ON events.job = jobs.number WHERE jobs.number = ?1 ORDER BY sequence");
+                 "SELECT samples, begun_again, ended_at IS NOT NULL, states, jobs.checksum = jobs.expected_checksum, "
+                 "sequence, payload, events.checksum = events.expected_checksum FROM jobs "
+                 "LEFT JOIN events ON events.job = jobs.number WHERE jobs.number = ?1 ORDER BY sequence");
   read.bind(1, job);
   Numbers out;
+  std::int64_t states = 0;
   while (read.step()) {
+    if (read.integer(4) == 0) throw unreadable_entry(job);
     out.samples = read.integer(0);
     out.begun_again = read.integer(1);
     out.has_ended = read.integer(2) != 0;
-    out.states.emplace_back(read.integer(3), read.bytes(4));
+    states = read.integer(3);
+    // No event has the number 0; a damaged one has no payload.
+    if (read.integer(5) > 0) out.states.emplace_back(read.integer(5), read.integer(7) != 0 ? read.bytes(6) : "");
   }
+  // The numbers of samples follow from those of the states.
+  if (std::ssize(out.states) != states) throw unreadable_entry(job);
   return out;
 }
 
@@ -115,10 +131,18 @@ SampleReader::Found JournalReader::find_samples(const Numbers& numbers, const Sa
     out.is_cut = true;
     why = error.what();
   }
-  // Another worker computes those of a job that has not ended again.
+  if (out.is_cut) numbers.missing = range.first + std::ssize(out.samples) + 1;
+  // Another worker may compute those of a job that has not ended again.
   if (!out.is_cut || !out.samples.empty() || !numbers.has_ended) return out;
   const std::int64_t sequence = numbers.sequence_of(range.first);
   throw unreadable_event(range.job, sequence, why, numbers.end_of_row(sequence));
+}
+
+void JournalReader::say_missing(std::int64_t job, const Numbers& numbers) {
+  const MutexLock lock(mutex_);
+  if (!said_.emplace(job, numbers.begun_again).second) return;
+  spdlog::error("Sample {} of {} and those behind it are missing or damaged. Run `cellcrushd verify`.", numbers.missing,
+                name_of(job));
 }
 
 template <typename Use>
@@ -128,7 +152,10 @@ void JournalReader::with_numbers(std::int64_t job, const Use& use) {
     use(numbers);
     // If the job has begun again meanwhile, there may be other samples in the place of those.
     Numbers now = numbers_of(job);
-    if (now.begun_again == numbers.begun_again) return;
+    if (now.begun_again == numbers.begun_again) {
+      if (numbers.missing > 0 && !now.states.empty()) say_missing(job, numbers);
+      return;
+    }
     numbers = std::move(now);
   }
 }
@@ -210,10 +237,10 @@ std::int64_t JournalReader::last_sampled_step(std::int64_t job) {
 
 std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
   const MutexLock lock(mutex_);
-  Statement read(database_, "SELECT mesh FROM meshes WHERE job = ?1");
+  Statement read(database_, "SELECT mesh, checksum = expected_checksum FROM meshes WHERE job = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
   v1::Mesh mesh;
-  if (mesh.ParseFromString(read.bytes(0))) return mesh;
+  if (read.integer(1) != 0 && mesh.ParseFromString(read.bytes(0))) return mesh;
   spdlog::error("The mesh of {} cannot be read: the journal was damaged.", name_of(job));
   return std::nullopt;
 }

@@ -5,7 +5,9 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cellcrush/v1/event.pb.h"
@@ -26,6 +28,7 @@ struct StoredJob {
   v1::Job job;
   std::int64_t last_sequence = 0;
   std::int64_t samples = 0;  ///< since it last began
+  bool is_damaged = false;   ///< `job` is then FAILED with STORE_CORRUPT, whatever it was
 };
 
 /// Consecutive samples of a job.
@@ -60,7 +63,7 @@ class JournalReader {
   /// Totals of the ended jobs.
   EndedTotals ended_totals();
 
-  /// Up to `limit` jobs that ended after `after`, ordered by ended_at and job.
+  /// Up to `limit` undamaged jobs that ended after `after`, ordered by ended_at and job.
   std::vector<EndedJob> ended_jobs(const EndedJob& after, int limit);
 
   /// Up to `limit` ended jobs whose size is not recorded yet (Journal::set_measured).
@@ -69,7 +72,7 @@ class JournalReader {
   /// Size of the owner's jobs: journal rows, and the results of those that have ended.
   std::int64_t bytes_of_owner(const std::string& owner);
 
-  /// Numbers of the jobs whose folders still have to be deleted.
+  /// Numbers of the jobs whose folders still have to be deleted; never of a job that exists.
   std::vector<std::int64_t> deleted_jobs();
 
   /// The jobs in a state, oldest first, with what the scheduler needs; those of one executor, or of all.
@@ -98,8 +101,11 @@ class JournalReader {
   std::optional<v1::Mesh> mesh(std::int64_t job);
 
  private:
-  /// Of a row with number, job, submitted_case, last_sequence, state, samples. A row damaged since the journal was
-  /// opened is presented as such.
+  /// The columns of `jobs` that read_job takes.
+  static constexpr const char* kJobColumns =
+      "number, job, submitted_case, last_sequence, state, samples, checksum = expected_checksum, "
+      "case_checksum = row_checksum(submitted_case)";
+  /// A row damaged since the journal was opened is presented as such.
   static StoredJob read_job(const Statement& row);
 
   /// Numbers between these two, exclusive.
@@ -112,6 +118,8 @@ class JournalReader {
 
   struct Numbers;
   Numbers numbers_of(std::int64_t job);
+  /// Logs it once in each run of a job.
+  void say_missing(std::int64_t job, const Numbers& numbers);
   /// Calls use(numbers) until the samples that it has read are those of the numbers.
   template <typename Use>
   void with_numbers(std::int64_t job, const Use& use);
@@ -121,6 +129,7 @@ class JournalReader {
 
   Mutex mutex_;
   Database database_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::set<std::pair<std::int64_t, std::int64_t>> said_ CELLCRUSH_GUARDED_BY(mutex_);  ///< jobs and runs, once each
   Epoch epoch_;
   SampleReader samples_;
 };

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "store/job_state.h"
 #include "store/report_log.h"
 #include "store/resource_name.h"
+#include "store/row_checksum.h"
 
 namespace cellcrush::store {
 namespace {
@@ -89,8 +91,9 @@ void upgrade_from_version_6(Database& database, const std::filesystem::path& dat
       "PRAGMA user_version = 7;");
 }
 
-constexpr std::int64_t kVersion = 7;
+constexpr std::int64_t kVersion = 8;
 
+// As version 7 had them; those of a new journal are then sealed too.
 constexpr const char* kTables = R"sql(
 CREATE TABLE jobs (
   number INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -205,16 +208,22 @@ END;
 // 0 without tables.
 std::int64_t journal_version(Database& database) { return Statement(database, "PRAGMA user_version").number(); }
 
-// A killed daemon has recorded too little time. The latest end of a job then shows how far the clock was.
+// A killed daemon has recorded too little time, and a damaged row says nothing. The latest end of a job then shows how
+// far the clock was.
 std::int64_t read_service_clock(Database& database) {
-  Statement read(database,
-                 "SELECT MAX(seconds, COALESCE((SELECT MAX(ended_at) FROM jobs WHERE ended_at IS NOT NULL), 0)) "
-                 "FROM service_clock");
-  return read.step() ? read.integer(0) : 0;
+  const std::int64_t latest_end =
+      Statement(database,
+                "SELECT ended_at FROM jobs WHERE ended_at IS NOT NULL AND checksum = expected_checksum "
+                "ORDER BY ended_at DESC LIMIT 1")
+          .number();
+  Statement read(database, "SELECT seconds FROM service_clock WHERE id = 1 AND checksum = expected_checksum");
+  if (read.step()) return std::max(read.integer(0), latest_end);
+  Statement(database, "INSERT OR REPLACE INTO service_clock (id, seconds) VALUES (1, ?1)").bind(1, latest_end).run();
+  return latest_end;
 }
 
 std::string fact(Database& database, const std::string& name) {
-  Statement read(database, "SELECT value FROM facts WHERE name = ?1");
+  Statement read(database, "SELECT value FROM facts WHERE name = ?1 AND checksum = expected_checksum");
   return read.bind_text(1, name).step() ? read.bytes(0) : "";
 }
 
@@ -250,13 +259,22 @@ std::int64_t prepare_journal(Database& database, const std::filesystem::path& da
   Transaction transaction(database);
   if (journal_version(database) == 0) {
     for (const char* sql : {kTables, kIndexes, kTriggers}) database.execute(sql);
-    database.execute(("PRAGMA user_version = " + std::to_string(kVersion)).c_str());
+    database.execute("PRAGMA user_version = 7");
   }
   if (journal_version(database) == 6) upgrade_from_version_6(database, data_folder);
+  if (journal_version(database) == 7) {
+    seal_tables(database);
+    database.execute("PRAGMA user_version = 8");
+  }
   require_known_version(database);
-  if (read_epoch(database).id.empty()) begin_epoch(database, "");
+  if (read_epoch(database).id.empty()) {
+    if (Statement(database, "SELECT 1 FROM facts WHERE name = 'epoch'").step())
+      spdlog::error("The journal's epoch was damaged. A new one begins: watchers must watch again from the beginning.");
+    begin_epoch(database, "");
+  }
+  const std::int64_t seconds = read_service_clock(database);
   transaction.commit();
-  return read_service_clock(database);
+  return seconds;
 }
 
 }  // namespace cellcrush::store

@@ -27,7 +27,7 @@ struct Epoch {
   }
 };
 
-/// The journal's epoch; empty if it has none yet. Throws ServiceError.
+/// The journal's epoch; empty if it has none yet, or a damaged one. Throws ServiceError.
 Epoch read_epoch(Database& database);
 
 /// The epoch as callers see it: a copy of the data folder has the journal's epoch, but another one for callers, since
@@ -37,7 +37,7 @@ Epoch epoch_for_callers(Epoch epoch, const std::filesystem::path& journal);
 /// Starts a new epoch; `restored` as in Epoch. Throws ServiceError.
 void begin_epoch(Database& database, const std::string& restored);
 
-/// Creates the tables of a new journal, or upgrades one of the version before. Returns the seconds counted by the
+/// Creates the tables of a new journal, or upgrades one of the two versions before. Returns the seconds counted by the
 /// service clock (ServiceClock). Throws ServiceError (failed_precondition) for a journal of another version.
 std::int64_t prepare_journal(Database& database, const std::filesystem::path& data_folder);
 

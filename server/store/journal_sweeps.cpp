@@ -7,6 +7,7 @@
 #include "store/change_reader.h"
 #include "store/job_rows.h"
 #include "store/journal.h"
+#include "store/journal_mending.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::store {
@@ -47,7 +48,8 @@ struct Retry {
 std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
   Statement read(
       database,
-      "SELECT jobs.number, jobs.job, jobs.submitted_case, jobs.element_steps, sweeps.max_parallel "
+      "SELECT jobs.number, jobs.job, jobs.submitted_case, jobs.element_steps, sweeps.max_parallel, "
+      "jobs.checksum = jobs.expected_checksum AND jobs.case_checksum = row_checksum(jobs.submitted_case) "
       "FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job JOIN sweeps ON sweeps.number = sweep_jobs.sweep "
       "WHERE sweep_jobs.sweep = ?1 AND NOT sweeps.deleting AND (jobs.state = ?2 OR (jobs.state = ?3 AND "
       "sweep_jobs.stopped)) "
@@ -55,6 +57,7 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
   read.bind(1, sweep).bind(2, v1::Job::FAILED).bind(3, v1::Job::CANCELLED);
   std::vector<Retry> out;
   while (read.step()) {
+    if (read.integer(5) == 0) throw unreadable_entry(read.integer(0));
     auto& [job, queued] = out.emplace_back();
     v1::Job ended;
     ended.ParseFromString(read.bytes(1));

@@ -1,10 +1,14 @@
 #include "store/journal_upkeep.h"
 
 #include <spdlog/spdlog.h>
+#include <sqlite3.h>
 
 #include <cstdint>
+#include <string>
 #include <system_error>
+#include <utility>
 
+#include "error.h"
 #include "pause.h"
 
 namespace cellcrush::store {
@@ -38,8 +42,12 @@ JournalUpkeep::JournalUpkeep(const std::filesystem::path& path, std::chrono::mil
       thread_([this, interval](const std::stop_token& stop) { run(stop, interval); }) {}
 
 void JournalUpkeep::run(const std::stop_token& stop, std::chrono::milliseconds interval) {
-  while (pause_unless_stopped(stop, interval)) {
+  for (bool checked = false; pause_unless_stopped(stop, interval);) {
     try {
+      if (!std::exchange(checked, true)) {
+        const std::stop_callback interrupt(stop, [this] { sqlite3_interrupt(database_.raw()); });
+        check();
+      }
       give_back_pages(stop);
       give_back_wal();
       failing_ = false;
@@ -48,6 +56,23 @@ void JournalUpkeep::run(const std::stop_token& stop, std::chrono::milliseconds i
       failing_ = true;
     }
   }
+}
+
+void JournalUpkeep::check() {
+  std::string problem;
+  try {
+    Statement pages(database_, "PRAGMA integrity_check(1)");
+    if (pages.step() && pages.bytes(0) != "ok") problem = pages.bytes(0);
+    Statement references(database_, "PRAGMA foreign_key_check");
+    if (references.step()) problem += " A row of " + references.bytes(0) + " refers to a missing one.";
+  } catch (const ServiceError& error) {
+    if (error.kind() != ServiceError::Kind::data_loss) throw;
+    problem = error.what();
+  }
+  if (problem.empty()) return;
+  damaged_ = true;
+  spdlog::error("journal.sqlite is damaged: {} Lists may lack jobs. Run `cellcrushd verify`, and restore a backup.",
+                problem);
 }
 
 void JournalUpkeep::give_back_pages(const std::stop_token& stop) {

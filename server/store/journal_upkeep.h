@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <stop_token>
@@ -26,14 +27,20 @@ class JournalUpkeep {
   JournalUpkeep(const JournalUpkeep&) = delete;
   JournalUpkeep& operator=(const JournalUpkeep&) = delete;
 
+  /// Whether the check of pages, indexes and references, made once, has found damage and logged it. Rows have checksums
+  /// of their own (row_checksum.h).
+  [[nodiscard]] bool has_found_damage() const { return damaged_; }
+
  private:
   void run(const std::stop_token& stop, std::chrono::milliseconds interval);
+  void check();
   void give_back_pages(const std::stop_token& stop);
   void give_back_wal();
 
   std::filesystem::path wal_;
   Database database_;
   bool failing_ = false;
+  std::atomic<bool> damaged_ = false;
   std::jthread thread_;
 };
 

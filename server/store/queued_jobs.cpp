@@ -70,6 +70,7 @@ std::vector<EndedJob> JournalReader::ended_jobs(const EndedJob& after, int limit
                  "SELECT jobs.number, jobs.ended_at, jobs.bytes, sweep_jobs.sweep FROM jobs "
                  "LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
                  "WHERE jobs.ended_at IS NOT NULL AND (jobs.ended_at, jobs.number) > (?1, ?2) "
+                 "AND jobs.checksum = jobs.expected_checksum "
                  "ORDER BY jobs.ended_at, jobs.number LIMIT ?3");
   read.bind(1, after.ended_at).bind(2, after.job).bind(3, limit);
   std::vector<EndedJob> out;

@@ -1,6 +1,7 @@
 #include "store/report_log.h"
 
 #include <fcntl.h>
+#include <google/protobuf/io/coded_stream.h>
 #include <sys/stat.h>
 #include <zlib.h>
 
@@ -121,6 +122,16 @@ bool ReportLogReader::read_record(std::string& bytes) {
   return true;
 }
 
+// Those of samples have a second field.
+bool ReportLogReader::is_one_message(std::size_t size) {
+  constexpr std::size_t kMostLength = 10;  // of a number as protobuf writes it
+  if (!fill(kHead + 1 + kMostLength)) return false;
+  google::protobuf::io::CodedInputStream in(reinterpret_cast<const std::uint8_t*>(available_.data()) + kHead + 1,
+                                            kMostLength);
+  std::uint32_t length = 0;
+  return in.ReadVarint32(&length) && kHead + 1 + static_cast<std::size_t>(in.CurrentPosition()) + length == size;
+}
+
 // A record begins with the number of what it reports.
 ReportLogReader::Read ReportLogReader::read_sample(v1::Sample& sample) {
   constexpr char kTag = (worker::Report::kSampleFieldNumber << 3U) | 2U;
@@ -130,6 +141,13 @@ ReportLogReader::Read ReportLogReader::read_sample(v1::Sample& sample) {
     if (size == kHead || available_[kHead] == kTag) break;
     if (size > kHead + kLargest) return Read::broken;
     if (!is_so_long(size)) return nothing_whole();
+    // A damaged sample may begin like another report.
+    if (size <= kReadAhead) {
+      std::string_view record;
+      if (const Read out = next_record(record); out != Read::message) return out;
+    } else if (!is_one_message(size)) {
+      return Read::broken;
+    }
     pass(size);
   }
   worker::Report report;

@@ -46,7 +46,8 @@ class ReportLogReader {
   };
   Read read(worker::Report& report);
 
-  /// Reads the next report with a sample. Others are skipped unread, so a damaged one may go unnoticed.
+  /// Reads the next report with a sample. Large ones of other kinds are skipped unread, so damage in them goes
+  /// unnoticed.
   Read read_sample(v1::Sample& sample);
 
   /// Appends the next record to `bytes`, with its length and checksum. False if no complete and intact one is
@@ -64,6 +65,8 @@ class ReportLogReader {
   bool fill(std::size_t size);
   /// The next record, with its length and checksum.
   Read next_record(std::string_view& record);
+  /// Whether the next record, which has this size, holds one message and nothing else.
+  bool is_one_message(std::size_t size);
   /// Whether the file has this many bytes after offset_.
   [[nodiscard]] bool is_so_long(std::size_t size) const;
   Read nothing_whole();

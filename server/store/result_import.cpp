@@ -40,15 +40,17 @@ fs::path result_at(const fs::path& given) {
 void check_file(const fs::path& path) {
   std::array<char, 16> start{};
   const auto count = read_at(open_to_read(path), path, start.data(), start.size(), 0);
-  if (const std::string_view text(start.data(), count); !text.starts_with("CELLCRUSH RESULT")) {
-    throw not_a_result(text.starts_with("\x89HDF") ? "an HDF5 file without the checksum of cellcrush: another program "
-                                                     "or an early version wrote it. Run its case again."
-                                                   : "not a result of cellcrush. Name a result.h5 or its folder.");
-  }
-  if (read_seal(path) == Seal::whole) return;
+  const std::string_view text(start.data(), count);
+  if (!text.starts_with("CELLCRUSH RESULT") && !text.starts_with("\x89HDF"))
+    throw not_a_result("not a result of cellcrush. Name a result.h5 or its folder.");
+  const Seal seal = read_seal(path);
+  if (seal == Seal::whole) return;
   throw not_a_result(
-      "the file is damaged or incomplete: its contents do not match its checksum. Copy or fetch it again, or run its "
-      "case again.");
+      seal == Seal::missing
+          ? "an HDF5 file without the checksum of cellcrush: another program or an early version wrote "
+            "it. Run its case again."
+          : "the file is damaged or incomplete: its contents do not match its checksum. Copy or fetch it "
+            "again, or run its case again.");
 }
 
 ImportedResult read_result(const fs::path& path) {

@@ -1,7 +1,9 @@
 #include "store/result_seal.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -20,26 +22,52 @@ namespace cellcrush::store {
 namespace {
 
 constexpr std::size_t kPart = 65536;
-constexpr std::int64_t kSettled = 2;                   // seconds
-constexpr std::string_view kUnsealed = "\x89HDF\r\n";  // an HDF5 file without a user block
+constexpr std::int64_t kSettled = 2;  // seconds
+constexpr std::size_t kSealBytes = 64;
+constexpr std::size_t kBlockBytes = 512;  // the user block with the seal of versions before
+constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
+constexpr std::string_view kTitle = "CELLCRUSH RESULT 2 ";
+constexpr std::size_t kMarkAt = 16;  // of a superblock of version 0: half the entries of a group's leaf
 
-// The seal that these bytes should have.
-std::string seal_of(const OpenFile& file, const std::filesystem::path& path) {
-  std::vector<unsigned char> part(kPart);
-  std::uint64_t crc = 0;
-  std::uint64_t size = 0;
-  while (const std::size_t count = read_at(file, path, part.data(), part.size(), kSealBytes + size)) {
-    crc = crc32_z(crc, part.data(), count);
-    size += count;
-  }
-  std::string out = "CELLCRUSH RESULT 1 " + std::to_string(crc) + " " + std::to_string(size) + "\n";
-  out.resize(kSealBytes, '\0');
+std::string bytes_at(const OpenFile& file, const std::filesystem::path& path, std::uint64_t offset, std::size_t size) {
+  std::string out(size, '\0');
+  out.resize(read_at(file, path, out.data(), out.size(), offset));
   return out;
 }
 
-std::string stored_seal(const OpenFile& file, const std::filesystem::path& path) {
-  std::string out(kSealBytes, '\0');
-  out.resize(read_at(file, path, out.data(), out.size(), 0));
+// Where the seal is, and the bytes that it is of.
+struct Place {
+  int version = 2;
+  std::uint64_t seal = 0;
+  std::size_t seal_size = kSealBytes;
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;
+};
+
+// Nothing for an HDF5 file that has none and need have none.
+std::optional<Place> find_seal(const OpenFile& file, const std::filesystem::path& path, std::uint64_t size) {
+  const std::string start = bytes_at(file, path, 0, kMarkAt + 1);
+  if (!start.starts_with(kHdf5))
+    return Place{1, 0, kBlockBytes, kBlockBytes, std::max<std::uint64_t>(size, kBlockBytes)};
+  const std::uint64_t end = size - std::min<std::uint64_t>(size, kSealBytes);
+  const bool is_marked = start.size() > kMarkAt && start[kMarkAt] == kSealedLeaf;
+  if (!is_marked && !bytes_at(file, path, end, kSealBytes).starts_with(kTitle)) return std::nullopt;
+  return Place{2, end, kSealBytes, 0, end};
+}
+
+// The seal that these bytes should have.
+std::string seal_of(const OpenFile& file, const std::filesystem::path& path, const Place& place) {
+  std::vector<unsigned char> part(kPart);
+  std::uint64_t crc = 0;
+  for (std::uint64_t at = place.begin; at < place.end;) {
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), place.end - at));
+    const std::size_t count = read_at(file, path, part.data(), wanted, at);
+    if (count == 0) return "";
+    crc = crc32_z(crc, part.data(), count);
+    at += count;
+  }
+  std::string out = fmt::format("CELLCRUSH RESULT {} {} {}\n", place.version, crc, place.end - place.begin);
+  out.resize(place.seal_size, '\0');
   return out;
 }
 
@@ -82,7 +110,13 @@ void throw_if_broken(Seal seal) {
 
 void seal_result(const std::filesystem::path& path) {
   const OpenFile file = open_own(path, O_RDWR, "used");
-  write_all(file, path, seal_of(file, path));
+  const auto size = static_cast<std::uint64_t>(identity_of(file, path)[2]);
+  Place place = find_seal(file, path, size).value_or(Place{});
+  const bool is_sealed = bytes_at(file, path, place.seal, kSealBytes).starts_with(kTitle);
+  if (!is_sealed) place = {2, size, kSealBytes, 0, size};
+  const std::string seal = seal_of(file, path, place);
+  if (lseek(file.get(), static_cast<off_t>(place.seal), SEEK_SET) < 0) throw_file_error(path, "written", errno);
+  write_all(file, path, seal);
 }
 
 Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole) {
@@ -90,9 +124,9 @@ Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* w
   const OpenFile file = open_to_read(path, ServiceError::Kind::internal, LastLink::of_owner);
   const auto identity = identity_of(file, path);
   if (!found_whole.contains(identity)) {
-    const std::string stored = stored_seal(file, path);
-    if (stored.starts_with(kUnsealed)) return Seal::missing;
-    if (stored != seal_of(file, path)) return Seal::broken;
+    const auto place = find_seal(file, path, static_cast<std::uint64_t>(identity[2]));
+    if (!place) return Seal::missing;
+    if (bytes_at(file, path, place->seal, place->seal_size) != seal_of(file, path, *place)) return Seal::broken;
     if (!is_settled(identity)) return Seal::whole;
     found_whole.add(identity);
   }

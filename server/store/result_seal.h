@@ -7,18 +7,20 @@
 
 namespace cellcrush::store {
 
-// A result starts with a block that HDF5 ignores (its user block). It holds "CELLCRUSH RESULT 1 CRC-32 SIZE
-// " of all following bytes, padded with zeros. HDF5 1.10 trusts its input and may crash on a damaged file. Therefore it
-// receives a file only after its bytes are known to be unchanged.
+// A result ends with 64 bytes behind HDF5's end of file, which readers leave alone: "CELLCRUSH RESULT 2 CRC-32 SIZE"
+// and a line feed, of all bytes before, padded with zeros. Versions before put the seal in a user block of 512 bytes at
+// the start, as "CELLCRUSH RESULT 1 ..." of the bytes behind it; such files are read too. HDF5 1.10 trusts its input
+// and may crash on a damaged file. Therefore it receives a file only after its bytes are known to be unchanged.
 
-/// Size of the block.
-inline constexpr int kSealBytes = 512;
+/// A mark in the superblock that such an end must follow, so that a file cut short is not one without a seal: half the
+/// entries of a leaf of a group (H5Pset_sym_k); HDF5's own choice is 4.
+inline constexpr unsigned kSealedLeaf = 5;
 
-/// Writes the seal of a file that HDF5 has closed. Throws ServiceError: storage_full or internal.
+/// Seals a file that HDF5 has closed, or seals it again. Throws ServiceError: storage_full or internal.
 void seal_result(const std::filesystem::path& path);
 
 enum class Seal {
-  whole,    ///< matches the bytes that follow
+  whole,    ///< matches the bytes
   missing,  ///< written without one by an earlier version
   broken,   ///< does not match
 };
@@ -33,7 +35,7 @@ using FileIdentity = std::array<std::int64_t, 5>;
 Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole = nullptr);
 
 /// Returns that identity. Throws ServiceError: failed_precondition for a file without a seal, written by an earlier
-/// version; data_loss unless the seal matches the bytes that follow; internal if they cannot be read. Thread-safe.
+/// version; data_loss unless the seal matches the bytes; internal if they cannot be read. Thread-safe.
 std::optional<FileIdentity> check_seal(const std::filesystem::path& path);
 
 /// The same for callers that need the bytes only: a file without a seal passes.

@@ -41,7 +41,7 @@ ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& me
   silence_hdf5();
   const std::string what = "Creating " + path.string();
   const Hdf5Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
-  check_hdf5(H5Pset_userblock(properties.id(), kSealBytes), what);
+  check_hdf5(H5Pset_sym_k(properties.id(), 0, kSealedLeaf), what);
   const OpenFile file = open_own(path, O_RDWR | O_CREAT | O_TRUNC);
   file_ = Hdf5Handle(H5Fcreate(path_of(file).c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, what);
   write_mesh(mesh);

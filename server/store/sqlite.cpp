@@ -7,6 +7,7 @@
 
 #include "error.h"
 #include "store/durable_file.h"
+#include "store/row_checksum.h"
 
 namespace cellcrush::store {
 namespace {
@@ -48,7 +49,8 @@ std::string file_of(sqlite3* handle) {
                            "). Restore a backup to a new folder with `cellcrushd restore`, or move the file away to "
                            "start with an empty journal.");
   }
-  if ((code & 0xFF) == SQLITE_CORRUPT) {
+  // Our statements fit the tables, unless the schema is damaged.
+  if ((code & 0xFF) == SQLITE_CORRUPT || (code & 0xFF) == SQLITE_ERROR) {
     throw ServiceError(ServiceError::Kind::data_loss, file_of(handle) + " is damaged (" + reason +
                                                           "). Run `cellcrushd verify` to list the damage, and restore "
                                                           "a backup to a new folder with `cellcrushd restore`.");
@@ -73,6 +75,7 @@ Database::Database(const std::filesystem::path& path, Access access) {
   handle_.reset(handle);
   if (code != SQLITE_OK) fail(handle, code);
   sqlite3_extended_result_codes(handle, 1);
+  if (add_row_checksum(handle) != SQLITE_OK) fail(handle, sqlite3_errcode(handle));
   set_patience(kPatience);
   if (access == Access::shared) {
     // Only a file created with this setting can return free pages (JournalUpkeep).

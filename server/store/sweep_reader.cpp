@@ -15,22 +15,27 @@ SweepReader::SweepReader(const std::filesystem::path& path) : database_(path) {}
 std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
   const MutexLock lock(mutex_);
   v1::Sweep out;
-  Statement read(database_, "SELECT sweep FROM sweeps WHERE number = ?1 AND deleting = 0");
+  Statement read(database_,
+                 "SELECT sweep, checksum = expected_checksum FROM sweeps WHERE number = ?1 AND deleting = 0");
   if (!read.bind(1, sweep).step()) return std::nullopt;
-  if (!out.ParseFromString(read.bytes(0))) {
-    spdlog::error("The request of {} cannot be read: the journal was damaged.", sweep_name_of(sweep));
-    out.Clear();
-  }
-  out.set_name(sweep_name_of(sweep));
-  Statement members(database_,
-                    "SELECT jobs.number, jobs.state FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
-                    "WHERE sweep_jobs.sweep = ?1 ORDER BY sweep_jobs.position");
-  members.bind(1, sweep);
+  bool is_whole = read.integer(1) != 0 && out.ParseFromString(read.bytes(0));
+  Statement members(
+      database_,
+      "SELECT jobs.number, CASE WHEN jobs.checksum = jobs.expected_checksum THEN jobs.state ELSE ?2 END, "
+      "sweep_jobs.checksum = sweep_jobs.expected_checksum FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
+      "WHERE sweep_jobs.sweep = ?1 ORDER BY sweep_jobs.position");
+  members.bind(1, sweep).bind(2, v1::Job::FAILED);
   auto& counts = *out.mutable_state_counts();
   while (members.step()) {
+    is_whole = is_whole && members.integer(2) != 0;
     out.add_jobs(name_of(members.integer(0)));
     ++counts[v1::Job::State_Name(static_cast<v1::Job::State>(members.integer(1)))];
   }
+  if (!is_whole) {
+    spdlog::error("{}", unreadable_sweep(sweep).what());
+    out.Clear();
+  }
+  out.set_name(sweep_name_of(sweep));
   return out;
 }
 
@@ -63,19 +68,18 @@ std::vector<std::int64_t> SweepReader::jobs_of(std::int64_t sweep) {
 StoredRows SweepReader::rows(std::int64_t sweep, std::int64_t after, PageRoom room) {
   const MutexLock lock(mutex_);
   Statement read(database_,
-                 "SELECT sweep_jobs.point, jobs.number, jobs.job, jobs.state, sweep_jobs.position + 1 "
+                 "SELECT sweep_jobs.point, jobs.number, jobs.job, jobs.state, sweep_jobs.position + 1, "
+                 "jobs.checksum = jobs.expected_checksum, sweep_jobs.checksum = sweep_jobs.expected_checksum "
                  "FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
                  "WHERE sweep_jobs.sweep = ?1 AND sweep_jobs.position >= ?2 ORDER BY sweep_jobs.position");
   read.bind(1, sweep).bind(2, after);
   StoredRows out;
   while (read.step()) {
     v1::SweepTable::Row row;
-    if (!row.ParseFromString(read.bytes(0))) {
-      spdlog::error("A point of {} cannot be read: the journal was damaged.", sweep_name_of(sweep));
-      row.Clear();
-    }
+    if (read.integer(6) == 0 || !row.ParseFromString(read.bytes(0))) throw unreadable_sweep(sweep);
     row.set_job(name_of(read.integer(1)));
-    if (!read_job_bytes(read.bytes(2), read.integer(3), *row.mutable_result())) set_corrupt(*row.mutable_result());
+    if (read.integer(5) == 0 || !read_job_bytes(read.bytes(2), read.integer(3), *row.mutable_result()))
+      set_corrupt(*row.mutable_result());
     row.mutable_result()->set_name(row.job());
     row.mutable_result()->clear_labels();
     out.has_more = !room.take(row.ByteSizeLong());

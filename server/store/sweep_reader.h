@@ -27,7 +27,7 @@ class SweepReader {
   explicit SweepReader(const std::filesystem::path& path);
 
   /// The sweep with its name, its jobs in the order of the points, and the number in each state. Nothing for a hidden
-  /// one.
+  /// one; only the name, without a create_time, of a damaged one.
   std::optional<v1::Sweep> find_sweep(std::int64_t sweep);
 
   /// Numbers below `before`, newest first.
@@ -43,6 +43,7 @@ class SweepReader {
   std::vector<std::int64_t> jobs_of(std::int64_t sweep);
 
   /// One row per job in the order of the points, starting after point `after`; results lack case and labels.
+  /// Throws ServiceError (data_loss) for a damaged point.
   StoredRows rows(std::int64_t sweep, std::int64_t after = 0, PageRoom room = {});
 
  private:

@@ -18,6 +18,12 @@ struct Verification {
   std::int64_t results = 0;
 };
 
+class Database;
+
+/// The damaged rows of a journal, a sentence each with the remedy. Throws ServiceError: data_loss if pages, indexes or
+/// references are damaged.
+std::vector<std::string> problems_of_rows(Database& journal);
+
 /// Reads a whole backup or data folder, even while a daemon runs on it. Checks the journal (SQLite's own checks and
 /// every row), and that every job with a summary has a result with a matching seal; for a backup also every file
 /// against the manifest. Changes nothing. Throws ServiceError: not_found if the folder has no journal,

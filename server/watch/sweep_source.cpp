@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "error.h"
+#include "store/journal_mending.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::watch {
@@ -269,6 +270,7 @@ v1::WatchSweepResponse SweepSource::bookmark() const {
 v1::WatchSweepResponse SweepSource::snapshot() {
   auto sweep = sweeps_.find_sweep(sweep_);
   if (!sweep) throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::sweep_name_of(sweep_) + ".");
+  if (!sweep->has_create_time()) throw store::unreadable_sweep(sweep_);
   v1::WatchSweepResponse out;
   *out.mutable_snapshot() = *std::move(sweep);
   out.set_resume_token(resume_token());

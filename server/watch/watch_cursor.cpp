@@ -7,6 +7,7 @@
 
 #include "error.h"
 #include "store/job_state.h"
+#include "store/journal_mending.h"
 #include "store/resource_name.h"
 #include "watch/sent_frame.h"
 
@@ -16,6 +17,7 @@ namespace {
 store::StoredJob find_job(store::JournalReader& journal, std::int64_t job) {
   auto found = journal.find_job(job);
   if (!found) throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::name_of(job) + ".");
+  if (found->is_damaged) throw store::unreadable_entry(job);
   return *std::move(found);
 }
 

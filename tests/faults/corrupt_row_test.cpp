@@ -9,6 +9,7 @@
 #include "server/small_case.h"
 #include "store/journal_reader.h"
 #include "store/report_log.h"
+#include "store/verification.h"
 #include "translate/case_words.h"
 
 namespace cellcrush::testing {
@@ -20,9 +21,10 @@ using ::testing::IsEmpty;
 
 class CorruptRowTest : public FaultFixture {
  protected:
-  // Replaces a blob by bytes that are no message.
+  // Replaces a blob by bytes that are no message; the row of a wrong checksum gets no other one.
   void damage(const std::string& table, const std::string& column, const std::string& where) const {
     store::Database database(journal());
+    database.execute(("UPDATE " + table + " SET checksum = 0 WHERE " + where).c_str());
     store::Statement(database, "UPDATE " + table + " SET " + column + " = ?1 WHERE " + where)
         .bind_blob(1, std::string(40, '\xff'))
         .run();
@@ -128,6 +130,30 @@ TEST_F(CorruptRowTest, AResultThatCannotBeReadCostsOnlyItsSamples) {
   EXPECT_EQ(history.error_code(), grpc::StatusCode::DATA_LOSS);
   EXPECT_TRUE(watch_soundly(client, next, 0, &last).ok());
   EXPECT_EQ(client.history(next).size(), 21U);
+}
+
+TEST_F(CorruptRowTest, ChangesThatADamagedWalHasLostAreSaidInLogHealthAndVerify) {
+  start_daemon(arguments_);
+  std::string epoch;
+  {
+    auto client = this->client();
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::Job::SUCCEEDED));
+    EXPECT_TRUE(is_serving(client, "cellcrush.journal"));
+    epoch = client.watch("jobs/1").events.front().snapshot().epoch();
+  }
+  kill_daemon();
+  const auto wal = journal().string() + "-wal";
+  EXPECT_THAT(store::verify_folder(data_folder()).problems, IsEmpty());
+  flip_bits(wal, std::filesystem::file_size(wal) * 3 / 4);
+  const auto found = store::verify_folder(data_folder()).problems;
+  ASSERT_FALSE(found.empty());
+  EXPECT_THAT(found.front(), HasSubstr("The journal lacks its last"));
+  start_daemon(arguments_);
+  auto client = this->client();
+  EXPECT_TRUE(wait_until([&] { return !is_serving(client, "cellcrush.journal"); }));
+  EXPECT_EQ(client.get("jobs/1").state(), v1::Job::SUCCEEDED);
+  EXPECT_NE(client.watch("jobs/1").events.front().snapshot().epoch(), epoch) << "Numbers are used again.";
+  EXPECT_THAT(stop_daemon(), HasSubstr("The journal lacks its last"));
 }
 
 TEST_F(CorruptRowTest, AReportThatCannotBeReadEndsTheJobWhichKeepsTheSamplesBefore) {

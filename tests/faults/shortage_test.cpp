@@ -132,7 +132,8 @@ TEST_F(ShortageTest, ADamagedPageThatASlotReadsCostsOneJobAndTheDaemonGoesOn) {
   fill_journal(data_folder(), 3, tiny_case());
   {
     store::Database database(journal());
-    store::Statement replace(database, "UPDATE jobs SET submitted_case = ?2 WHERE number = ?1");
+    store::Statement replace(database,
+                             "UPDATE jobs SET submitted_case = ?2, case_checksum = row_checksum(?2) WHERE number = ?1");
     replace.bind(1, 1).bind_blob(2, endless_case().SerializeAsString()).run();
     replace.bind(1, 2).bind_blob(2, large.SerializeAsString()).run();
     database.execute("PRAGMA wal_checkpoint(TRUNCATE)");

@@ -1,5 +1,6 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <hdf5.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <functional>
@@ -205,6 +206,31 @@ TEST_F(ResultFileTest, ThePredictedSizeIsNotPassedAndNotFarOff) {
   const auto real = static_cast<std::int64_t>(std::filesystem::file_size(path_));
   EXPECT_LT(real, predicted);
   EXPECT_GT(16 * real, predicted);
+}
+
+TEST_F(ResultFileTest, BeginsAsHdf5AndIsRefusedWithoutTheChecksumAtItsEnd) {
+  const std::string whole = testing::text_of_file(path_);
+  EXPECT_THAT(whole, ::testing::StartsWith("\x89HDF\r\n\x1a\n"));
+  EXPECT_EQ(read_seal(path_), Seal::whole);
+  for (const std::size_t cut : {1, 64, 1000}) {
+    std::filesystem::resize_file(path_, whole.size() - cut);
+    EXPECT_EQ(read_seal(path_), Seal::broken) << cut;
+  }
+}
+
+TEST_F(ResultFileTest, OneWithItsChecksumAtTheStartIsReadAsBefore) {
+  file_ = Hdf5Handle();  // HDF5 would go on reading the file that it has open
+  const auto history = ResultReader(path_).history();
+  const std::string whole = testing::text_of_file(path_);
+  const std::string content = whole.substr(0, whole.size() - 64);
+  const auto crc = crc32_z(0, reinterpret_cast<const unsigned char*>(content.data()), content.size());
+  std::string block = "CELLCRUSH RESULT 1 " + std::to_string(crc) + " " + std::to_string(content.size()) + "\n";
+  block.resize(512, '\0');
+  std::ofstream(path_, std::ios::binary) << block << content;
+  EXPECT_EQ(ResultReader(path_).history().size(), history.size());
+  EXPECT_EQ(ResultReader(path_).frame(3).time_s(), 30.0);
+  std::ofstream(path_, std::ios::binary) << block << content.substr(0, content.size() - 1) << "x";
+  EXPECT_EQ(read_seal(path_), Seal::broken);
 }
 
 // What another program may have put in the place of a part of a result, behind a checksum that fits.

@@ -17,25 +17,32 @@ from cellcrush.results import PathLike, Results
 from cellcrush.v1.job_pb2 import Job
 from cellcrush.v1.sample_pb2 import Summary
 
-_SEAL_BYTES = 512
+_HDF5 = b"\x89HDF"
+_SEALED_LEAF = 5  # in the superblock of a file that ends with a seal
 
 
 def _check_seal(path: pathlib.Path) -> None:
-    """Compares a file with the checksum in its first block."""
-    crc = size = 0
+    """Compares a file with the checksum at its end, or in its first block as files of versions before have it."""
     try:
         with path.open("rb") as file:
-            found = file.read(_SEAL_BYTES)
-            while part := file.read(1 << 20):
-                crc, size = zlib.crc32(part, crc), size + len(part)
+            start, size = file.read(512), file.seek(0, 2)
+            at_end = start.startswith(_HDF5)
+            begin, end = (0, max(size - 64, 0)) if at_end else (512, size)
+            file.seek(end if at_end else 0)
+            found = file.read(64 if at_end else 512)
+            file.seek(begin)
+            crc, left = 0, end - begin
+            while left > 0 and (part := file.read(min(left, 1 << 20))):
+                crc, left = zlib.crc32(part, crc), left - len(part)
     except OSError as error:
         raise FileError(f"{path}: cannot be read: {error.strerror}. Name a result.h5.") from None
-    if found.startswith(b"\x89HDF"):
+    if at_end and start[16:17] != bytes([_SEALED_LEAF]) and not found.startswith(b"CELLCRUSH RESULT"):
         raise FileError(f"{path}: an HDF5 file without the checksum of cellcrush: another program or an early version "
                         "wrote it. Run its case again, or read it with h5py.")
-    if not found.startswith(b"CELLCRUSH RESULT"):
+    if not at_end and not found.startswith(b"CELLCRUSH RESULT"):
         raise FileError(f"{path}: not a result of cellcrush. Name a result.h5.")
-    if found != f"CELLCRUSH RESULT 1 {crc} {size}\n".encode().ljust(_SEAL_BYTES, b"\0"):
+    seal = f"CELLCRUSH RESULT {2 if at_end else 1} {crc} {end - begin}\n".encode()
+    if found != seal.ljust(64 if at_end else 512, b"\0"):
         raise FileError(f"{path}: damaged or incomplete: its contents do not match its checksum. Download it again, or "
                         "run its case again.")
 

@@ -142,7 +142,7 @@ class Sweeps(WithServer):
         path = self.job.download(self.folder / "result.h5")
         with h5py.File(path, "r+") as file:
             del file.attrs["job"]
-        content = path.read_bytes()[512:]
+        content = path.read_bytes()  # HDF5 has removed the checksum at the end
         path.write_bytes(f"CELLCRUSH RESULT 1 {zlib.crc32(content)} {len(content)}\n".encode().ljust(512, b"\0") +
                          content)
         of_file, of_job = cc.open(path).summary, self.job.summary
@@ -157,7 +157,8 @@ class Sweeps(WithServer):
         flipped[len(whole) // 2] ^= 1
         other = self.folder / "other.h5"
         for content, wrong in ((bytes(flipped), "damaged.* Download it again"), (whole[:-1], "damaged"),
-                               (whole[:300], "damaged"), (whole[512:], "without the checksum"),
+                               (whole[:300], "damaged"), (whole[:-64], "damaged"),
+                               (whole[:16] + b"\x04" + whole[17:-64], "without the checksum"),
                                (b"strain,stress", "not a result"), (b"", "not a result")):
             other.write_bytes(content)
             with self.assertRaisesRegex(cc.FileError, f"other.h5: .*{wrong}"):
