@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "error_table.h"
-#include "http/browser_rules.h"
 #include "web/page_files.h"
 
 namespace cellcrush::http {
@@ -19,9 +18,8 @@ namespace beast = boost::beast;
 namespace bhttp = beast::http;
 using Field = bhttp::field;
 
-constexpr std::uint64_t kLargestBody = 4 * 1024 * 1024 + 5;  // a message of gRPC's largest size in its envelope
-constexpr std::uint32_t kLargestHeader = 16 * 1024;
 constexpr std::chrono::seconds kFarewell{1};
+constexpr std::chrono::seconds kPatience{20};  // with a client that reads nothing of its answer
 constexpr const char* kText = "text/plain; charset=utf-8";
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
@@ -35,17 +33,6 @@ bhttp::response<Body> new_response(unsigned status, bool keep_alive, const char*
   out.set(Field::cache_control, caching);
   out.keep_alive(keep_alive);
   return out;
-}
-
-std::vector<std::string> values_of(const bhttp::fields& fields, Field name) {
-  std::vector<std::string> out;
-  const auto [first, last] = fields.equal_range(name);
-  for (auto field = first; field != last; ++field) out.emplace_back(field->value());
-  return out;
-}
-
-std::string path_of(const google::protobuf::MethodDescriptor& method) {
-  return "/" + method.service()->full_name() + "/" + method.name();
 }
 
 std::optional<std::chrono::milliseconds> read_timeout(const bhttp::request<bhttp::string_body>& request) {
@@ -65,9 +52,6 @@ rpc::MessageStream::Encode encode_for(const Encoding& encoding) {
     to += bytes;
   };
 }
-
-// A path that a download may have is one, whatever its parameters.
-bool is_download(std::string_view target) { return open_download(target.substr(0, target.find('?'))) != nullptr; }
 
 bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
   const auto name = request[encoding.stream ? "Connect-Content-Encoding" : "Content-Encoding"];
@@ -96,38 +80,8 @@ asio::awaitable<void> Connection::serve() {
   close(true);
 }
 
-asio::awaitable<void> Connection::serve_requests() {
-  for (bool first = true; first || keep_alive_; first = false) {
-    Parser parser;
-    parser.body_limit(kLargestBody);
-    parser.header_limit(kLargestHeader);
-    if (!co_await read(parser, first)) break;
-    keep_alive_ = parser.get().keep_alive();
-    co_await answer(parser.get());
-    keep_alive_ = keep_alive_ && !parts_.stopping;
-  }
-}
-
-asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
-  stream_.plain().expires_after(first ? parts_.limits.handshake : parts_.limits.idle);
-  if (buffer_.size() == 0) {
-    const std::size_t size = co_await stream_.async_read_some(buffer_.prepare(4096), asio::use_awaitable);
-    buffer_.commit(size);
-  }
-  stream_.plain().expires_after(parts_.limits.handshake);
-  beast::error_code error;
-  co_await bhttp::async_read(stream_, buffer_, parser, asio::redirect_error(asio::use_awaitable, error));
-  if (!error) co_return true;
-  keep_alive_ = false;
-  const bool is_body = error == bhttp::error::body_limit;
-  const grpc::Status refused{grpc::StatusCode::RESOURCE_EXHAUSTED,
-                             is_body ? "The body is larger than 4 MiB." : "The headers are larger than 16 KiB."};
-  if (is_body || error == bhttp::error::header_limit) co_await send_error(is_body ? 413 : 431, refused);
-  co_return false;
-}
-
-asio::awaitable<void> Connection::answer(const Request& request) {
-  if (const auto refusal = refusal_of(request)) {
+asio::awaitable<void> Connection::answer(Request& request, const Permit& permit) {
+  if (const auto& refusal = permit.refusal) {
     // Only calls have an error as JSON.
     if (request.method() == bhttp::verb::get) {
       co_await send(refusal->http_status, kText, refusal->error.error_message() + '\n');
@@ -144,7 +98,7 @@ asio::awaitable<void> Connection::answer(const Request& request) {
     const auto& method = *method_of(request);
     const Encoding encoding{*parse_content_type(request[Field::content_type])};
     grpc::Status status;
-    auto call = begin_call(request, method, encoding, status);
+    auto call = begin_call(request, permit, method, encoding, status);
     if (encoding.stream) {
       co_await answer_stream(std::move(call), encoding, status);
     } else {
@@ -153,60 +107,22 @@ asio::awaitable<void> Connection::answer(const Request& request) {
   }
 }
 
-const rpc::MethodTable::Method* Connection::method_of(const Request& request) const {
-  return parts_.methods.find({request.target().data(), request.target().size()});
-}
-
-std::optional<Connection::Refusal> Connection::refusal_of(const Request& request) const {
-  using grpc::StatusCode;
-  if (request.count(Field::host) != 1 || request.count(Field::origin) > 1) {
-    return Refusal{400,
-                   {StatusCode::PERMISSION_DENIED, "One Host header, and at most one Origin header, must be sent."}};
-  }
-  // The content policy of the page names the sites that may frame it.
-  const bool is_frame = !parts_.framing_origins.empty() && request.method() == bhttp::verb::get &&
-                        request["Sec-Fetch-Mode"] == "navigate" && request["Sec-Fetch-Dest"] == "iframe";
-  const BrowserHeaders headers{request[Field::host], request[Field::origin],
-                               is_frame ? std::string_view() : std::string_view(request["Sec-Fetch-Site"])};
-  if (const auto refusal = check_browser(headers, {parts_.port, parts_.has_tls}))
-    return Refusal{refusal->status, {StatusCode::PERMISSION_DENIED, refusal->why}};
-  const auto* method = method_of(request);
-  if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
-    if (method != nullptr) return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls."}};
-    if (!is_download({request.target().data(), request.target().size()}) &&
-        web::find_page_file(request.target()) == nullptr)
-      return Refusal{404,
-                     {StatusCode::NOT_FOUND,
-                      "There is no such file. A job has /jobs/NUMBER/history.csv and /jobs/NUMBER/result.h5, a sweep "
-                      "has /sweeps/NUMBER.csv."}};
-    return std::nullopt;
-  }
-  if (request.method() != bhttp::verb::post)
-    return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls and GET for the page."}};
-  if (method == nullptr) return Refusal{404, {StatusCode::UNIMPLEMENTED, "There is no such method."}};
-  const auto encoding = parse_content_type(request[Field::content_type]);
-  const bool is_stream = method->descriptor->server_streaming();
-  if (encoding && encoding->stream == is_stream) return std::nullopt;
-  const std::string kind = is_stream ? "application/connect+" : "application/";
-  return Refusal{415,
-                 {StatusCode::INVALID_ARGUMENT,
-                  method->descriptor->name() + " requires the content type " + kind + "json or " + kind + "proto."}};
-}
-
-std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::MethodTable::Method& method,
-                                             const Encoding& encoding, grpc::Status& status) {
-  rpc::Incoming incoming;
-  status = parts_.gate.check_http_call(path_of(*method.descriptor), values_of(request, Field::authorization),
-                                       stream_.client_certificate(), incoming.caller);
+std::shared_ptr<Call> Connection::begin_call(Request& request, const Permit& permit,
+                                             const rpc::MethodTable::Method& method, const Encoding& encoding,
+                                             grpc::Status& status) {
+  status = permit.status;
   if (status.ok() && asks_for_compression(request, encoding))
     status = {grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed."};
   if (!status.ok()) return nullptr;
   status = cellcrush::answer([&] {
-    std::string_view body = request.body();
-    if (encoding.stream) body = read_envelope(body);
     const auto timeout = read_timeout(request);
-    incoming.decode = [&](google::protobuf::Message& message) { return decode(body, encoding.json, message); };
-    incoming.encode = encode_for(encoding);
+    const auto body = std::make_shared<const std::string>(std::move(request.body()));
+    const std::string_view message = encoding.stream ? read_envelope(*body) : std::string_view(*body);
+    rpc::Incoming incoming{permit.caller, nullptr, static_cast<std::int64_t>(message.size()), permit.received,
+                           encode_for(encoding)};
+    incoming.decode = [body, message, json = encoding.json](google::protobuf::Message& to) {
+      return decode(message, json, to);
+    };
     call_ = std::make_shared<Call>(stream_.get_executor(), method.open(incoming), timeout);
   });
   if (call_) watch_client();
@@ -216,8 +132,8 @@ std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::
 std::shared_ptr<Call> Connection::begin_call(const Request& request, const std::shared_ptr<Download>& download,
                                              grpc::Status& status) {
   rpc::Incoming incoming;
-  status = parts_.gate.check_http_call(download->method, values_of(request, Field::authorization),
-                                       stream_.client_certificate(), incoming.caller);
+  status = parts_.gate.check_http_call(download->method, authorization_of(request), stream_.client_certificate(),
+                                       incoming.caller);
   if (!status.ok()) return nullptr;
   status = cellcrush::answer([&] {
     incoming.decode = [&](google::protobuf::Message& message) {
@@ -242,11 +158,13 @@ void Connection::end_call() {
 asio::awaitable<void> Connection::answer_unary(std::shared_ptr<Call> call, const Encoding& encoding,
                                                grpc::Status status) {
   std::string message;
+  std::shared_ptr<rpc::Accounts::Charge> charge;  // until the client has read the answer
   if (call) {
     auto batch = co_await call->next();
     end_call();
     message = std::move(batch.bytes);
     status = *batch.end;
+    charge = std::move(batch.charge);
   }
   if (status.ok()) {
     co_await send(200, content_type_of(encoding), std::move(message));
@@ -342,8 +260,11 @@ asio::awaitable<void> Connection::send(unsigned status, const std::string& type,
   if (status == 405) response.set(Field::allow, "GET, HEAD, POST");
   response.body() = std::move(body);
   response.prepare_payload();
-  stream_.plain().expires_after(parts_.limits.idle);
-  co_await bhttp::async_write(stream_, response, asio::use_awaitable);
+  bhttp::response_serializer<bhttp::string_body> serializer(response);
+  while (!serializer.is_done()) {
+    stream_.plain().expires_after(kPatience);
+    co_await bhttp::async_write_some(stream_, serializer, asio::use_awaitable);
+  }
 }
 
 asio::awaitable<void> Connection::send_error(unsigned status, const grpc::Status& error) {

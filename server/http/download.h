@@ -29,4 +29,7 @@ class Download {
 /// null for another path. Throws ServiceError (invalid) for other parameters.
 std::shared_ptr<Download> open_download(std::string_view target);
 
+/// Whether a download may have this path; its parameters may be wrong.
+bool is_download(std::string_view target);
+
 }  // namespace cellcrush::http

@@ -97,13 +97,19 @@ class Gateway::TlsContext {
 
 // Members are used on the thread, except in the constructor and the destructor.
 struct Gateway::Impl {
-  Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
+  Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods, rpc::Accounts& received,
        const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins)
       : tls(gate),
         port(address, "--http"),
-        parts{
-            gate, methods, limits, absl::StrJoin(framing_origins, " "), port.address().port, tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
+        parts{gate,
+              methods,
+              received,
+              table,
+              limits,
+              absl::StrJoin(framing_origins, " "),
+              port.address().port,
+              tls.current() != nullptr},
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
       sockaddr_storage name{};
@@ -137,7 +143,7 @@ struct Gateway::Impl {
     if (error || peer.size() > sizeof(address)) return;
     std::memcpy(&address, peer.data(), peer.size());
     const std::string name = net::peer_of(address);
-    if (const auto excess = table.admit(socket.native_handle(), name)) {
+    if (const auto excess = table.admit(socket.native_handle(), name, net::name_of(address))) {
       refusals.write(spdlog::level::warn, "refused a connection to HTTP from " + name + ": " + *excess);
       return;
     }
@@ -175,8 +181,8 @@ struct Gateway::Impl {
 
   TlsContext tls;
   net::ListeningPort port;
-  GatewayParts parts;
   net::ConnectionTable table;
+  GatewayParts parts;
   std::string url;
   LimitedLog refusals{"refused HTTP connections", 1};
   std::vector<std::weak_ptr<Connection>> connections;
@@ -187,8 +193,9 @@ struct Gateway::Impl {
 };
 
 Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-                 const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins)
-    : impl_(std::make_unique<Impl>(address, gate, methods, limits, framing_origins)) {}
+                 rpc::Accounts& received, const net::ConnectionLimits& limits,
+                 const std::vector<std::string>& framing_origins)
+    : impl_(std::make_unique<Impl>(address, gate, methods, received, limits, framing_origins)) {}
 
 Gateway::~Gateway() { stop(); }
 

@@ -15,11 +15,12 @@ namespace cellcrush::http {
 /// files. One thread serves all connections. Thread-safe.
 class Gateway {
  public:
-  /// Listens from construction on, on an address that the gate permits. `methods` answers the calls; it and `gate`
-  /// outlive it. Pages of `framing_origins` may frame the web page. Throws ServiceError: failed_precondition if the
-  /// address is in use, invalid if OpenSSL refuses the files of TLS.
+  /// Listens from construction on, on an address that the gate permits. `methods` answers the calls, `received` counts
+  /// the bodies of requests; both and `gate` outlive it. Pages of `framing_origins` may frame the web page. Throws
+  /// ServiceError: failed_precondition if the address is in use, invalid if OpenSSL refuses the files of TLS.
   Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-          const net::ConnectionLimits& limits, const std::vector<std::string>& framing_origins = {});
+          rpc::Accounts& received, const net::ConnectionLimits& limits,
+          const std::vector<std::string>& framing_origins = {});
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;

@@ -159,7 +159,7 @@ void Acceptor::refuse_with_reserve(int listener) {
 void Acceptor::take(std::size_t port, int listener, int descriptor, const sockaddr_storage& address) {
   const std::string peer = peer_of(address);
   const bool is_unix = ports_[port].address().kind == ListenAddress::Kind::unix_socket;
-  const auto excess = (is_unix ? on_unix_sockets_ : on_tcp_).admit(descriptor, peer);
+  const auto excess = (is_unix ? on_unix_sockets_ : on_tcp_).admit(descriptor, peer, name_of(address));
   if (!excess) {
     parts_.hand_over(port, listener, descriptor);
     return;
