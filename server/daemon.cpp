@@ -205,9 +205,12 @@ struct Daemon::Impl {
     };
     parts.counted = [this](std::size_t open) {
       service.metrics.set_connections(open);
-      heap.note(open + service.stream_count());
+      heap.look();
     };
     acceptor.emplace(std::move(ports), options.connections, std::move(parts));
+    service.methods.on_admitted = [this](const std::string& connection, const std::string& caller) {
+      acceptor->know(connection, caller);
+    };
     acceptor->start();
     const auto is_tcp = [](const ListenAddress& address) { return address.kind == ListenAddress::Kind::tcp; };
     const bool has_tcp = wanted_http || std::ranges::any_of(wanted, is_tcp);
@@ -241,7 +244,7 @@ struct Daemon::Impl {
     const auto& limits = options.connections;
     builder.SetMaxReceiveMessageSize(rpc::kLargestMessage);
     grpc::ResourceQuota quota("cellcrushd");
-    quota.Resize(static_cast<std::size_t>(limits.memory_bytes));
+    quota.Resize(static_cast<std::size_t>(limits.memory_bytes / 2));
     builder.SetResourceQuota(quota);
     // Drops connections that stay silent, and peers that vanished.
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, milliseconds(limits.handshake));
@@ -264,8 +267,8 @@ struct Daemon::Impl {
   void serve_http() {
     if (!wanted_http) return;
     try {
-      gateway.emplace(*wanted_http, gate, service.methods, service.board, options.connections, options.framing_origins,
-                      http::parse_public_url(options.public_url));
+      gateway.emplace(*wanted_http, gate, service.methods, service.received, service.board, options.connections,
+                      options.framing_origins, http::parse_public_url(options.public_url));
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
       warn_without_http(error);

@@ -18,13 +18,27 @@ constexpr const char* kJournalHealth = "cellcrush.journal";
 constexpr int kPumpThreads = 2;
 constexpr int kHttpPumpThreads = 2;  // JSON is slow to make, and delays streams over HTTP only
 constexpr int kCheckThreads = 12;    // threads for large cases; they wait for each other
-constexpr std::size_t kWaitingCalls = 10'000;
+constexpr int kLargeChecks = 6;      // at once; the other threads are left to small cases
+constexpr int kLargeChecksPerCaller = 2;
+constexpr int kExports = 4;
+constexpr int kExportsPerCaller = 2;
+constexpr std::size_t kWaitingCalls = 2'000;  // of one caller
 
 // More would wait for each other's meshes.
 int threads_of_sweep_check() { return std::min(usable_cores().count, jobs::MeshPlaces::kSmallMeshes); }
 
+// Of one caller.
+int most_threads(int threads) { return std::max(1, threads / 2); }
+
 rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
   return {limits.streams, limits.streams_per_caller, limits.memory_bytes};
+}
+
+// An export that nobody reads keeps others out.
+watch::WatchTimes times_of_exports(watch::WatchTimes times) {
+  times.patience = std::min<std::chrono::milliseconds>(times.patience, std::chrono::seconds(5));
+  times.grace = std::min<std::chrono::milliseconds>(times.grace, std::chrono::seconds(2));
+  return times;
 }
 
 // All executors, that of this machine first.
@@ -58,11 +72,14 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
              executors_of(options, step_cost)),
       stream_limits(most_streams(options.connections)),
       health_limits(most_streams(options.connections)),
+      export_limits({kExports, kExportsPerCaller, options.connections.memory_bytes, "exports", ""}),
       pump(kPumpThreads),
       http_pump(kHttpPumpThreads),
       admission({folder, reader, queues}, options.limits),
-      calls({options.connections.threads, kWaitingCalls, options.connections.memory_bytes}),
-      checks({kCheckThreads, kWaitingCalls, options.connections.memory_bytes}),
+      received({options.connections.memory_bytes / 4, options.connections.memory_bytes / 8}),
+      memory({options.connections.memory_bytes / 2, options.connections.memory_bytes / 4}),
+      calls({options.connections.threads, most_threads(options.connections.threads), 0, 0, kWaitingCalls}, memory),
+      checks({kCheckThreads, most_threads(kCheckThreads), kLargeChecks, kLargeChecksPerCaller, kWaitingCalls}, memory),
       shared{folder,
              journal,
              reader,
@@ -79,11 +96,12 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
              threads_of_sweep_check(),
              step_cost,
              options.limits.owner.running_jobs,
-             {pump, metrics, stream_limits, options.watch_times}},
+             {pump, metrics, stream_limits, options.watch_times},
+             {pump, metrics, export_limits, times_of_exports(options.watch_times)}},
       reflection(rpc::make_reflection_services({"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
                                                 "cellcrush.v1.Admin", "grpc.health.v1.Health"},
                                                gate, stream_limits)),
-      methods(gate, http_pump, store::epoch_for_callers(journal.epoch(), folder.journal())) {
+      methods(gate, http_pump, calls, received, store::epoch_for_callers(journal.epoch(), folder.journal())) {
   rpc::add_cases_methods(methods, shared);
   rpc::add_health_methods(methods, board, {pump, metrics, health_limits, options.watch_times});
   rpc::add_jobs_methods(methods, shared);
@@ -101,8 +119,6 @@ void Service::register_with(grpc::ServerBuilder& builder) {
   methods.register_with(builder);
   for (const auto& service : reflection) builder.RegisterService(service.get());
 }
-
-std::size_t Service::stream_count() const { return stream_limits.count() + health_limits.count(); }
 
 void Service::start() {
   board.set(kQueueHealth, true);

@@ -31,9 +31,6 @@ struct Service {
   /// Outlives the server that is built.
   void register_with(grpc::ServerBuilder& builder);
 
-  /// Number of open streams.
-  [[nodiscard]] std::size_t stream_count() const;
-
   /// Resumes the jobs of an earlier daemon, and runs the waiting ones.
   void start();
 
@@ -54,9 +51,12 @@ struct Service {
   jobs::Queues queues;
   rpc::StreamLimits stream_limits;
   rpc::StreamLimits health_limits;
+  rpc::StreamLimits export_limits;
   watch::Pump pump;
   watch::Pump http_pump;
   jobs::Admission admission;
+  rpc::Accounts received;  ///< requests that wait to be parsed
+  rpc::Accounts memory;    ///< calls in work, and answers that their clients have not read
   rpc::CallPool calls;
   rpc::CallPool checks;
   jobs::MeshPlaces mesh_places;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "error_table.h"
-#include "http/browser_rules.h"
 #include "web/page_files.h"
 
 namespace cellcrush::http {
@@ -19,9 +18,8 @@ namespace beast = boost::beast;
 namespace bhttp = beast::http;
 using Field = bhttp::field;
 
-constexpr std::uint64_t kLargestBody = 4 * 1024 * 1024 + 5;  // a message of gRPC's largest size in its envelope
-constexpr std::uint32_t kLargestHeader = 16 * 1024;
 constexpr std::chrono::seconds kFarewell{1};
+constexpr std::chrono::seconds kPatience{20};  // with a client that reads nothing of its answer
 constexpr const char* kText = "text/plain; charset=utf-8";
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
@@ -36,21 +34,6 @@ bhttp::response<Body> new_response(unsigned status, bool keep_alive, const char*
   out.set(rpc::kEpochHeader, epoch);
   out.keep_alive(keep_alive);
   return out;
-}
-
-std::vector<std::string> values_of(const bhttp::fields& fields, Field name) {
-  std::vector<std::string> out;
-  const auto [first, last] = fields.equal_range(name);
-  for (auto field = first; field != last; ++field) out.emplace_back(field->value());
-  return out;
-}
-
-std::string_view target_of(const bhttp::request<bhttp::string_body>& request) {
-  return {request.target().data(), request.target().size()};
-}
-
-std::string path_of(const google::protobuf::MethodDescriptor& method) {
-  return "/" + method.service()->full_name() + "/" + method.name();
 }
 
 std::optional<std::chrono::milliseconds> read_timeout(const bhttp::request<bhttp::string_body>& request) {
@@ -69,17 +52,6 @@ rpc::MessageStream::Encode encode_for(const Encoding& encoding) {
     if (encoding.stream) begin_envelope(0, bytes.size(), to);
     to += bytes;
   };
-}
-
-// A path that a download may have is one, whatever its parameters.
-bool is_download(std::string_view target) { return open_download(target.substr(0, target.find('?'))) != nullptr; }
-
-// What a probe is told; nothing for the path of something else.
-std::optional<rpc::HealthBoard::Report> report_of(const rpc::HealthBoard& board, std::string_view target) {
-  target = target.substr(0, target.find('?'));
-  if (target == "/healthz") return board.progress();
-  if (target == "/readyz") return board.readiness();
-  return std::nullopt;
 }
 
 bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
@@ -109,48 +81,8 @@ asio::awaitable<void> Connection::serve() {
   close(true);
 }
 
-asio::awaitable<void> Connection::serve_requests() {
-  for (bool first = true; first || keep_alive_; first = false) {
-    Parser parser;
-    parser.body_limit(kLargestBody);
-    parser.header_limit(kLargestHeader);
-    if (!co_await read(parser, first)) break;
-    prepare_for(parser.get());
-    co_await answer(parser.get());
-    keep_alive_ = keep_alive_ && !parts_.stopping;
-  }
-}
-
-asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
-  stream_.plain().expires_after(first ? parts_.limits.handshake : parts_.limits.idle);
-  if (buffer_.size() == 0) {
-    const std::size_t size = co_await stream_.async_read_some(buffer_.prepare(4096), asio::use_awaitable);
-    buffer_.commit(size);
-  }
-  stream_.plain().expires_after(parts_.limits.handshake);
-  beast::error_code error;
-  co_await bhttp::async_read(stream_, buffer_, parser, asio::redirect_error(asio::use_awaitable, error));
-  if (!error) co_return true;
-  keep_alive_ = false;
-  is_head_ = false;
-  const bool is_body = error == bhttp::error::body_limit;
-  const grpc::Status refused{grpc::StatusCode::RESOURCE_EXHAUSTED,
-                             is_body ? "The body is larger than 4 MiB." : "The headers are larger than 16 KiB."};
-  if (is_body || error == bhttp::error::header_limit) co_await send_error(is_body ? 413 : 431, refused);
-  co_return false;
-}
-
-void Connection::prepare_for(Request& request) {
-  keep_alive_ = request.keep_alive();
-  is_chunked_ = request.version() >= 11;  // HTTP/1.0, as of nginx by default, has no chunks
-  auto asked = find_asked_path({request.target().data(), request.target().size()}, parts_.public_url);
-  request.target(asked.target);
-  root_ = std::move(asked.root);
-}
-
-asio::awaitable<void> Connection::answer(const Request& request) {
-  is_head_ = request.method() == bhttp::verb::head;
-  if (const auto refusal = refusal_of(request)) {
+asio::awaitable<void> Connection::answer(Request& request, const Permit& permit) {
+  if (const auto& refusal = permit.refusal) {
     // Only calls have an error as JSON.
     if (request.method() == bhttp::verb::get || is_head_) {
       co_await send(refusal->http_status, kText, refusal->error.error_message() + '\n');
@@ -158,11 +90,11 @@ asio::awaitable<void> Connection::answer(const Request& request) {
       co_await send_error(refusal->http_status, refusal->error);
     }
   } else if (request.method() != bhttp::verb::post) {
-    if (const auto report = report_of(parts_.board, request.target())) {
+    if (const auto report = report_of(request)) {
       co_await send(report->is_well ? 200 : 503, kText, report->words + '\n');
     } else if (const auto sign_in = read_sign_in(target_of(request))) {
       co_await answer_sign_in(request, *sign_in);
-    } else if (is_download({request.target().data(), request.target().size()})) {
+    } else if (is_download(target_of(request))) {
       co_await answer_download(request);
     } else {
       co_await answer_file(request);
@@ -171,7 +103,7 @@ asio::awaitable<void> Connection::answer(const Request& request) {
     const auto& method = *method_of(request);
     const Encoding encoding{*parse_content_type(request[Field::content_type])};
     grpc::Status status;
-    auto call = begin_call(request, method, encoding, status);
+    auto call = begin_call(request, permit, method, encoding, status);
     if (encoding.stream) {
       co_await answer_stream(std::move(call), encoding, status);
     } else {
@@ -180,62 +112,23 @@ asio::awaitable<void> Connection::answer(const Request& request) {
   }
 }
 
-const rpc::MethodTable::Method* Connection::method_of(const Request& request) const {
-  return parts_.methods.find({request.target().data(), request.target().size()});
-}
-
-std::optional<Connection::Refusal> Connection::refusal_of(const Request& request) const {
-  using grpc::StatusCode;
-  if (request.count(Field::host) != 1 || request.count(Field::origin) > 1) {
-    return Refusal{400,
-                   {StatusCode::PERMISSION_DENIED, "One Host header, and at most one Origin header, must be sent."}};
-  }
-  // A link on another site may open the page. The content policy of the page names the sites that may frame it.
-  const auto place = request["Sec-Fetch-Dest"];
-  const bool is_visit = request.method() == bhttp::verb::get && request["Sec-Fetch-Mode"] == "navigate" &&
-                        (place == "document" || (place == "iframe" && !parts_.framing_origins.empty()));
-  const BrowserHeaders headers{request[Field::host], request[Field::origin],
-                               is_visit ? std::string_view() : std::string_view(request["Sec-Fetch-Site"])};
-  if (const auto refusal = check_browser(headers, parts_.has_tls, parts_.public_url))
-    return Refusal{refusal->status, {StatusCode::PERMISSION_DENIED, refusal->why}};
-  const auto* method = method_of(request);
-  if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
-    if (method != nullptr) return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls."}};
-    if (!report_of(parts_.board, request.target()) && !read_sign_in(target_of(request)) &&
-        !is_download({request.target().data(), request.target().size()}) &&
-        web::find_page_file(request.target()) == nullptr)
-      return Refusal{404,
-                     {StatusCode::NOT_FOUND,
-                      "There is no such page. The web page is at /. A job has /jobs/NUMBER/history.csv and "
-                      "/jobs/NUMBER/result.h5, a sweep has /sweeps/NUMBER.csv."}};
-    return std::nullopt;
-  }
-  if (request.method() != bhttp::verb::post)
-    return Refusal{405, {StatusCode::UNIMPLEMENTED, "Use POST for calls and GET for the page."}};
-  if (method == nullptr) return Refusal{404, {StatusCode::UNIMPLEMENTED, "There is no such method."}};
-  const auto encoding = parse_content_type(request[Field::content_type]);
-  const bool is_stream = method->descriptor->server_streaming();
-  if (encoding && encoding->stream == is_stream) return std::nullopt;
-  const std::string kind = is_stream ? "application/connect+" : "application/";
-  return Refusal{415,
-                 {StatusCode::INVALID_ARGUMENT,
-                  method->descriptor->name() + " requires the content type " + kind + "json or " + kind + "proto."}};
-}
-
-std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::MethodTable::Method& method,
-                                             const Encoding& encoding, grpc::Status& status) {
-  rpc::Incoming incoming;
-  incoming.epoch = std::string(request[rpc::kEpochHeader]);
-  status = parts_.gate.check_http_call(path_of(*method.descriptor), credentials_of(request), incoming.caller);
+std::shared_ptr<Call> Connection::begin_call(Request& request, const Permit& permit,
+                                             const rpc::MethodTable::Method& method, const Encoding& encoding,
+                                             grpc::Status& status) {
+  status = permit.status;
   if (status.ok() && asks_for_compression(request, encoding))
     status = {grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed."};
   if (!status.ok()) return nullptr;
   status = cellcrush::answer([&] {
-    std::string_view body = request.body();
-    if (encoding.stream) body = read_envelope(body);
     const auto timeout = read_timeout(request);
-    incoming.decode = [&](google::protobuf::Message& message) { return decode(body, encoding.json, message); };
-    incoming.encode = encode_for(encoding);
+    const auto body = std::make_shared<const std::string>(std::move(request.body()));
+    const std::string_view message = encoding.stream ? read_envelope(*body) : std::string_view(*body);
+    rpc::Incoming incoming{permit.caller,   std::string(request[rpc::kEpochHeader]),
+                           nullptr,         static_cast<std::int64_t>(message.size()),
+                           permit.received, encode_for(encoding)};
+    incoming.decode = [body, message, json = encoding.json](google::protobuf::Message& to) {
+      return decode(message, json, to);
+    };
     call_ = std::make_shared<Call>(stream_.get_executor(), method.open(incoming), timeout);
   });
   if (call_) watch_client();
@@ -271,11 +164,13 @@ void Connection::end_call() {
 asio::awaitable<void> Connection::answer_unary(std::shared_ptr<Call> call, const Encoding& encoding,
                                                grpc::Status status) {
   std::string message;
+  std::shared_ptr<rpc::Accounts::Charge> charge;  // until the client has read the answer
   if (call) {
     auto batch = co_await call->next();
     end_call();
     message = std::move(batch.bytes);
     status = *batch.end;
+    charge = std::move(batch.charge);
   }
   if (status.ok()) {
     co_await send(200, content_type_of(encoding), std::move(message));
@@ -313,11 +208,6 @@ void Connection::watch_client() {
   });
 }
 
-access::HttpCredentials Connection::credentials_of(const Request& request) {
-  return {values_of(request, Field::authorization), session_of(values_of(request, Field::cookie), parts_.port),
-          stream_.client_certificate(), local_caller_};
-}
-
 asio::awaitable<void> Connection::answer_sign_in(const Request& request, const SignIn& sign_in) {
   // Some programs look at a link before a person opens it.
   const bool opens = request.method() == bhttp::verb::get;
@@ -326,7 +216,7 @@ asio::awaitable<void> Connection::answer_sign_in(const Request& request, const S
     co_await send(403, kText, "This link was used before, or is older than 5 minutes. Run `cellcrush open` again.\n");
     co_return;
   }
-  auto response = new_response<bhttp::string_body>(303, keep_alive_, "no-store");
+  auto response = new_response<bhttp::string_body>(303, keep_alive_, "no-store", parts_.methods.epoch());
   response.set(Field::location, "./" + sign_in.page);
   if (session) response.set(Field::set_cookie, session_cookie(*session, parts_.port, parts_.has_tls));
   response.content_length(0);
@@ -360,7 +250,7 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
 asio::awaitable<void> Connection::answer_download(const Request& request) {
   std::shared_ptr<Download> download;
   auto status = cellcrush::answer([&] {
-    download = open_download({request.target().data(), request.target().size()});
+    download = open_download(target_of(request));
   });
   if (download && request[Field::if_range].empty()) download->begin_at(request[Field::range]);
   const bool wants_body = request.method() == bhttp::verb::get;
@@ -395,8 +285,11 @@ asio::awaitable<void> Connection::send(unsigned status, const std::string& type,
   if (status == 405) response.set(Field::allow, "GET, HEAD, POST");
   response.content_length(body.size());
   if (!is_head_) response.body() = std::move(body);
-  stream_.plain().expires_after(parts_.limits.idle);
-  co_await bhttp::async_write(stream_, response, asio::use_awaitable);
+  bhttp::response_serializer<bhttp::string_body> serializer(response);
+  while (!serializer.is_done()) {
+    stream_.plain().expires_after(kPatience);
+    co_await bhttp::async_write_some(stream_, serializer, asio::use_awaitable);
+  }
 }
 
 asio::awaitable<void> Connection::send_error(unsigned status, const grpc::Status& error) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "access/gate.h"
 #include "http/call.h"
@@ -14,6 +15,7 @@
 #include "http/sign_in.h"
 #include "http/stream.h"
 #include "net/connection_limits.h"
+#include "net/connection_table.h"
 #include "rpc/health_service.h"
 #include "rpc/method_table.h"
 
@@ -23,6 +25,8 @@ namespace cellcrush::http {
 struct GatewayParts {
   const access::Gate& gate;
   const rpc::MethodTable& methods;
+  rpc::Accounts& received;
+  net::ConnectionTable& table;
   const rpc::HealthBoard& board;
   net::ConnectionLimits limits;
   std::string framing_origins;  ///< which may frame the page, separated by spaces; empty: none
@@ -49,18 +53,38 @@ class Connection : public std::enable_shared_from_this<Connection> {
  private:
   using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
   using Request = boost::beast::http::request<boost::beast::http::string_body>;
+  /// Headers, or else trailers, must fit in here whole.
+  static constexpr std::uint32_t kLargestHeader = 16 * 1024;
+  static constexpr std::size_t kMostBuffered = kLargestHeader + 4096;
 
   /// Serves requests until the client or the daemon has had enough.
   boost::asio::awaitable<void> serve_requests();
-  boost::asio::awaitable<bool> read(Parser& parser, bool first);
   /// Takes the public path off the target, and notes how an answer is to be streamed.
   void prepare_for(Request& request);
-  boost::asio::awaitable<void> answer(const Request& request);
   /// A request that is answered without a call or a file.
   struct Refusal {
     unsigned http_status = 0;
     grpc::Status error;
   };
+  /// What a request may do, by its head.
+  struct Permit {
+    std::optional<Refusal> refusal;
+    grpc::Status status;                              ///< of the gate, for a call
+    access::Caller caller;                            ///< of a call
+    std::shared_ptr<rpc::Accounts::Charge> received;  ///< for the body of a call
+  };
+  boost::asio::awaitable<bool> read_head(Parser& parser, bool first);
+  /// False if it cannot be answered.
+  boost::asio::awaitable<bool> read_body(Parser& parser, Permit& permit);
+  /// Answers with the error of a message that is too large, and is the last to do so.
+  boost::asio::awaitable<void> refuse_large(const boost::beast::error_code& error);
+  boost::asio::awaitable<void> answer(Request& request, const Permit& permit);
+  [[nodiscard]] Permit permit_for(const Request& head, std::int64_t body_bytes);
+  [[nodiscard]] static std::string_view target_of(const Request& request) {
+    return {request.target().data(), request.target().size()};
+  }
+  /// What a probe is told; nothing for the path of something else.
+  [[nodiscard]] std::optional<rpc::HealthBoard::Report> report_of(const Request& request) const;
   [[nodiscard]] std::optional<Refusal> refusal_of(const Request& request) const;
   /// Null if there is none.
   [[nodiscard]] const rpc::MethodTable::Method* method_of(const Request& request) const;
@@ -70,7 +94,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// A file made by calls, with errors as text. One that comes once the file has begun cuts it off.
   boost::asio::awaitable<void> answer_download(const Request& request);
   /// The call of this request if it may be made; else null, and the status says why.
-  std::shared_ptr<Call> begin_call(const Request& request, const rpc::MethodTable::Method& method,
+  std::shared_ptr<Call> begin_call(Request& request, const Permit& permit, const rpc::MethodTable::Method& method,
                                    const Encoding& encoding, grpc::Status& status);
   std::shared_ptr<Call> begin_call(const Request& request, const std::shared_ptr<Download>& download,
                                    grpc::Status& status);
@@ -89,13 +113,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   Stream stream_;
   std::optional<access::Caller> local_caller_;
-  boost::beast::flat_buffer buffer_;
+  boost::beast::flat_buffer buffer_{kMostBuffered};
   GatewayParts& parts_;
   std::shared_ptr<Call> call_;  ///< null while none runs
   std::string root_;            ///< of the page, relative to the address of the request
   bool keep_alive_ = false;
-  bool is_head_ = false;  ///< the request asks for no body
+  bool is_head_ = false;     ///< the request asks for no body
   bool is_chunked_ = false;  ///< the answer that is being streamed; else it ends with the connection
+  bool left_body_ = false;   ///< the client may still send what is not read
 };
 
 }  // namespace cellcrush::http

@@ -169,4 +169,6 @@ std::shared_ptr<Download> open_download(std::string_view target) {
   return std::make_shared<ResultDownload>(id);
 }
 
+bool is_download(std::string_view target) { return open_download(target.substr(0, target.find('?'))) != nullptr; }
+
 }  // namespace cellcrush::http

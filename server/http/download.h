@@ -43,4 +43,7 @@ void describe(const Download& file, boost::beast::http::response_header<>& to);
 /// null for another path. Throws ServiceError (invalid) for other parameters.
 std::shared_ptr<Download> open_download(std::string_view target);
 
+/// Whether a download may have this path; its parameters may be wrong.
+bool is_download(std::string_view target);
+
 }  // namespace cellcrush::http

@@ -102,20 +102,22 @@ class Gateway::TlsContext {
 
 // Members are used on the thread, except in the constructor and the destructor.
 struct Gateway::Impl {
-  Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
+  Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods, rpc::Accounts& received,
        const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
        const std::vector<std::string>& framing_origins, const PublicUrl& public_url)
       : tls(gate),
         port(address, "--http"),
+        table({limits.connections, limits.connections_per_address}),
         parts{gate,
               methods,
+              received,
+              table,
               board,
               limits,
               absl::StrJoin(framing_origins, " "),
               public_url,
               port.address().port,
               tls.current() != nullptr},
-        table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
       sockaddr_storage name{};
@@ -149,7 +151,7 @@ struct Gateway::Impl {
     if (error || peer.size() > sizeof(address)) return;
     std::memcpy(&address, peer.data(), peer.size());
     const std::string name = net::peer_of(address);
-    if (const auto excess = table.admit(socket.native_handle(), name)) {
+    if (const auto excess = table.admit(socket.native_handle(), name, net::name_of(address))) {
       refusals.write(spdlog::level::warn, "refused a connection to HTTP from " + name + ": " + *excess);
       return;
     }
@@ -188,8 +190,8 @@ struct Gateway::Impl {
 
   TlsContext tls;
   net::ListeningPort port;
-  GatewayParts parts;
   net::ConnectionTable table;
+  GatewayParts parts;
   std::string url;
   LimitedLog refusals{"refused HTTP connections", 1};
   std::vector<std::weak_ptr<Connection>> connections;
@@ -200,9 +202,9 @@ struct Gateway::Impl {
 };
 
 Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-                 const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
+                 rpc::Accounts& received, const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
                  const std::vector<std::string>& framing_origins, const PublicUrl& public_url)
-    : impl_(std::make_unique<Impl>(address, gate, methods, board, limits, framing_origins, public_url)) {}
+    : impl_(std::make_unique<Impl>(address, gate, methods, received, board, limits, framing_origins, public_url)) {}
 
 Gateway::~Gateway() { stop(); }
 

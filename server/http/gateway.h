@@ -18,12 +18,12 @@ namespace cellcrush::http {
 /// files. One thread serves all connections. Thread-safe.
 class Gateway {
  public:
-  /// Listens from construction on, on an address that the gate permits. `methods` answers the calls, `board` /healthz
-  /// and /readyz; they and `gate` outlive it. Pages of `framing_origins` may frame the web page. Browsers may ask for
-  /// `public_url`. Throws ServiceError: failed_precondition if the address is in use, invalid if OpenSSL refuses the
-  /// files of TLS.
+  /// Listens from construction on, on an address that the gate permits. `methods` answers the calls, `received` counts
+  /// the bodies of requests, `board` answers /healthz and /readyz; they and `gate` outlive it. Pages of
+  /// `framing_origins` may frame the web page. Browsers may ask for `public_url`. Throws ServiceError:
+  /// failed_precondition if the address is in use, invalid if OpenSSL refuses the files of TLS.
   Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
-          const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
+          rpc::Accounts& received, const rpc::HealthBoard& board, const net::ConnectionLimits& limits,
           const std::vector<std::string>& framing_origins = {}, const PublicUrl& public_url = {});
   ~Gateway();
   Gateway(const Gateway&) = delete;

@@ -164,7 +164,7 @@ void Acceptor::take(std::size_t port, int listener, int descriptor, const sockad
                        getsockopt(descriptor, SOL_SOCKET, SO_PEERCRED, &user, &size) == 0;
   const bool is_owner = is_unix && user.uid == geteuid();
   if (is_unix && !is_owner) peer = "Unix user " + std::to_string(user.uid);
-  const auto excess = (is_owner ? of_owner_ : of_others_).admit(descriptor, peer);
+  const auto excess = (is_owner ? of_owner_ : of_others_).admit(descriptor, peer, name_of(address));
   if (!excess) {
     parts_.hand_over(port, listener, descriptor);
     return;

@@ -43,6 +43,12 @@ class Acceptor {
 
   void start();
 
+  /// A call of the caller was admitted on the connection of this name (ConnectionTable::know).
+  void know(const std::string& name, const std::string& caller) {
+    const MutexLock lock(mutex_);
+    of_others_.know(name, caller);
+  }
+
   /// Closes the ports; connections handed over stay open.
   void stop();
 

@@ -15,8 +15,7 @@ constexpr std::int64_t kOfAWorker = 8;
 constexpr int kLeast = 8;
 // A hard limit may be 10^9, and some programs close every descriptor up to it.
 constexpr rlim_t kMost = 1 << 20;
-// Connections and streams whose memory is worth returning.
-constexpr std::size_t kLargeFlood = 100;
+constexpr std::size_t kWorthReturning = 8 << 20;  // bytes
 
 }  // namespace
 
@@ -41,12 +40,12 @@ int raise_descriptor_limit(int wanted, int workers) {
   return out;
 }
 
-bool HeapTrim::note(std::size_t open) {
-  most_ = std::max(most_, open);
-  if (most_ < kLargeFlood || open > most_ / 2) return false;
-  most_ = open;
+void HeapTrim::look() {
+  const std::size_t now = mallinfo2().fordblks;
+  free_ = std::min(free_, now);
+  if (now < free_ + kWorthReturning) return;
   malloc_trim(0);
-  return true;
+  free_ = now;  // pages that were returned still count
 }
 
 }  // namespace cellcrush::net

@@ -27,16 +27,15 @@ struct ConnectionLimits {
 /// fewer than wanted.
 int raise_descriptor_limit(int wanted, int workers);
 
-/// Returns memory to the system after a flood of connections and streams. The C library would otherwise keep its peak.
-/// Not thread-safe.
+/// Returns memory to the system after floods of connections and large requests. The C library would otherwise keep its
+/// peak. Not thread-safe.
 class HeapTrim {
  public:
-  /// Called about once a second with the number of open connections and streams. Returns whether memory was returned:
-  /// once, after at least half of a large number has closed.
-  bool note(std::size_t open);
+  /// Called about once a second: returns what was freed since, if it is much.
+  void look();
 
  private:
-  std::size_t most_ = 0;  ///< peak since memory was last returned
+  std::size_t free_ = 0;  ///< least free bytes of the heap since memory was last returned, which keeps some
 };
 
 }  // namespace cellcrush::net

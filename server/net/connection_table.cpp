@@ -20,26 +20,57 @@ std::string text_of(int family, const void* address) {
 
 }  // namespace
 
-std::optional<std::string> ConnectionTable::admit(int descriptor, const std::string& peer) {
+std::optional<std::string> ConnectionTable::admit(int descriptor, const std::string& peer, const std::string& name) {
   if (excess(peer) && Clock::now() - last_look_ >= kBetweenLooks) drop_closed();
-  if (auto words = excess(peer)) return words;
+  if (auto words = excess(peer); words && !close_a_stranger(peer)) return words;
   struct stat status {};
   if (fstat(descriptor, &status) != 0) return "it is already closed";
   // A reused number belonged to a closed connection.
   if (const auto before = entries_.find(descriptor); before != entries_.end()) erase(before);
-  entries_[descriptor] = {status.st_dev, status.st_ino, peer};
+  entries_[descriptor] = {status.st_dev, status.st_ino, peer, name, "", next_number_++};
   ++peers_[peer];
+  if (!name.empty()) names_[name] = descriptor;
   return std::nullopt;
+}
+
+void ConnectionTable::know(int descriptor, const std::string& caller) {
+  const auto entry = entries_.find(descriptor);
+  if (entry == entries_.end() || !entry->second.caller.empty()) return;
+  int& of_caller = callers_[caller];
+  if (2 * of_caller >= limits_.per_peer) return;
+  ++of_caller;
+  entry->second.caller = caller;
+}
+
+void ConnectionTable::know(const std::string& name, const std::string& caller) {
+  if (const auto found = names_.find(name); found != names_.end()) know(found->second, caller);
+}
+
+bool ConnectionTable::is_open(int descriptor, const Entry& entry) {
+  struct stat status {};
+  return fstat(descriptor, &status) == 0 && status.st_ino == entry.inode && status.st_dev == entry.device;
+}
+
+bool ConnectionTable::close_a_stranger(const std::string& peer) {
+  const auto of_peer = peers_.find(peer);
+  const bool at_the_peer = of_peer != peers_.end() && of_peer->second >= limits_.per_peer;
+  auto oldest = entries_.end();
+  for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+    const auto& [descriptor, each] = *entry;
+    if (each.name.empty() || !each.caller.empty() || (at_the_peer && each.peer != peer)) continue;
+    if (oldest == entries_.end() || each.number < oldest->second.number) oldest = entry;
+  }
+  if (oldest == entries_.end()) return false;
+  // Its owner then closes it.
+  if (is_open(oldest->first, oldest->second)) shutdown(oldest->first, SHUT_RDWR);
+  erase(oldest);
+  return true;
 }
 
 void ConnectionTable::drop_closed() {
   last_look_ = Clock::now();
-  for (auto entry = entries_.begin(); entry != entries_.end();) {
-    struct stat status {};
-    const bool is_open = fstat(entry->first, &status) == 0 && status.st_ino == entry->second.inode &&
-                         status.st_dev == entry->second.device;
-    entry = is_open ? std::next(entry) : erase(entry);
-  }
+  for (auto entry = entries_.begin(); entry != entries_.end();)
+    entry = is_open(entry->first, entry->second) ? std::next(entry) : erase(entry);
 }
 
 std::optional<std::string> ConnectionTable::excess(const std::string& peer) const {
@@ -56,7 +87,23 @@ std::optional<std::string> ConnectionTable::excess(const std::string& peer) cons
 ConnectionTable::Entries::iterator ConnectionTable::erase(Entries::iterator entry) {
   const auto peer = peers_.find(entry->second.peer);
   if (--peer->second == 0) peers_.erase(peer);
+  if (const auto caller = callers_.find(entry->second.caller); caller != callers_.end() && --caller->second == 0)
+    callers_.erase(caller);
+  if (const auto name = names_.find(entry->second.name); name != names_.end() && name->second == entry->first)
+    names_.erase(name);
   return entries_.erase(entry);
+}
+
+std::string name_of(const sockaddr_storage& address) {
+  if (address.ss_family == AF_INET) {
+    const auto& name = reinterpret_cast<const sockaddr_in&>(address);
+    return "ipv4:" + text_of(AF_INET, &name.sin_addr) + ":" + std::to_string(ntohs(name.sin_port));
+  }
+  if (address.ss_family != AF_INET6) return {};
+  const auto& name = reinterpret_cast<const sockaddr_in6&>(address);
+  const std::string port = ":" + std::to_string(ntohs(name.sin6_port));
+  if (IN6_IS_ADDR_V4MAPPED(&name.sin6_addr)) return "ipv4:" + text_of(AF_INET, &name.sin6_addr.s6_addr[12]) + port;
+  return "ipv6:%5B" + text_of(AF_INET6, &name.sin6_addr) + "%5D" + port;
 }
 
 std::string peer_of(const sockaddr_storage& address) {

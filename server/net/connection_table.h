@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,8 +25,15 @@ class ConnectionTable {
 
   explicit ConnectionTable(Limits limits) : limits_(limits) {}
 
-  /// Records a connection. If it exceeds a limit, returns the reason and does not record it.
-  std::optional<std::string> admit(int descriptor, const std::string& peer);
+  /// Records a connection, with its name if it has one. At a limit the oldest connection of a stranger is closed for
+  /// it, so that idle strangers lock nobody out; those without a name are no strangers. If there is none, returns the
+  /// reason and does not record it.
+  std::optional<std::string> admit(int descriptor, const std::string& peer, const std::string& name = {});
+
+  /// A call of this caller was admitted on the connection, which is no stranger's any more, while the caller has no
+  /// more than half of the places of an address.
+  void know(int descriptor, const std::string& caller);
+  void know(const std::string& name, const std::string& caller);
 
   /// Drops closed connections.
   void drop_closed();
@@ -38,17 +46,29 @@ class ConnectionTable {
     dev_t device = 0;
     ino_t inode = 0;
     std::string peer;
+    std::string name;
+    std::string caller;        ///< empty: a stranger
+    std::uint64_t number = 0;  ///< in order of arrival
   };
   using Entries = std::map<int, Entry>;
 
   [[nodiscard]] std::optional<std::string> excess(const std::string& peer) const;
   Entries::iterator erase(Entries::iterator entry);
+  [[nodiscard]] static bool is_open(int descriptor, const Entry& entry);
+  /// Closes the oldest connection of a stranger, at the peer if it is at its limit. False if there is none.
+  bool close_a_stranger(const std::string& peer);
 
   Limits limits_;
-  Entries entries_;                   ///< by descriptor
-  std::map<std::string, int> peers_;  ///< connections by peer
+  Entries entries_;                     ///< by descriptor
+  std::map<std::string, int> peers_;    ///< connections by peer
+  std::map<std::string, int> callers_;  ///< connections by caller
+  std::map<std::string, int> names_;    ///< descriptors by name
+  std::uint64_t next_number_ = 0;
   Clock::time_point last_look_;
 };
+
+/// The name under which gRPC knows a connection of TCP: "ipv4:127.0.0.1:40312"; empty for others.
+std::string name_of(const sockaddr_storage& address);
 
 /// The peer as far as its address identifies it: the IPv4 address, the IPv6 network (first 64 bits), or "unix".
 std::string peer_of(const sockaddr_storage& address);

@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "error_table.h"
 
 namespace cellcrush::rpc {
 
-CallPool::CallPool(Most most) : most_(most) {
+CallPool::CallPool(Most most, Accounts& memory) : most_(most), memory_(memory) {
+  memory_.on_release([this] {
+    const MutexLock lock(mutex_);
+    wake_if_waiting();
+  });
   for (int i = 0; i < most_.threads; ++i) threads_.emplace_back([this] { serve(); });
 }
 
@@ -21,41 +26,91 @@ CallPool::~CallPool() {
 }
 
 void CallPool::run(Task task) {
-  if (const auto refusal = take(task); !refusal.ok()) task.finish(refusal);
-}
-
-grpc::Status CallPool::take(Task& task) {
+  grpc::Status refusal;
   {
     const MutexLock lock(mutex_);
-    // A single call may always wait.
-    if (waiting_.size() >= most_.waiting || (bytes_ > 0 && bytes_ + task.bytes > most_.bytes)) {
-      return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-              fmt::format(
-                  "{} calls with {} bytes are waiting to be answered, which is the daemon's limit. Try again later.",
-                  waiting_.size(), bytes_)};
+    Line& line = line_of(task.caller);
+    if (line.waiting.size() < most_.waiting_per_caller) {
+      line.waiting.push_back(std::move(task));
+      ++waiting_;
+      wake_if_waiting();
+      return;
     }
-    bytes_ += task.bytes;
-    waiting_.push_back(std::move(task));
+    refusal = {grpc::StatusCode::RESOURCE_EXHAUSTED,
+               fmt::format("{} calls of {} are waiting to be answered, the most of one caller. Try again later.",
+                           line.waiting.size(), task.caller)};
   }
-  changed_.notify_one();
-  return grpc::Status::OK;
+  task.finish(refusal, nullptr);
+}
+
+void CallPool::run_here(Task task) {
+  const auto body = std::exchange(task.body, nullptr);  // which may give the task another
+  const auto status = answer([&] {
+    task.call->require_wanted();
+    body(task);
+  });
+  if (task.finish) task.finish(status, std::move(task.charge));
+}
+
+CallPool::Line& CallPool::line_of(const std::string& caller) {
+  const auto found = std::ranges::find(lines_, caller, &Line::caller);
+  return found != lines_.end() ? *found : lines_.emplace_back(Line{caller});
+}
+
+bool CallPool::may_run(const Line& line, const Task& task) const {
+  return line.running < most_.threads_per_caller &&
+         (!task.is_large || (large_running_ < most_.large && line.large_running < most_.large_per_caller));
+}
+
+std::optional<CallPool::Task> CallPool::next() {
+  for (auto line = lines_.begin(); line != lines_.end(); ++line) {
+    const auto task = std::ranges::find_if(line->waiting, [&](const Task& each) { return may_run(*line, each); });
+    if (task == line->waiting.end()) continue;
+    if (!task->charge) task->charge = memory_.take(line->caller, task->bytes);
+    if (!task->charge && ending_) task->charge = std::make_shared<Accounts::Charge>(memory_, line->caller, 0);
+    if (!task->charge) continue;
+    auto out = std::move(*task);
+    line->waiting.erase(task);
+    --waiting_;
+    wake_if_waiting();
+    ++line->running;
+    line->large_running += out.is_large ? 1 : 0;
+    large_running_ += out.is_large ? 1 : 0;
+    lines_.splice(lines_.end(), lines_, line);
+    return out;
+  }
+  return std::nullopt;
+}
+
+void CallPool::end(const std::string& caller, bool is_large) {
+  const MutexLock lock(mutex_);
+  const auto line = std::ranges::find(lines_, caller, &Line::caller);
+  --line->running;
+  line->large_running -= is_large ? 1 : 0;
+  large_running_ -= is_large ? 1 : 0;
+  if (line->running == 0 && line->waiting.empty()) lines_.erase(line);
+  ending_ ? changed_.notify_all() : wake_if_waiting();
+}
+
+void CallPool::wake_if_waiting() {
+  if (waiting_ > 0) changed_.notify_one();
 }
 
 void CallPool::serve() {
   for (;;) {
-    Task task;
+    std::optional<Task> task;
     {
       MutexLock lock(mutex_);
-      changed_.wait(lock, [this]() CELLCRUSH_REQUIRES(mutex_) { return ending_ || !waiting_.empty(); });
-      if (waiting_.empty()) return;
-      task = std::move(waiting_.front());
-      waiting_.pop_front();
-      bytes_ -= task.bytes;
+      changed_.wait(lock, [&]() CELLCRUSH_REQUIRES(mutex_) {
+        task = next();
+        return task || (ending_ && lines_.empty());
+      });
+      if (!task) return;
     }
-    task.finish(answer([&task] {
-      task.call->require_wanted();
-      task.body();
-    }));
+    const std::string caller = task->caller;
+    const bool is_large = task->is_large;
+    run_here(*std::exchange(task, std::nullopt));
+    end(caller, is_large);
   }
 }
 

@@ -88,11 +88,16 @@ class CaseCalls {
 
 }  // namespace
 
+bool is_large_case(const v1::Case& submitted) {
+  return translate::CaseChecker().elements_to_build(submitted) > jobs::MeshPlaces::kMostOfSmall;
+}
+
 void add_cases_methods(MethodTable& table, const ServiceParts& parts) {
   using access::Scope;
   const auto calls = std::make_shared<CaseCalls>(parts);
-  table.unary("/cellcrush.v1.Cases/CheckCase", Scope::read, &parts.checks, calls, &CaseCalls::check_case);
-  table.unary("/cellcrush.v1.Cases/PreviewCase", Scope::read, &parts.checks, calls, &CaseCalls::preview_case);
+  const auto is_large = [](const auto& request) { return is_large_case(request.case_()); };
+  table.unary("/cellcrush.v1.Cases/CheckCase", Scope::read, &parts.checks, calls, &CaseCalls::check_case, is_large);
+  table.unary("/cellcrush.v1.Cases/PreviewCase", Scope::read, &parts.checks, calls, &CaseCalls::preview_case, is_large);
   table.unary("/cellcrush.v1.Cases/ListPresets", Scope::read, &parts.calls, calls, &CaseCalls::list_presets);
   table.unary("/cellcrush.v1.Cases/GetPreset", Scope::read, &parts.calls, calls, &CaseCalls::get_preset);
 }

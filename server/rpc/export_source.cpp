@@ -37,13 +37,6 @@ void append_frame_chunks(const v1::FieldFrame& frame, std::string& text) {
 
 }  // namespace
 
-void ExportPlaces::take() {
-  if (++taken_ <= kMost) return;
-  --taken_;
-  throw ServiceError(ServiceError::Kind::exhausted, "The daemon already makes " + std::to_string(kMost) +
-                                                        " exports. Try again when one of them has ended.");
-}
-
 ExportSource::ExportSource(const Parts& parts, store::StoredJob job, const v1::ExportJobRequest& request)
     : parts_(parts), job_(std::move(job)), max_bytes_(request.max_bytes() == 0 ? kDefaultBytes : request.max_bytes()) {
   if (request.max_bytes() < 0) throw InvalidField("max_bytes", "is negative.", "Use 0 for the default.");
@@ -57,7 +50,6 @@ ExportSource::ExportSource(const Parts& parts, store::StoredJob job, const v1::E
                        job_.job.name() + " was " + v1::Job::State_Name(job_.job.state()) +
                            " before it ran, so there is nothing to export. Submit its case again.");
   }
-  parts_.exports.take();
 }
 
 void ExportSource::append_check() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -16,19 +15,6 @@
 
 namespace cellcrush::rpc {
 
-/// Places of exports, which hold the meshes of their jobs. Thread-safe.
-class ExportPlaces {
- public:
-  static constexpr int kMost = 4;
-
-  /// Throws ServiceError (exhausted) if all are taken.
-  void take();
-  void give_back() { --taken_; }
-
- private:
-  std::atomic<int> taken_ = 0;
-};
-
 /// Source of an ExportJob: the HTML file (web/exported_page.h) in chunks. Holds one frame, the mesh and a page of
 /// samples at most. Not thread-safe.
 class ExportSource final : public PlainSource<v1::ExportJobResponse> {
@@ -38,15 +24,11 @@ class ExportSource final : public PlainSource<v1::ExportJobResponse> {
     const store::DataFolder& folder;
     store::JournalReader& reader;
     jobs::MeshPlaces& places;
-    ExportPlaces& exports;
   };
 
-  /// Throws InvalidField for a request that is not valid, and ServiceError: failed_precondition if the job has not
-  /// ended, exhausted if too many exports are open.
+  /// Throws InvalidField for a request that is not valid, and ServiceError (failed_precondition) if the job has not
+  /// ended.
   ExportSource(const Parts& parts, store::StoredJob job, const v1::ExportJobRequest& request);
-  ~ExportSource() { parts_.exports.give_back(); }
-  ExportSource(const ExportSource&) = delete;
-  ExportSource& operator=(const ExportSource&) = delete;
 
   /// Throws ServiceError: exhausted while checks of other large cases occupy the daemon, and the errors of
   /// jobs::FrameSeries.

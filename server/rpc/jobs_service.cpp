@@ -178,7 +178,7 @@ class JobCalls {
   }
 
   std::unique_ptr<ExportSource> export_job(const v1::ExportJobRequest& request) {
-    return std::make_unique<ExportSource>(ExportSource::Parts{parts_.folder, parts_.reader, parts_.places, exports_},
+    return std::make_unique<ExportSource>(ExportSource::Parts{parts_.folder, parts_.reader, parts_.places},
                                           find(request.name()), request);
   }
 
@@ -222,7 +222,6 @@ class JobCalls {
   }
 
   const ServiceParts& parts_;
-  ExportPlaces exports_;
 };
 
 }  // namespace
@@ -230,7 +229,8 @@ class JobCalls {
 void add_jobs_methods(MethodTable& table, const ServiceParts& parts) {
   using access::Scope;
   const auto calls = std::make_shared<JobCalls>(parts);
-  table.unary("/cellcrush.v1.Jobs/CreateJob", Scope::submit, &parts.checks, calls, &JobCalls::create_job);
+  table.unary("/cellcrush.v1.Jobs/CreateJob", Scope::submit, &parts.checks, calls, &JobCalls::create_job,
+              [](const v1::CreateJobRequest& request) { return is_large_case(request.case_()); });
   table.unary("/cellcrush.v1.Jobs/GetJob", Scope::read, &parts.calls, calls, &JobCalls::get_job);
   table.unary("/cellcrush.v1.Jobs/ListJobs", Scope::read, &parts.calls, calls, &JobCalls::list_jobs);
   table.unary("/cellcrush.v1.Jobs/UpdateJob", Scope::submit, &parts.calls, calls, &JobCalls::update_job);
@@ -244,7 +244,7 @@ void add_jobs_methods(MethodTable& table, const ServiceParts& parts) {
   table.stream("/cellcrush.v1.Jobs/StreamFrames", Scope::read, parts.streams, calls, &JobCalls::stream_frames);
   table.stream("/cellcrush.v1.Jobs/GetFrame", Scope::read, parts.streams, calls, &JobCalls::get_frame);
   table.stream("/cellcrush.v1.Jobs/DownloadResult", Scope::read, parts.streams, calls, &JobCalls::download);
-  table.stream("/cellcrush.v1.Jobs/ExportJob", Scope::read, parts.streams, calls, &JobCalls::export_job);
+  table.stream("/cellcrush.v1.Jobs/ExportJob", Scope::read, parts.exports, calls, &JobCalls::export_job);
 }
 
 }  // namespace cellcrush::rpc

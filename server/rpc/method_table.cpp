@@ -23,41 +23,25 @@ InvalidField parse_error(std::string_view path) {
           "Encode it with this server's .proto files, and every string as UTF-8."};
 }
 
+// "ipv4:127.0.0.1" of "ipv4:127.0.0.1:40312".
+std::string address_of(const std::string& peer) {
+  return peer.starts_with("unix:") ? "unix" : peer.substr(0, peer.rfind(':'));
+}
+
 namespace grpc_hooks = grpc::experimental;
 
 // Lives as long as its call over gRPC.
 class CallInterceptor final : public grpc_hooks::Interceptor {
  public:
-  CallInterceptor(OpenCalls& open, const grpc_hooks::ServerRpcInfo& info) : open_(open), path_(info.method()) {
-    using Type = grpc_hooks::ServerRpcInfo::Type;
-    // A stream of requests has no single message to check.
-    checks_request_ = info.type() == Type::UNARY || info.type() == Type::SERVER_STREAMING;
-    open_.add();
-  }
+  explicit CallInterceptor(OpenCalls& open) : open_(open) { open_.add(); }
   ~CallInterceptor() override { open_.remove(); }
   CallInterceptor(const CallInterceptor&) = delete;
   CallInterceptor& operator=(const CallInterceptor&) = delete;
 
-  void Intercept(grpc_hooks::InterceptorBatchMethods* methods) override {
-    if (checks_request_) check_request(*methods);
-    methods->Proceed();
-  }
+  void Intercept(grpc_hooks::InterceptorBatchMethods* methods) override { methods->Proceed(); }
 
  private:
-  void check_request(grpc_hooks::InterceptorBatchMethods& methods) {
-    using Point = grpc_hooks::InterceptionHookPoints;
-    if (methods.QueryInterceptionHookPoint(Point::POST_RECV_MESSAGE))
-      has_message_ = methods.GetRecvMessage() != nullptr;
-    if (has_message_ || !methods.QueryInterceptionHookPoint(Point::PRE_SEND_STATUS)) return;
-    const auto code = methods.GetSendStatus().error_code();
-    if (code == grpc::StatusCode::INTERNAL || code == grpc::StatusCode::UNIMPLEMENTED)
-      methods.ModifySendStatus(status_of(parse_error(path_)));
-  }
-
   OpenCalls& open_;
-  const char* path_;
-  bool checks_request_ = false;
-  bool has_message_ = true;
 };
 
 class CallInterceptors final : public grpc_hooks::ServerInterceptorFactoryInterface {
@@ -65,8 +49,8 @@ class CallInterceptors final : public grpc_hooks::ServerInterceptorFactoryInterf
   explicit CallInterceptors(OpenCalls& open) : open_(open) {}
 
   // gRPC owns the returned object.
-  grpc_hooks::Interceptor* CreateServerInterceptor(grpc_hooks::ServerRpcInfo* info) override {
-    return new CallInterceptor(open_, *info);
+  grpc_hooks::Interceptor* CreateServerInterceptor(grpc_hooks::ServerRpcInfo*) override {
+    return new CallInterceptor(open_);
   }
 
  private:
@@ -96,12 +80,16 @@ std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call
 
 void MethodTable::UnaryCall::ask(Deliver deliver) {
   const auto answer = std::make_shared<Batch>();
-  const auto self = shared_from_this();
-  run(pool_, {self, bytes_, [self, answer] { self->body_(*self, answer->bytes); },
-              [answer, deliver = std::move(deliver)](const grpc::Status& status) {
-                answer->end = status;
-                deliver(std::move(*answer));
-              }});
+  CallPool::Task task{.call = shared_from_this(), .caller = incoming_.caller.name, .body = nullptr, .finish = nullptr};
+  task.finish = [answer, deliver = std::move(deliver)](const grpc::Status& status,
+                                                       std::shared_ptr<Accounts::Charge> charge) {
+    answer->end = status;
+    answer->charge = std::move(charge);
+    deliver(std::move(*answer));
+  };
+  Incoming incoming{incoming_.caller, incoming_.epoch, std::exchange(incoming_.decode, nullptr), incoming_.bytes,
+                    std::exchange(incoming_.received, nullptr), incoming_.encode};
+  begin_({std::move(task), std::move(incoming)}, answer->bytes);
 }
 
 const MethodTable::Method* MethodTable::find(std::string_view path) const {
@@ -111,9 +99,8 @@ const MethodTable::Method* MethodTable::find(std::string_view path) const {
 
 void MethodTable::read_into(google::protobuf::Message& request, const char* path, const Incoming& incoming) {
   if (!incoming.decode(request)) throw parse_error(path);
-  if (request.ByteSizeLong() <= static_cast<std::size_t>(kLargestMessage)) return;
-  throw ServiceError(ServiceError::Kind::exhausted, "The request has " + std::to_string(request.ByteSizeLong()) +
-                                                        " bytes. Use at most " + std::to_string(kLargestMessage) + ".");
+  const auto bytes = static_cast<std::int64_t>(request.ByteSizeLong());
+  if (bytes > kLargestMessage) throw too_large(bytes, kLargestMessage);
 }
 
 std::string MethodTable::exchange_epochs(grpc::CallbackServerContext& context) const {
@@ -138,13 +125,59 @@ void MethodTable::require_epoch(const std::string& named) const {
           "any.");
 }
 
-void MethodTable::run(CallPool* pool, CallPool::Task task) {
-  pool != nullptr ? pool->run(std::move(task)) : task.finish(answer(task.body));
+ServiceError MethodTable::too_large(std::int64_t bytes, std::int64_t most) {
+  return {ServiceError::Kind::exhausted,
+          "The request has " + std::to_string(bytes) + " bytes. Use at most " + std::to_string(most) + "."};
 }
 
-// "ipv4:127.0.0.1" of "ipv4:127.0.0.1:40312".
-std::string MethodTable::address_of(const std::string& peer) {
-  return peer.starts_with("unix:") ? "unix" : peer.substr(0, peer.rfind(':'));
+Incoming MethodTable::incoming_of(const grpc::ByteBuffer& bytes) {
+  Incoming out;
+  out.bytes = static_cast<std::int64_t>(bytes.Length());
+  const auto own = std::make_shared<grpc::ByteBuffer>();
+  const_cast<grpc::ByteBuffer&>(bytes).Swap(own.get());
+  out.decode = [own](google::protobuf::Message& request) {
+    grpc::Slice whole;
+    if (!own->DumpToSingleSlice(&whole).ok()) return false;
+    own->Clear();
+    return parse_within_limits({reinterpret_cast<const char*>(whole.begin()), whole.size()}, request);
+  };
+  return out;
+}
+
+std::string MethodTable::name_of(const grpc::CallbackServerContext& context, bool is_open) const {
+  const std::string connection = context.peer();
+  if (is_open) return address_of(connection);
+  auto out = gate_.caller_of(context).name;
+  if (on_admitted) on_admitted(connection, out);
+  return out;
+}
+
+std::optional<MethodTable::Arrived> MethodTable::arrive(grpc::CallbackServerContext& context,
+                                                        const grpc::ByteBuffer& bytes, bool is_open,
+                                                        UnaryReactor& reactor) {
+  Arrived out;
+  const auto status = answer([&] {
+    out.incoming = incoming_of(bytes);
+    out.task.call = std::make_shared<GrpcCall>(gate_, context);
+    out.task.caller = name_of(context, is_open);
+    require_epoch(exchange_epochs(context));
+    out.incoming.received = received_.take(out.task.caller, out.incoming.bytes);
+    if (!out.incoming.received) throw too_many_bytes(out.task.caller);
+  });
+  if (!status.ok()) {
+    reactor.finish(status, nullptr);
+    return std::nullopt;
+  }
+  out.task.finish = [&reactor](const grpc::Status& end, std::shared_ptr<Accounts::Charge> charge) {
+    reactor.finish(end, std::move(charge));
+  };
+  return out;
+}
+
+void MethodTable::start(const CallPool* pool, CallPool::Task task) {
+  if (pool != nullptr) return calls_.run(std::move(task));
+  task.charge = std::make_shared<Accounts::Charge>(received_, task.caller, 0);
+  CallPool::run_here(std::move(task));
 }
 
 const google::protobuf::MethodDescriptor* MethodTable::describe(std::string_view path,

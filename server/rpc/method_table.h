@@ -18,7 +18,9 @@
 
 #include "access/gate.h"
 #include "mutex.h"
+#include "rpc/accounts.h"
 #include "rpc/call_pool.h"
+#include "rpc/request_weight.h"
 #include "rpc/source_stream.h"
 #include "rpc/stream_reactor.h"
 #include "store/journal_schema.h"
@@ -34,9 +36,12 @@ inline constexpr const char* kEpochHeader = "cellcrush-epoch";
 struct Incoming {
   access::Caller caller;
   std::string epoch;  ///< that the call names; empty: none
-  /// Reads the request; false if its bytes cannot be parsed. May throw ServiceError.
+  /// Reads the request; false if its bytes cannot be parsed. May throw ServiceError. Owns the bytes, as it is called
+  /// later, on a thread of its own.
   std::function<bool(google::protobuf::Message& request)> decode;
-  MessageStream::Encode encode;  ///< of the answers
+  std::int64_t bytes = 0;                      ///< of the request
+  std::shared_ptr<Accounts::Charge> received;  ///< for these bytes; may be null
+  MessageStream::Encode encode;                ///< of the answers
 };
 
 /// All methods of the API: what each needs, and who answers it. gRPC and the Connect protocol both call through this
@@ -50,42 +55,63 @@ class MethodTable {
     std::function<std::shared_ptr<MessageStream>(const Incoming& incoming)> open;
   };
 
-  /// `http_pump` advances the streams that are not gRPC's. Both outlive the table.
-  MethodTable(access::Gate& gate, watch::Pump& http_pump, store::Epoch epoch)
-      : gate_(gate), http_pump_(http_pump), epoch_(std::move(epoch)) {}
+  /// `http_pump` advances the streams that are not gRPC's; `calls` parses requests and answers most calls. All of
+  /// them outlive the table.
+  MethodTable(access::Gate& gate, watch::Pump& http_pump, CallPool& calls, Accounts& received, store::Epoch epoch)
+      : gate_(gate), http_pump_(http_pump), calls_(calls), received_(received), epoch_(std::move(epoch)) {}
 
   // In both, `path` is a literal: "/cellcrush.v1.Jobs/GetJob". `scope`: what callers need; nothing: open to everybody.
   // Throws ServiceError (internal) if the .proto files have no such method.
 
-  /// `pool`: answers the calls; null: the thread that brings a call.
+  /// `pool`: answers the calls; null: the thread that brings a call. `is_large`: whether an answer may take seconds.
   template <class Service, class Request, class Response>
   void unary(const char* path, std::optional<access::Scope> scope, CallPool* pool,
-             const std::shared_ptr<Service>& service, Response (Service::*handle)(const Call&, const Request&)) {
+             const std::shared_ptr<Service>& service, Response (Service::*handle)(const Call&, const Request&),
+             bool (*is_large)(const std::type_identity_t<Request>&) = nullptr) {
+    // What both doors do: parse, perhaps move to the pool for checks, answer with `take`.
+    const auto begin = [this, path, pool, service, handle, is_large](Arrived arrived, auto take) {
+      const auto request = std::make_shared<Request>();
+      const auto respond = [service, handle, request, take](CallPool::Task& task) {
+        auto response = (*service.*handle)(*task.call, *request);
+        translate::add_words(response);
+        task.charge->set(take(std::move(response)));
+      };
+      arrived.task.bytes = heaviest_request_of(static_cast<std::size_t>(arrived.incoming.bytes));
+      arrived.task.body = [this, path, pool, request, respond, is_large,
+                           in = std::move(arrived.incoming)](CallPool::Task& task) mutable {
+        read_into(*request, path, in);
+        in = {};
+        if (pool == nullptr || pool == &calls_) return respond(task);
+        task.charge->set(static_cast<std::int64_t>(request->SpaceUsedLong()));
+        CallPool::Task next = std::move(task);
+        task.finish = nullptr;
+        next.is_large = is_large != nullptr && is_large(*request);
+        next.body = respond;
+        pool->run(std::move(next));
+      };
+      start(pool, std::move(arrived.task));
+    };
     grpc_.add(path, grpc::internal::RpcMethod::NORMAL_RPC,
-              new grpc::internal::CallbackUnaryHandler<Request, Response>(
-                  [this, pool, service, handle](grpc::CallbackServerContext* context, const Request* request,
-                                                Response* response) {
-                    auto* reactor = context->DefaultReactor();
-                    const auto call = std::make_shared<GrpcCall>(gate_, *context);
-                    run(pool, {call, static_cast<std::int64_t>(request->ByteSizeLong()),
-                               [this, epoch = exchange_epochs(*context), call, service, handle, request, response] {
-                                 require_epoch(epoch);
-                                 *response = (*service.*handle)(*call, *request);
-                                 translate::add_words(*response);
-                               },
-                               [reactor](const grpc::Status& status) { reactor->Finish(status); }});
+              new grpc::internal::CallbackUnaryHandler<grpc::ByteBuffer, Response>(
+                  [this, begin, is_open = !scope](grpc::CallbackServerContext* context, const grpc::ByteBuffer* bytes,
+                                                  Response* response) {
+                    auto* reactor = new UnaryReactor;
+                    auto arrived = arrive(*context, *bytes, is_open, *reactor);
+                    if (!arrived) return reactor;
+                    begin(std::move(*arrived), [response](Response answer) {
+                      *response = std::move(answer);
+                      return 2 * static_cast<std::int64_t>(response->ByteSizeLong());  // and as bytes
+                    });
                     return reactor;
                   }));
-    const auto open = [path, pool, service, handle](const Incoming& incoming) {
-      auto request = read<Request>(path, incoming);
-      const auto bytes = static_cast<std::int64_t>(request->ByteSizeLong());
-      return std::make_shared<UnaryCall>(
-          pool, incoming.caller, bytes,
-          [service, handle, request, encode = incoming.encode](const Call& call, std::string& to) {
-            auto response = (*service.*handle)(call, *request);
-            translate::add_words(response);
-            encode(response, to);
-          });
+    const auto open = [begin](const Incoming& incoming) {
+      return std::make_shared<UnaryCall>(incoming, [begin](Arrived arrived, std::string& to) {
+        const auto encode = arrived.incoming.encode;
+        begin(std::move(arrived), [encode, &to](const Response& answer) {
+          encode(answer, to);
+          return static_cast<std::int64_t>(to.size());
+        });
+      });
     };
     add(path, scope, {describe(path, *Request::descriptor(), *Response::descriptor(), false), open});
   }
@@ -97,26 +123,29 @@ class MethodTable {
               const std::shared_ptr<Service>& service, std::unique_ptr<Source> (Service::*make)(const Request&)) {
     using Message = typename Source::Message;
     grpc_.add(path, grpc::internal::RpcMethod::SERVER_STREAMING,
-              new grpc::internal::CallbackServerStreamingHandler<Request, Message>(
-                  [this, parts, service, make, is_open = !scope](grpc::CallbackServerContext* context,
-                                                                 const Request* request) {
+              new grpc::internal::CallbackServerStreamingHandler<grpc::ByteBuffer, Message>(
+                  [this, path, parts, service, make, is_open = !scope](grpc::CallbackServerContext* context,
+                                                                       const grpc::ByteBuffer* bytes) {
                     const auto epoch = exchange_epochs(*context);
                     return open_stream<Source>(
-                        parts, *context,
-                        [&] { return is_open ? address_of(context->peer()) : gate_.caller_of(*context).name; },
+                        parts, *context, [&] { return name_of(*context, is_open); },
                         [&] {
                           require_epoch(epoch);
-                          return (*service.*make)(*request);
+                          return (*service.*make)(*read<Request>(path, incoming_of(*bytes)));
                         });
                   }));
     const StreamParts http_parts{http_pump_, parts.metrics, parts.limits, parts.times};
     const auto open = [path, http_parts, service, make](const Incoming& incoming) {
-      auto request = read<Request>(path, incoming);
-      return std::make_shared<SourceStream<Source>>(http_parts, incoming.caller.name, incoming.encode,
-                                                    [service, make, request] { return (*service.*make)(*request); });
+      return std::make_shared<SourceStream<Source>>(
+          http_parts, incoming.caller.name, incoming.encode,
+          [service, make, path, incoming] { return (*service.*make)(*read<Request>(path, incoming)); });
     };
     add(path, scope, {describe(path, *Request::descriptor(), *Message::descriptor(), true), open});
   }
+
+  /// Called for each call of gRPC that the gate has admitted, with gRPC's name of its connection. REQUIRES: no call has
+  /// come.
+  std::function<void(const std::string& connection, const std::string& caller)> on_admitted;
 
   /// Null if there is none.
   [[nodiscard]] const Method* find(std::string_view path) const;
@@ -150,40 +179,67 @@ class MethodTable {
     const grpc::CallbackServerContext& context_;  ///< until the call is finished
   };
 
-  /// A unary call that is not gRPC's: its own answer.
+  /// A unary call that has come, by whichever door.
+  struct Arrived {
+    CallPool::Task task;  ///< without its body
+    Incoming incoming;
+  };
+
+  /// Ends a unary call of gRPC, and holds the memory of its answer until the client has it.
+  class UnaryReactor final : public grpc::ServerUnaryReactor {
+   public:
+    void finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge) {
+      charge_ = std::move(charge);
+      Finish(status);
+    }
+    void OnDone() override { delete this; }
+
+   private:
+    std::shared_ptr<Accounts::Charge> charge_;
+  };
+
+  /// A unary call that is not gRPC's: its own answer. It is asked for once.
   class UnaryCall final : public Call, public MessageStream, public std::enable_shared_from_this<UnaryCall> {
    public:
-    using Body = std::function<void(const Call& call, std::string& to)>;
+    using Begin = std::function<void(Arrived arrived, std::string& to)>;
 
-    UnaryCall(CallPool* pool, access::Caller caller, std::int64_t bytes, Body body)
-        : pool_(pool), caller_(std::move(caller)), bytes_(bytes), body_(std::move(body)) {}
+    UnaryCall(Incoming incoming, Begin begin) : incoming_(std::move(incoming)), begin_(std::move(begin)) {}
 
-    [[nodiscard]] access::Caller caller() const override { return caller_; }
+    [[nodiscard]] access::Caller caller() const override { return incoming_.caller; }
     [[nodiscard]] bool is_cancelled() const override { return is_cancelled_; }
     void ask(Deliver deliver) override;
     void cancel() override { is_cancelled_ = true; }
 
    private:
-    CallPool* pool_;
-    access::Caller caller_;
-    std::int64_t bytes_;
-    Body body_;
+    Incoming incoming_;
+    Begin begin_;
     std::atomic<bool> is_cancelled_ = false;
   };
 
   template <class Request>
   static std::shared_ptr<Request> read(const char* path, const Incoming& incoming) {
+    if (incoming.bytes > kLargestStreamRequest) throw too_large(incoming.bytes, kLargestStreamRequest);
     auto out = std::make_shared<Request>();
     read_into(*out, path, incoming);
     return out;
   }
 
+  static constexpr std::int64_t kLargestStreamRequest = 256 * 1024;
+
   static void read_into(google::protobuf::Message& request, const char* path, const Incoming& incoming);
   /// Puts the daemon's epoch into the answer. The one that the call names; empty: none.
   std::string exchange_epochs(grpc::CallbackServerContext& context) const;
   void require_epoch(const std::string& named) const;
-  static void run(CallPool* pool, CallPool::Task task);
-  static std::string address_of(const std::string& peer);
+  static ServiceError too_large(std::int64_t bytes, std::int64_t most);
+  /// Takes the bytes of a request from gRPC, which would keep them until the call ends.
+  static Incoming incoming_of(const grpc::ByteBuffer& bytes);
+  /// For whom a call of gRPC counts. Throws ServiceError (unauthenticated).
+  [[nodiscard]] std::string name_of(const grpc::CallbackServerContext& context, bool is_open) const;
+  /// A unary call of gRPC; nothing if it is refused, and finished.
+  std::optional<Arrived> arrive(grpc::CallbackServerContext& context, const grpc::ByteBuffer& bytes, bool is_open,
+                                UnaryReactor& reactor);
+  /// Has the call's request parsed.
+  void start(const CallPool* pool, CallPool::Task task);
   static const google::protobuf::MethodDescriptor* describe(std::string_view path,
                                                             const google::protobuf::Descriptor& request,
                                                             const google::protobuf::Descriptor& response,
@@ -192,6 +248,8 @@ class MethodTable {
 
   access::Gate& gate_;
   watch::Pump& http_pump_;
+  CallPool& calls_;
+  Accounts& received_;
   const store::Epoch epoch_;
   GrpcService grpc_;
   std::map<std::string, Method, std::less<>> methods_;
@@ -211,9 +269,7 @@ class OpenCalls {
   int count_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
 };
 
-/// Counts every call over gRPC in `open`, which outlives the server. Ends a unary or server-streaming one whose request
-/// cannot be parsed with InvalidField, naming the method and the message type, as MethodTable does elsewhere. gRPC
-/// itself would end it with INTERNAL or UNIMPLEMENTED and no message.
+/// Counts every call over gRPC in `open`, which outlives the server.
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_interceptors(OpenCalls& open);
 
 }  // namespace cellcrush::rpc

@@ -39,7 +39,11 @@ struct ServiceParts {
   double step_cost = 0.0;     ///< seconds of one core per element and step
   int owner_max_running = 0;  ///< jobs of one owner that run at once on one executor; 0: no limit
   StreamParts streams;
+  StreamParts exports;  ///< fewer, as they hold the meshes of their jobs, and read without delay
 };
+
+/// Whether checking the case may take seconds, as its mesh waits for one of a few places.
+bool is_large_case(const v1::Case& submitted);
 
 // Each adds the calls of one service. `parts` outlives the table.
 void add_cases_methods(MethodTable& table, const ServiceParts& parts);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mutex.h"
+#include "rpc/accounts.h"
 #include "rpc/stream_state.h"
 
 namespace cellcrush::rpc {
@@ -27,7 +28,8 @@ class MessageStream {
   /// Some messages, in order.
   struct Batch {
     std::string bytes;
-    std::optional<grpc::Status> end;  ///< how the stream ended; nothing follows
+    std::optional<grpc::Status> end;                     ///< how the stream ended; nothing follows
+    std::shared_ptr<Accounts::Charge> charge = nullptr;  ///< for the bytes of a unary call, until they are sent
   };
   /// Called on the thread that made the batch, without a lock: must be quick.
   using Deliver = std::function<void(Batch batch)>;

@@ -1,8 +1,17 @@
 #include "rpc/stream_limits.h"
 
+#include <fmt/format.h>
+
 #include "error.h"
 
 namespace cellcrush::rpc {
+namespace {
+
+std::string limit_of(const std::string& option, const char* end) {
+  return option.empty() ? "the limit" : "the limit of " + option + end;
+}
+
+}  // namespace
 
 StreamLimits::Permit::~Permit() {
   if (limits_ == nullptr) return;
@@ -31,16 +40,15 @@ void StreamLimits::Permit::hold(std::size_t bytes) {
 StreamLimits::Permit StreamLimits::admit(const std::string& caller) {
   const MutexLock lock(mutex_);
   if (count_ >= most_.in_all) {
-    throw ServiceError(
-        ServiceError::Kind::exhausted,
-        std::to_string(count_) +
-            " streams are open, the limit of --max-streams. Try again later, and close streams that are not read.");
+    throw ServiceError(ServiceError::Kind::exhausted,
+                       fmt::format("{} {} are open, {}. Try again later, and close {} that are not read.", count_,
+                                   most_.what, limit_of(most_.option, ""), most_.what));
   }
   int& of_caller = callers_[caller];
   if (of_caller >= most_.per_caller) {
     throw ServiceError(ServiceError::Kind::exhausted,
-                       caller + " has " + std::to_string(of_caller) +
-                           " streams open, the limit of --max-streams-per-caller. Close some first.");
+                       fmt::format("{} has {} {} open, {}. Close some first.", caller, of_caller, most_.what,
+                                   limit_of(most_.option, "-per-caller")));
   }
   ++of_caller;
   ++count_;

@@ -17,7 +17,9 @@ class StreamLimits {
   struct Most {
     int in_all = 0;
     int per_caller = 0;
-    std::int64_t bytes = 0;  ///< of unread messages
+    std::int64_t bytes = 0;                ///< of unread messages
+    const char* what = "streams";          ///< in messages
+    const char* option = "--max-streams";  ///< that sets the limit, with "-per-caller" the other; empty: none does
   };
 
   /// The place of a stream, released on destruction. One thread at a time.

@@ -273,7 +273,8 @@ class SweepCalls {
 void add_sweeps_methods(MethodTable& table, const ServiceParts& parts) {
   using access::Scope;
   const auto calls = std::make_shared<SweepCalls>(parts);
-  table.unary("/cellcrush.v1.Sweeps/CreateSweep", Scope::submit, &parts.checks, calls, &SweepCalls::create_sweep);
+  table.unary("/cellcrush.v1.Sweeps/CreateSweep", Scope::submit, &parts.checks, calls, &SweepCalls::create_sweep,
+              [](const v1::CreateSweepRequest&) { return true; });
   table.unary("/cellcrush.v1.Sweeps/GetSweep", Scope::read, &parts.calls, calls, &SweepCalls::get_sweep);
   table.unary("/cellcrush.v1.Sweeps/ListSweeps", Scope::read, &parts.calls, calls, &SweepCalls::list_sweeps);
   table.unary("/cellcrush.v1.Sweeps/UpdateSweep", Scope::submit, &parts.calls, calls, &SweepCalls::update_sweep);

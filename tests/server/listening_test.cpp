@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 
 #include "error.h"
@@ -82,6 +83,26 @@ TEST(ConnectionTable, AdmitsUpToBothLimitsAndForgetsWhatWasClosed) {
   one.close_first();
   EXPECT_TRUE(wait_until([&] { return !table.admit(four.ends[0], "b"); }));
   EXPECT_EQ(table.count(), 3U);
+}
+
+TEST(ConnectionTable, ClosesTheOldestStrangerForANewConnectionButNotThoseWithAnAdmittedCall) {
+  ConnectionTable table({4, 4});
+  std::array<SocketPair, 6> pairs;
+  for (std::size_t i = 0; i < 4; ++i)
+    ASSERT_EQ(table.admit(pairs[i].ends[0], "a", "ipv4:a:" + std::to_string(i)), std::nullopt);
+  table.know("ipv4:a:0", "anna");
+  table.know(pairs[2].ends[0], "anna");
+  table.know(pairs[3].ends[0], "anna");  // more than half of the places
+  const auto is_closed = [&](std::size_t i) {
+    char byte = 0;
+    return recv(pairs[i].ends[1], &byte, 1, MSG_DONTWAIT) == 0;
+  };
+  EXPECT_EQ(table.admit(pairs[4].ends[0], "a", "ipv4:a:4"), std::nullopt);
+  EXPECT_TRUE(is_closed(1));
+  table.know(pairs[4].ends[0], "ben");
+  EXPECT_EQ(table.admit(pairs[5].ends[0], "a", "ipv4:a:5"), std::nullopt);
+  EXPECT_TRUE(is_closed(3));
+  for (const std::size_t i : {0, 2, 4}) EXPECT_FALSE(is_closed(i)) << i;
 }
 
 TEST(ConnectionTable, TellsADescriptorThatIsUsedAgainFromTheConnectionThatHadIt) {

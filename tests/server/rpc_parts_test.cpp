@@ -153,7 +153,6 @@ TEST(ExportSource, AJobThatIsDeletedMeanwhileIsAnErrorNotAFileWithoutItsResults)
   store::Journal journal(data.journal(), [](std::int64_t) {});
   store::JournalReader reader(data.journal());
   jobs::MeshPlaces places;
-  ExportPlaces exports;
   v1::Job created;
   *created.mutable_case_() = testing::small_case();
   const std::int64_t job = journal.create_job(created, "", "").job;
@@ -167,17 +166,10 @@ TEST(ExportSource, AJobThatIsDeletedMeanwhileIsAnErrorNotAFileWithoutItsResults)
   const auto stored = reader.find_job(job);
   ASSERT_TRUE(stored);
   {
-    ExportSource whole({data, reader, places, exports}, *stored, request);
+    ExportSource whole({data, reader, places}, *stored, request);
     while (!whole.ended()) ASSERT_TRUE(whole.next());
   }
-  const auto open = [&] {
-    return std::make_unique<ExportSource>(ExportSource::Parts{data, reader, places, exports}, *stored, request);
-  };
-  std::vector<std::unique_ptr<ExportSource>> others;
-  for (int i = 0; i < ExportPlaces::kMost; ++i) others.push_back(open());
-  EXPECT_THROW(open(), ServiceError) << "All places are taken.";
-  others.clear();
-  ExportSource source({data, reader, places, exports}, *stored, request);
+  ExportSource source({data, reader, places}, *stored, request);
   ASSERT_TRUE(source.next()) << "the head";
   journal.delete_job(job);
   EXPECT_THAT(

@@ -178,8 +178,28 @@ TEST_F(HttpGatewayTest, SlowAndLargeRequestsAreRefused) {
   const HttpSocket slow(port());
   slow.send("POST / HT");
   EXPECT_EQ(slow.read_to_end(), "");
-  const std::string head = "POST /cellcrush.v1.Jobs/GetJob HTTP/1.1\r\nHost: x\r\nContent-Length: 5000000\r\n\r\n";
-  EXPECT_THAT(exchange(head), StartsWith("HTTP/1.1 413"));
+  const std::string head = "POST /cellcrush.v1.Jobs/GetJob HTTP/1.1\r\nHost: localhost:" + std::to_string(port()) +
+                           "\r\nContent-Type: application/json\r\n";
+  EXPECT_THAT(exchange(head + "Content-Length: 5000000\r\n\r\n"), StartsWith("HTTP/1.1 413"));
+  const std::string trailers = "Transfer-Encoding: chunked\r\n\r\n0\r\nX: " + std::string(100'000, 'a');
+  EXPECT_THAT(exchange(head + trailers), StartsWith("HTTP/1.1 431"));
+  EXPECT_THAT(exchange("POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 5000000\r\n\r\n"), StartsWith("HTTP/1.1 421"))
+      << "without a byte of the body";
+}
+
+TEST_F(HttpGatewayTest, ARequestThatWouldTakeTooMuchMemoryIsRefusedBeforeItIsMade) {
+  std::string points;
+  for (int i = 0; i < 300'000; ++i) points += "{},";
+  const std::string head =
+      "POST /cellcrush.v1.Sweeps/CreateSweep HTTP/1.1\r\nHost: localhost:" + std::to_string(port()) +
+      "\r\nConnection: close\r\nContent-Type: application/";
+  const auto post = [&](const std::string& type, const std::string& body) {
+    return exchange(head + type + "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+  };
+  EXPECT_THAT(post("json", "{\"sweep\":{\"points\":[" + points + "{}]}}"), HasSubstr("has 300003 objects in JSON"));
+  std::string wire = "\x0a\x80\x89\x7a";  // field 1, of 2,000,000 bytes
+  for (int i = 0; i < 1'000'000; ++i) wire += std::string("\x22\0", 2);
+  EXPECT_THAT(post("proto", wire), HasSubstr("sweep.points takes too much memory"));
 }
 
 TEST_F(HttpGatewayTest, NamedOriginsMayFrameThePageButNotCallMethods) {

@@ -87,11 +87,13 @@ TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
   rpc::StreamLimits limits({10, 10, 100'000'000});
   watch::Pump pump(2);
   access::Gate gate({});
-  rpc::MethodTable methods(gate, pump, {});
+  rpc::Accounts memory({1 << 20, 1 << 20});
+  rpc::CallPool calls({1, 1, 0, 0, 1}, memory);
+  rpc::MethodTable methods(gate, pump, calls, memory, {});
   methods.stream("/cellcrush.v1.Jobs/DownloadResult", access::Scope::read, {pump, metrics, limits, {}},
                  std::make_shared<FountainService>(sent), &FountainService::open);
   rpc::HealthBoard board;
-  http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, methods, board, {});
+  http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, methods, memory, board, {});
   const HttpSocket socket(std::stoi(gateway.url().substr(gateway.url().rfind(':') + 1)), 64 * 1024);
   const std::string body = envelope("");
   socket.send("POST /cellcrush.v1.Jobs/DownloadResult HTTP/1.1\r\nHost: " + gateway.url().substr(7) +
