@@ -326,7 +326,7 @@ asio::awaitable<void> Connection::answer_sign_in(const Request& request, const S
     co_await send(403, kText, "This link was used before, or is older than 5 minutes. Run `cellcrush open` again.\n");
     co_return;
   }
-  auto response = new_response<bhttp::string_body>(303, keep_alive_, "no-store");
+  auto response = new_response<bhttp::string_body>(303, keep_alive_, "no-store", parts_.methods.epoch());
   response.set(Field::location, "./" + sign_in.page);
   if (session) response.set(Field::set_cookie, session_cookie(*session, parts_.port, parts_.has_tls));
   response.content_length(0);
