@@ -85,9 +85,9 @@ class ProxyTest : public ::testing::Test {
   }
 
   [[nodiscard]] std::string curl(const std::string& target, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(),
-                {"curl", "-sS", "--retry", "9", "--retry-connrefused", "--cacert", authority_.certificate().string(),
-                 "-H", "Authorization: Bearer " + token_, "https://localhost:" + port_ + "/crush" + target});
+    more.insert(more.begin(), {"/usr/bin/curl", "-sS", "--retry", "9", "--retry-connrefused", "--cacert",
+                               authority_.certificate().string(), "-H", "Authorization: Bearer " + token_,
+                               "https://localhost:" + port_ + "/crush" + target});
     const Outcome outcome = run(more, kCrushLimit);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
     return outcome.output;
