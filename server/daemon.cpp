@@ -266,16 +266,18 @@ struct Daemon::Impl {
 
   void serve_http() {
     if (!wanted_http) return;
+    const auto site = http::parse_public_url(options.public_url);
     try {
       gateway.emplace(*wanted_http, gate, service.methods, service.received, service.board, options.connections,
-                      options.framing_origins, http::parse_public_url(options.public_url));
+                      options.framing_origins, site);
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
       warn_without_http(error);
       return;
     }
     http_url = gateway->url();
-    gate.sessions().serve_at(absl::StrReplaceAll(http_url, {{"//0.0.0.0:", "//localhost:"}}));
+    gate.sessions().serve_at(site.host.empty() ? absl::StrReplaceAll(http_url, {{"//0.0.0.0:", "//localhost:"}})
+                                               : site.origin + site.path);
     spdlog::info("serving HTTP on {}", http_url);
   }
 

@@ -43,7 +43,7 @@ watch::WatchTimes times_of_exports(watch::WatchTimes times) {
 
 // All executors, that of this machine first.
 std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& options, double step_cost) {
-  spdlog::info("up to {} jobs run at once, on {}", options.worker_count(), usable_cores().text());
+  spdlog::info("workers: {}, on {}", options.worker_count(), usable_cores().text());
   std::vector<jobs::Queues::NamedExecutor> out;
   out.push_back({store::kLocalExecutor, options.worker_count(),
                  std::make_unique<jobs::LocalProcess>(options.worker_program, options.stall_limit)});

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "cellcrush/byte_stream.h"
 #include "store/job_folder.h"
 #include "store/report.pb.h"
 #include "translate/results.h"

@@ -42,10 +42,13 @@ class ProxyTest : public ::testing::Test {
     cellcrush::testing::write_secret(path("tokens"), made.output.substr(end + 1));
     cellcrush::testing::write_secret(path("anna"), token_);
     daemon_ = std::make_unique<Process>(std::vector<std::string>{
-        CELLCRUSHD_PROGRAM, "--data", path("data"), "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--tokens",
-        path("tokens"), "--public-url", "https://localhost:" + port_ + "/crush/"});
+        CELLCRUSHD_PROGRAM, "--data", path("data"), "--listen", "127.0.0.1:0", "--http", "127.0.0.1:" + http_port_,
+        "--tokens", path("tokens"), "--public-url", "https://localhost:" + port_ + "/crush/"});
     ASSERT_TRUE(daemon_->wait_for_output("\n", kShortLimit)) << daemon_->errors();
-    start_nginx(port_in(daemon_->errors(), "serving HTTP on http"), port_in(daemon_->output(), "listening on"));
+    std::smatch found;
+    const std::string& output = daemon_->output();
+    ASSERT_TRUE(std::regex_search(output, found, std::regex("listening on 127\\.0\\.0\\.1:([0-9]+)"))) << output;
+    start_nginx(found[1]);
   }
 
   void TearDown() override {
@@ -56,14 +59,7 @@ class ProxyTest : public ::testing::Test {
     }
   }
 
-  // The port of loopback after these words.
-  static std::string port_in(const std::string& text, const std::string& words) {
-    std::smatch found;
-    EXPECT_TRUE(std::regex_search(text, found, std::regex(words + "[^\n]*?127\\.0\\.0\\.1:([0-9]+)"))) << text;
-    return found[1];
-  }
-
-  void start_nginx(const std::string& http, const std::string& grpc) {
+  void start_nginx(const std::string& grpc_port) {
     std::ifstream file(std::string(CELLCRUSH_SOURCE_ROOT) + "/server/reach.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
     const auto begin = page.find("```nginx\n") + 9;
@@ -74,8 +70,8 @@ class ProxyTest : public ::testing::Test {
     };
     replace("listen 443 ", "listen 127.0.0.1:" + port_ + " ");
     replace("site.example.org", "localhost");
-    replace("127.0.0.1:8080", "127.0.0.1:" + http);
-    replace("127.0.0.1:50551", "127.0.0.1:" + grpc);
+    replace("127.0.0.1:8080", "127.0.0.1:" + http_port_);
+    replace("127.0.0.1:50551", "127.0.0.1:" + grpc_port);
     const auto server = authority_.sign("server");
     std::string files = "access_log off;\n";
     for (const char* use : {"client_body", "proxy", "fastcgi", "uwsgi", "scgi"})
@@ -89,9 +85,9 @@ class ProxyTest : public ::testing::Test {
   }
 
   [[nodiscard]] std::string curl(const std::string& target, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(),
-                {"curl", "-sS", "--retry", "9", "--retry-connrefused", "--cacert", authority_.certificate().string(),
-                 "-H", "Authorization: Bearer " + token_, "https://localhost:" + port_ + "/crush" + target});
+    more.insert(more.begin(), {"/usr/bin/curl", "-sS", "--retry", "9", "--retry-connrefused", "--cacert",
+                               authority_.certificate().string(), "-H", "Authorization: Bearer " + token_,
+                               "https://localhost:" + port_ + "/crush" + target});
     const Outcome outcome = run(more, kCrushLimit);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
     return outcome.output;
@@ -102,6 +98,7 @@ class ProxyTest : public ::testing::Test {
   cellcrush::testing::TemporaryFolder folder_;
   cellcrush::testing::Authority authority_{folder_.path(), "authority"};
   std::string port_ = free_port();
+  std::string http_port_ = free_port();
   std::string token_;
   std::unique_ptr<Process> daemon_;
   std::unique_ptr<Process> nginx_;

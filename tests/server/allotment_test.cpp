@@ -57,7 +57,7 @@ void expect_one_core(const std::string& why) {
   const auto admin = v1::Admin::NewStub(client.channel);
   EXPECT_TRUE(try_call(*admin, &v1::Admin::Stub::GetCapabilities, {}, &capabilities).ok());
   EXPECT_EQ(capabilities.worker_limit(), 1);
-  EXPECT_TRUE(daemon.wait_for_error("up to 1 jobs run at once, on 1 core" + why));
+  EXPECT_TRUE(daemon.wait_for_error("workers: 1, on 1 core" + why));
 }
 
 TEST(Cores, AreThoseThatAffinityOrSlurmLeaveTheDaemon) {

@@ -117,7 +117,7 @@ TEST_F(LimitsTest, ASweepWhoseLabelsWouldFillTheJournalIsRefused) {
 
 TEST_F(LimitsTest, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
   auto options = default_options();
-  options.limits.job_memory_bytes = 50 * 1024 * 1024;
+  options.limits.job_memory_bytes = 36 * 1024 * 1024;
   start(options);
   auto client = this->client();
   const auto refused = try_to_create(client, endless_case());

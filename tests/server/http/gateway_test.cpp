@@ -154,7 +154,8 @@ TEST_F(HttpGatewayTest, ThePageIsFoundBehindATunnelAndBelowThePathOfAnotherSite)
   EXPECT_THAT(call("ListJobs", "application/json", "{}", "Origin: https://site.example\r\n"),
               StartsWith("HTTP/1.1 200"))
       << "a proxy may name the address to which it passes";
-  EXPECT_THAT(exchange("GET / HTTP/1.1\r\nHost: other.example\r\n\r\n"), StartsWith("HTTP/1.1 421"));
+  EXPECT_THAT(exchange("GET / HTTP/1.1\r\nHost: other.example\r\nConnection: close\r\n\r\n"),
+              StartsWith("HTTP/1.1 421"));
 }
 
 // As nginx asks by default.
