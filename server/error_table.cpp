@@ -156,7 +156,8 @@ grpc::Status status_of(const std::exception& error) {
     return own_status(grpc::StatusCode::RESOURCE_EXHAUSTED,
                       "The daemon is out of memory. Use a smaller case, or try again later.");
   spdlog::error("A call failed: {}", error.what());
-  return own_status(grpc::StatusCode::INTERNAL, message_of(std::string("Internal error of the daemon: ") + error.what()));
+  return own_status(grpc::StatusCode::INTERNAL,
+                    message_of(std::string("Internal error of the daemon: ") + error.what()));
 }
 
 }  // namespace cellcrush

@@ -1,5 +1,5 @@
-// Elements from TypeScript. Text always becomes a text node, so that titles and labels of jobs cannot inject markup, and
-// is printable, so that they cannot reorder the text beside them.
+// Elements from TypeScript. Text always becomes a text node, so that titles and labels of jobs cannot inject markup,
+// and is printable, so that they cannot reorder the text beside them.
 
 export type Child = Node | string | number | null | undefined | false;
 type Listener = (event: never) => void;
