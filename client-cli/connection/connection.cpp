@@ -195,7 +195,9 @@ void Connection::find_owner() {
   v1::WhoAmIResponse who;
   const auto status = admin_->WhoAmI(&context, v1::WhoAmIRequest(), &who);
   // A server that does not let this user in says so at the next call.
-  if (!status.ok() && status.error_code() != grpc::StatusCode::UNIMPLEMENTED) return;
+  if (status.error_code() == grpc::StatusCode::UNAUTHENTICATED ||
+      status.error_code() == grpc::StatusCode::PERMISSION_DENIED)
+    return;
   if (status.ok() && who.server_owner() == own_user()) return;
   owner_ = status.ok() ? who.server_owner() : "an unknown user";
   fmt::print(stderr, "cellcrush: using the server of {} at {}\n", owner_, address_);

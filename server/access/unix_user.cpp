@@ -140,7 +140,10 @@ const std::string& own_user() {
 std::optional<uid_t> user_of_peer(int connection) {
   const auto ends = ends_of(connection);
   if (!ends) return std::nullopt;
-  if (ends->own.ss_family == AF_UNIX) return ask_socket(connection);
+  if (ends->own.ss_family == AF_UNIX) {
+    const auto user = ask_socket(connection);
+    return user && !is_ambiguous(*user) ? user : std::nullopt;
+  }
   if (!is_loopback(ends->own) || !is_loopback(ends->peer)) return std::nullopt;
   const auto user = ask_kernel(*ends);
   return user && is_established(connection) && !is_ambiguous(*user) ? user : std::nullopt;

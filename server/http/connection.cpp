@@ -81,7 +81,7 @@ asio::awaitable<void> Connection::serve() {
   close(true);
 }
 
-asio::awaitable<void> Connection::answer(Request& request, const Permit& permit) {
+asio::awaitable<void> Connection::answer(Request& request, Permit& permit) {
   if (const auto& refusal = permit.refusal) {
     // Only calls have an error as JSON.
     if (request.method() == bhttp::verb::get || is_head_) {
@@ -112,7 +112,7 @@ asio::awaitable<void> Connection::answer(Request& request, const Permit& permit)
   }
 }
 
-std::shared_ptr<Call> Connection::begin_call(Request& request, const Permit& permit,
+std::shared_ptr<Call> Connection::begin_call(Request& request, Permit& permit,
                                              const rpc::MethodTable::Method& method, const Encoding& encoding,
                                              grpc::Status& status) {
   status = permit.status;
@@ -125,7 +125,7 @@ std::shared_ptr<Call> Connection::begin_call(Request& request, const Permit& per
     const std::string_view message = encoding.stream ? read_envelope(*body) : std::string_view(*body);
     rpc::Incoming incoming{permit.caller,   std::string(request[rpc::kEpochHeader]),
                            nullptr,         static_cast<std::int64_t>(message.size()),
-                           permit.received, encode_for(encoding)};
+                           std::move(permit.received), encode_for(encoding)};
     incoming.decode = [body, message, json = encoding.json](google::protobuf::Message& to) {
       return decode(message, json, to);
     };
@@ -141,8 +141,9 @@ std::shared_ptr<Call> Connection::begin_call(const Request& request, const std::
   incoming.epoch = std::string(request[rpc::kEpochHeader]);
   status = parts_.gate.check_http_call(download->method, credentials_of(request), incoming.caller);
   if (!status.ok()) return nullptr;
+  parts_.table.know(stream_.plain().socket().native_handle(), incoming.caller.name);
   status = cellcrush::answer([&] {
-    incoming.decode = [&](google::protobuf::Message& message) {
+    incoming.decode = [download](google::protobuf::Message& message) {
       download->ask(message);
       return true;
     };
@@ -216,9 +217,11 @@ asio::awaitable<void> Connection::answer_sign_in(const Request& request, const S
     co_await send(403, kText, "This link was used before, or is older than 5 minutes. Run `cellcrush open` again.\n");
     co_return;
   }
+  const bool is_secure = parts_.has_tls || parts_.public_url.origin.starts_with("https://");
   auto response = new_response<bhttp::string_body>(303, keep_alive_, "no-store", parts_.methods.epoch());
   response.set(Field::location, "./" + sign_in.page);
-  if (session) response.set(Field::set_cookie, session_cookie(*session, parts_.port, parts_.has_tls));
+  const std::string path = parts_.public_url.path + "/";
+  if (session) response.set(Field::set_cookie, session_cookie(*session, parts_.port, path, is_secure));
   response.content_length(0);
   stream_.plain().expires_after(parts_.limits.idle);
   co_await bhttp::async_write(stream_, response, asio::use_awaitable);
@@ -261,13 +264,15 @@ asio::awaitable<void> Connection::answer_download(const Request& request) {
       const auto batch = co_await call->next();
       ended = batch.end.has_value();
       if (ended) status = *batch.end;
+      if (status.ok() && download->first > 0 && download->size && download->first >= *download->size)
+        status = {grpc::StatusCode::OUT_OF_RANGE, "The file ends there."};
       if (!status.ok()) break;
       if (!std::exchange(has_begun, true)) co_await send_stream_head(download->content_type, download.get());
       if (!wants_body) break;
       if (!batch.bytes.empty()) co_await send_chunk(batch.bytes);
     }
     if (call) end_call();
-    if (!wants_body || !download->has_more()) break;
+    if (!status.ok() || !wants_body || !download->has_more()) break;
   }
   if (!has_begun) {
     const bool is_past_end = status.error_code() == grpc::StatusCode::OUT_OF_RANGE;

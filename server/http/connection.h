@@ -78,7 +78,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::asio::awaitable<bool> read_body(Parser& parser, Permit& permit);
   /// Answers with the error of a message that is too large, and is the last to do so.
   boost::asio::awaitable<void> refuse_large(const boost::beast::error_code& error);
-  boost::asio::awaitable<void> answer(Request& request, const Permit& permit);
+  boost::asio::awaitable<void> answer(Request& request, Permit& permit);
   [[nodiscard]] Permit permit_for(const Request& head, std::int64_t body_bytes);
   [[nodiscard]] static std::string_view target_of(const Request& request) {
     return {request.target().data(), request.target().size()};
@@ -94,7 +94,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// A file made by calls, with errors as text. One that comes once the file has begun cuts it off.
   boost::asio::awaitable<void> answer_download(const Request& request);
   /// The call of this request if it may be made; else null, and the status says why.
-  std::shared_ptr<Call> begin_call(Request& request, const Permit& permit, const rpc::MethodTable::Method& method,
+  std::shared_ptr<Call> begin_call(Request& request, Permit& permit, const rpc::MethodTable::Method& method,
                                    const Encoding& encoding, grpc::Status& status);
   std::shared_ptr<Call> begin_call(const Request& request, const std::shared_ptr<Download>& download,
                                    grpc::Status& status);

@@ -78,7 +78,7 @@ asio::awaitable<bool> Connection::read_head(Parser& parser, bool first) {
 
 asio::awaitable<bool> Connection::read_body(Parser& parser, Permit& permit) {
   const bool is_wanted = permit.received != nullptr;
-  const std::uint64_t most = is_wanted ? kLargestBody : kLargestUnasked;
+  const std::uint64_t most = is_wanted && !permit.caller.name.empty() ? kLargestBody : kLargestUnasked;
   beast::error_code error;
   if (parser.content_length().value_or(0) > most) {
     error = bhttp::error::body_limit;
@@ -86,7 +86,10 @@ asio::awaitable<bool> Connection::read_body(Parser& parser, Permit& permit) {
     parser.body_limit(most);
     co_await bhttp::async_read(stream_, buffer_, parser, asio::redirect_error(asio::use_awaitable, error));
   }
-  if (!error) co_return true;
+  if (!error) {
+    if (is_wanted) permit.received->set(static_cast<std::int64_t>(parser.get().body().size()));
+    co_return true;
+  }
   keep_alive_ = false;
   if (error == bhttp::error::body_limit && !is_wanted) {
     left_body_ = true;
@@ -101,7 +104,8 @@ asio::awaitable<void> Connection::refuse_large(const beast::error_code& error) {
   const bool is_body = error == bhttp::error::body_limit;
   if (!is_body && error != bhttp::error::header_limit && error != bhttp::error::buffer_overflow) co_return;
   left_body_ = true;
-  const char* words = is_body ? "The body is larger than 4 MiB." : "The headers or trailers are larger than 16 KiB.";
+  const char* words = is_body ? "The body is larger than this method takes."
+                              : "The headers or trailers are larger than 16 KiB.";
   co_await send_error(is_body ? 413 : 431, {grpc::StatusCode::RESOURCE_EXHAUSTED, words});
 }
 
@@ -112,6 +116,8 @@ Connection::Permit Connection::permit_for(const Request& head, std::int64_t body
   out.status = parts_.gate.check_http_call(path_of(*method_of(head)->descriptor), credentials_of(head), out.caller);
   if (!out.status.ok()) return out;
   parts_.table.know(stream_.plain().socket().native_handle(), out.caller.name);
+  // Methods that are open to everybody, whose callers have no name, need small requests.
+  if (out.caller.name.empty()) body_bytes = std::min<std::int64_t>(body_bytes, kLargestUnasked);
   out.received = parts_.received.take(out.caller.name, body_bytes);
   if (!out.received) out.status = status_of(rpc::too_many_bytes(out.caller.name));
   return out;
@@ -139,9 +145,11 @@ std::optional<Connection::Refusal> Connection::refusal_of(const Request& request
     return Refusal{400,
                    {StatusCode::PERMISSION_DENIED, "One Host header, and at most one Origin header, must be sent."}};
   }
-  // A link on another site may open the page. The content policy of the page names the sites that may frame it.
+  // A link on another site may open the page, but not sign its visitor in as somebody. The content policy of the page
+  // names the sites that may frame it.
   const auto place = request["Sec-Fetch-Dest"];
   const bool is_visit = request.method() == bhttp::verb::get && request["Sec-Fetch-Mode"] == "navigate" &&
+                        !read_sign_in(target_of(request)) &&
                         (place == "document" || (place == "iframe" && !parts_.framing_origins.empty()));
   const BrowserHeaders headers{request[Field::host], request[Field::origin],
                                is_visit ? std::string_view() : std::string_view(request["Sec-Fetch-Site"])};

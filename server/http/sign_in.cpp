@@ -43,10 +43,10 @@ std::string session_of(const std::vector<std::string>& cookies, int port) {
   return {};
 }
 
-std::string session_cookie(const std::string& session, int port, bool has_tls) {
+std::string session_cookie(const std::string& session, int port, const std::string& path, bool is_secure) {
   const auto age = std::chrono::duration_cast<std::chrono::seconds>(access::Sessions::kSessionLasts).count();
-  return cookie_name(port) + "=" + session + "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(age) +
-         (has_tls ? "; Secure" : "");
+  return cookie_name(port) + "=" + session + "; Path=" + path + "; HttpOnly; SameSite=Strict; Max-Age=" +
+         std::to_string(age) + (is_secure ? "; Secure" : "");
 }
 
 }  // namespace cellcrush::http

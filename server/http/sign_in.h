@@ -21,6 +21,7 @@ std::optional<SignIn> read_sign_in(std::string_view target);
 std::string session_of(const std::vector<std::string>& cookies, int port);
 
 /// The value of Set-Cookie that gives a browser a session, which pages of other sites and scripts cannot use.
-std::string session_cookie(const std::string& session, int port, bool has_tls);
+/// `path`: of the page on its site, with a slash at its end.
+std::string session_cookie(const std::string& session, int port, const std::string& path, bool is_secure);
 
 }  // namespace cellcrush::http

@@ -18,7 +18,7 @@ std::shared_ptr<Accounts::Charge> Accounts::take(const std::string& caller, std:
   if (found != callers_.end() &&
       (found->second + bytes > most_.per_caller || (bytes > kSmall && in_all_ + bytes > most_.in_all)))
     return nullptr;
-  callers_[caller] += bytes;
+  if (bytes != 0) callers_[caller] += bytes;
   in_all_ += bytes;
   return std::make_shared<Charge>(*this, caller, bytes);
 }

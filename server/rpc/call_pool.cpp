@@ -3,11 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "error_table.h"
 
 namespace cellcrush::rpc {
+namespace {
+
+constexpr std::chrono::seconds kBetweenLooks{1};
+
+}  // namespace
 
 CallPool::CallPool(Most most, Accounts& memory) : most_(most), memory_(memory) {
   memory_.on_release([this] {
@@ -64,10 +70,13 @@ bool CallPool::may_run(const Line& line, const Task& task) const {
 
 std::optional<CallPool::Task> CallPool::next() {
   for (auto line = lines_.begin(); line != lines_.end(); ++line) {
-    const auto task = std::ranges::find_if(line->waiting, [&](const Task& each) { return may_run(*line, each); });
+    const auto task = std::ranges::find_if(line->waiting, [&](const Task& each) CELLCRUSH_REQUIRES(mutex_) {
+      return may_run(*line, each);
+    });
     if (task == line->waiting.end()) continue;
     if (!task->charge) task->charge = memory_.take(line->caller, task->bytes);
-    if (!task->charge && ending_) task->charge = std::make_shared<Accounts::Charge>(memory_, line->caller, 0);
+    if (!task->charge && (ending_ || task->call->is_cancelled()))
+      task->charge = std::make_shared<Accounts::Charge>(memory_, line->caller, 0);
     if (!task->charge) continue;
     auto out = std::move(*task);
     line->waiting.erase(task);
@@ -101,10 +110,12 @@ void CallPool::serve() {
     std::optional<Task> task;
     {
       MutexLock lock(mutex_);
-      changed_.wait(lock, [&]() CELLCRUSH_REQUIRES(mutex_) {
+      const auto has_work = [&]() CELLCRUSH_REQUIRES(mutex_) {
         task = next();
         return task || (ending_ && lines_.empty());
-      });
+      };
+      // A cancelled call wakes nobody.
+      while (!changed_.wait_for(lock, kBetweenLooks, has_work)) continue;
       if (!task) return;
     }
     const std::string caller = task->caller;

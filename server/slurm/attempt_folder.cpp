@@ -161,7 +161,7 @@ void require_marker(const fs::path& folder) {
 
 void prepare_shared_folder(const ClusterOptions& options, const fs::path& data_folder) {
   const fs::path own = data_folder / "slurm" / options.name / "identity";
-  const auto folder = store::canonical_of(options.folder);
+  auto folder = store::canonical_of(options.folder);
   const auto marker = folder / kMarker;
   const auto expected = read_small_file(own);
   const auto found = read_small_file(marker);
@@ -178,6 +178,7 @@ void prepare_shared_folder(const ClusterOptions& options, const fs::path& data_f
                   marker.string() + ".");
   make_folder(own.parent_path());
   make_folder(folder);
+  folder = store::canonical_of(folder);
   store::require_own_folder(folder, name);
   for (const char* each : {"attempts", "batches"}) {
     if (const int error = store::make_own_folder(folder / each); error != 0 && error != EEXIST)
@@ -187,7 +188,7 @@ void prepare_shared_folder(const ClusterOptions& options, const fs::path& data_f
   if (!found) {
     const std::string identity = store::random_name();
     write_small_file(own, identity);
-    write_small_file(marker, identity);
+    write_small_file(folder / kMarker, identity);
   }
   const auto named = named_attempts(data_folder);
   remove_unused(folder / "attempts", [&](const fs::path& path) { return named.contains(path.filename()); });

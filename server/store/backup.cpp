@@ -35,8 +35,7 @@ struct ServedJob {
 };
 
 std::vector<ServedJob> find_served(Database& journal) {
-  Statement read(journal,
-                 "SELECT number, state, job, samples FROM jobs WHERE checksum = expected_checksum ORDER BY number");
+  Statement read(journal, "SELECT number, state, job, samples FROM jobs ORDER BY number");
   std::vector<ServedJob> out;
   while (read.step()) {
     v1::Job job;

@@ -85,8 +85,7 @@ BackupManifest read_manifest(const std::filesystem::path& backup) {
       words >> out.created;
     } else if (kind == "lost") {
       std::getline(words, out.lost.emplace_back());
-      if (const auto& lost = out.lost.back(); !named.insert("lost " + lost.substr(0, lost.find(' '))).second)
-        throw damaged_manifest();
+      if (!named.insert("lost " + out.lost.back()).second) throw damaged_manifest();
     } else {
       BackupFile file;
       if (kind != "file" || !(words >> file.size >> file.sha256 >> file.path) || !is_name_of_backup(file.path) ||

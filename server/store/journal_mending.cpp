@@ -30,14 +30,13 @@ struct DamagedJob {
 std::vector<DamagedJob> find_damaged(Database& database) {
   Statement read(database,
                  "SELECT number, state, job, submitted_case, checksum = expected_checksum AS is_whole, "
-                 "case_checksum = row_checksum(submitted_case) AS has_case FROM jobs "
-                 "WHERE NOT is_whole OR NOT has_case ORDER BY number");
+                 "case_checksum = row_checksum(submitted_case) AS has_case FROM jobs ORDER BY number");
   std::vector<DamagedJob> out;
   while (read.step()) {
     DamagedJob row{read.integer(0), read.integer(1), {}, {}, false, false};
     row.has_job = read.integer(4) != 0 && read_job_bytes(read.bytes(2), row.state, row.job);
     row.has_case = read.integer(5) != 0 && row.submitted.ParseFromString(read.bytes(3));
-    out.push_back(std::move(row));
+    if (!row.has_job || !row.has_case) out.push_back(std::move(row));
   }
   return out;
 }

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "error.h"
 #include "pause.h"
@@ -44,15 +43,17 @@ JournalUpkeep::JournalUpkeep(const std::filesystem::path& path, std::chrono::mil
 void JournalUpkeep::run(const std::stop_token& stop, std::chrono::milliseconds interval) {
   for (bool checked = false; pause_unless_stopped(stop, interval);) {
     try {
-      if (!std::exchange(checked, true)) {
+      if (!checked) {
         const std::stop_callback interrupt(stop, [this] { sqlite3_interrupt(database_.raw()); });
         check();
+        checked = true;
       }
       give_back_pages(stop);
       give_back_wal();
       failing_ = false;
     } catch (const std::exception& error) {
-      if (!failing_) spdlog::warn("The journal file could not be compacted and will be retried: {}", error.what());
+      if (!failing_ && !stop.stop_requested())
+        spdlog::warn("The journal file could not be compacted and will be retried: {}", error.what());
       failing_ = true;
     }
   }

@@ -16,6 +16,7 @@ namespace cellcrush::worker {
 namespace {
 
 std::atomic<MemoryLimit*> limit_in_force;
+thread_local bool is_ending = false;
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kCanLimit = false;  // the sanitizer reserves terabytes
 #else
@@ -46,10 +47,12 @@ std::int64_t allowed_memory() {
 
 // The handler of failed allocations.
 void end_for_memory() {
+  if (is_ending) throw std::bad_alloc();
   MemoryLimit* limit = limit_in_force.exchange(nullptr);
   // Another thread ends the process.
   while (limit == nullptr) pause();
-  std::set_new_handler(nullptr);
+  is_ending = true;
+  set_soft_limit(RLIM_INFINITY);  // the report takes memory
   limit->ran_out_();
 }
 

@@ -1,6 +1,7 @@
 #include "worker/run_job.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -50,7 +51,14 @@ std::int64_t memory_limit_of(const Order& order, const Scene& scene) {
   const SceneSpec spec = translate::to_spec(order.case_()).spec;
   const auto predicted = translate::memory_of_worker(
       {memory_of_run(spec, scene), static_cast<std::int64_t>(scene.element_count()), spec.output.sample_count});
-  return translate::memory_limit(predicted, order.threads(), order.memory_factor(), order.most_memory_bytes());
+  const auto limit =
+      translate::memory_limit(predicted, order.threads(), order.memory_factor(), order.most_memory_bytes());
+  // The limit has room for stacks of the usual size. They count whole, however little of them is used.
+  constexpr rlim_t kUsual = 8U << 20U;
+  rlimit stack{};
+  getrlimit(RLIMIT_STACK, &stack);
+  const rlim_t beyond = stack.rlim_cur == RLIM_INFINITY ? 0 : std::max(stack.rlim_cur, kUsual) - kUsual;
+  return limit + order.threads() * static_cast<std::int64_t>(beyond);
 }
 
 // One run: the simulation, and the destination of its output.

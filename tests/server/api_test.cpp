@@ -264,12 +264,12 @@ std::set<std::string> texts_of_requests() {
 // or compared as they are.
 TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
   const std::set<std::string> known = {
-      // Names of resources and presets.
+      // Names of resources, presets and pages.
       "GetJobRequest.name", "CancelJobRequest.name", "SuspendJobRequest.name", "ResumeJobRequest.name",
       "DeleteJobRequest.name", "DeleteSweepRequest.name", "WatchJobRequest.name", "GetHistoryRequest.name",
       "GetFrameRequest.name", "DownloadResultRequest.name", "GetSweepRequest.name", "CancelSweepRequest.name",
       "RetryFailedJobsRequest.name", "WatchSweepRequest.name", "GetSweepTableRequest.name", "GetPresetRequest.name",
-      "GetConvergenceRequest.name", "StreamFramesRequest.name", "ExportJobRequest.name",
+      "GetConvergenceRequest.name", "StreamFramesRequest.name", "ExportJobRequest.name", "CreateLinkRequest.page",
       // Of lists, of repeated calls and of resumed watches.
       "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by", "WatchJobsRequest.filter",
       "WatchJobsRequest.resume_token", "ListSweepsRequest.page_token", "GetHistoryRequest.page_token",

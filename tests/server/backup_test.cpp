@@ -255,8 +255,9 @@ TEST_F(BackupTest, WhatIsWrongWithADataFolderIsNamedWithItsRemedyWhileTheDaemonR
 
   // The rest of a damaged folder can be backed up, and the backup says what it lacks.
   const auto manifest = store::take_backup(data_folder(), backup());
-  EXPECT_THAT(manifest.lost, ElementsAre(HasSubstr("jobs/1"), HasSubstr("jobs/2")));
-  EXPECT_THAT(store::verify_folder(backup()).notes, SizeIs(2));
+  EXPECT_THAT(manifest.lost, ElementsAre(HasSubstr("jobs/1"), HasSubstr("jobs/2"), HasSubstr("Event 2 of jobs/3")));
+  EXPECT_THAT(store::verify_folder(backup()).notes, SizeIs(3));
+  EXPECT_NO_THROW(store::restore_backup(backup(), restored()));
 }
 
 TEST_F(BackupTest, TheProgramBacksUpVerifiesAndRestoresAndSaysWhat) {

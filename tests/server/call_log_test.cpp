@@ -1,6 +1,7 @@
 // What the log says about calls: those that changed something, and those that were refused.
 #include <gmock/gmock.h>
 
+#include "access/unix_user.h"
 #include "log_format.h"
 #include "server/gate_fixture.h"
 #include "server/log_capture.h"
@@ -84,8 +85,8 @@ TEST_F(CallLogTest, WhoMayNotIsNamed) {
   start(with_tokens(tcp_options()));
   const std::string job = client().create(small_case());
   EXPECT_FALSE(client_of("bob").cancel(job).ok());
-  EXPECT_EQ(told("refused a call with PERMISSION_DENIED: " + job + " belongs to local; bob has scope submit"), 1)
-      << log_.text();
+  const std::string owned = job + " belongs to " + access::own_user();
+  EXPECT_EQ(told("refused a call with PERMISSION_DENIED: " + owned + "; bob has scope submit"), 1) << log_.text();
   EXPECT_EQ(told("cancelled by"), 0);
 }
 

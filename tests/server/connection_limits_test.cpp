@@ -35,7 +35,7 @@ class ConnectionLimitsTest : public GateFixture {
 
   void expect_one_caller_beyond_the_limit(const Visitor& visitor) {
     const auto first = own_channel(visitor);
-    ASSERT_TRUE(check(first).ok());
+    ASSERT_TRUE(try_call(*v1::Jobs::NewStub(first), &v1::Jobs::Stub::ListJobs, {}).ok()) << "no stranger from now on";
     const auto refused = check(own_channel(visitor));
     EXPECT_THAT(refused, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "--max-connections"));
     EXPECT_TRUE(check(first).ok()) << "who is connected already is served";

@@ -168,7 +168,8 @@ class DamageTest : public JournalTest {
   // Damages the file at bytes that lie apart, and at single bits, one at a time. Returns how many of them `verify`
   // calls intact although something else is served, and how often something else is served without a word.
   void damage_each(const std::string& name, int in_bytes, int in_bits) {
-    const auto copy = folder_.path().parent_path() / "copy";
+    const testing::TemporaryFolder place;
+    const auto copy = place.path() / "copy";
     const auto size = fs::file_size(folder_.path() / name);
     std::mt19937 random(7);
     int served_otherwise = 0;
