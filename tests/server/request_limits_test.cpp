@@ -45,12 +45,12 @@ TEST_F(RequestLimitsTest, TooLongTextsAreRefusedByTheirField) {
   (*create.mutable_labels())[long_text] = "value";
   expect_refusal(daemon.try_to(create), "labels");
   auto watch = named<v1::WatchSweepRequest>("sweeps/1");
-  watch.set_resume_token(std::string(200'000, 'a'));
+  watch.set_resume_token(long_text);
   const auto context = bounded_context();
   const auto stream = daemon.sweeps->WatchSweep(context.get(), watch);
   v1::WatchSweepResponse event;
   EXPECT_FALSE(stream->Read(&event));
-  expect_refusal(stream->Finish(), "resume_token has 200000 bytes");
+  EXPECT_THAT(stream->Finish(), Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "Use at most 262144"));
 }
 
 TEST_F(RequestLimitsTest, ASweepOverManyFieldsIsRefused) {
