@@ -17,7 +17,7 @@ namespace {
 constexpr std::int64_t kOfOneSize = std::int64_t{1} << 32;
 
 std::uint64_t add_bytes(std::uint64_t crc, const void* bytes, std::size_t size) {
-  // A null pointer would start anew.
+  // A null pointer would begin a new sum.
   return size == 0 ? crc : crc32_z(crc, static_cast<const unsigned char*>(bytes), size);
 }
 

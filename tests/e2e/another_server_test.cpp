@@ -1,4 +1,4 @@
-// A command goes on with the server that answered it first, or not at all.
+// A command continues with the server that answered it first, or not at all.
 #include <gmock/gmock.h>
 
 #include "e2e/daemon_test.h"
