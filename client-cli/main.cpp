@@ -71,8 +71,8 @@ ExitCode run_command_line(int argc, char** argv) {
   add_plot_command(app, session);
   add_movie_command(app, session);
   add_export_command(app, session);
-  add_queue_commands(app, session);
   add_caller_commands(app, session);
+  add_queue_commands(app, session);
   add_converge_command(app, session);
   add_shell_commands(app, session);
   if (argc == 1) {
