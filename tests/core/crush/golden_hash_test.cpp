@@ -133,7 +133,7 @@ TEST(OneLane, GivesTheBitsOfTheFullWidthOverWholeCrushes) { expect_recorded_bits
 #else
 TEST(GoldenHash, OfEveryPresetsFirstStepsOnEveryTarget) {
   std::vector<GoldenCrush> crushes;
-  for (const auto& [name, spec] : scenes::presets()) crushes.push_back({name, spec, 500});
+  for (const auto& [name, spec] : scenes::presets()) crushes.push_back({name, spec, 200});
   expect_recorded_bits_of(crushes);
 }
 

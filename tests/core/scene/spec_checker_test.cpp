@@ -153,7 +153,7 @@ TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) 
     spec.lattice = lattice;
     refused += expect_same_verdict(checker, spec) ? 1 : 0;
   };
-  for (int seed = 1; seed <= 150; ++seed) {
+  for (int seed = 1; seed <= 45; ++seed) {
     const double thickness = 1.0 + 1.0 * (seed % 15) / 14.0;
     spec.imperfection = {0.16 + 0.24 * (seed % 8) / 7.0, static_cast<std::uint64_t>(seed)};
     spec.elements_per_wall = 1 + seed % 4;
@@ -162,19 +162,19 @@ TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) 
     check_lattice(scenes::hexagons(4, 3, 4.0, thickness, 2.0));
     check_lattice(scenes::squares(4, 3, 4.0, thickness));
   }
-  EXPECT_GT(refused, 10) << "triangles whose walls meet at small angles";
-  EXPECT_LT(refused, 150);
+  EXPECT_GT(refused, 5) << "triangles whose walls meet at small angles";
+  EXPECT_LT(refused, 45);
   refused = 0;
   spec.imperfection = {0.05, 1};
-  for (const int elements : {12, 32, 48, 56, 64}) {
-    for (double thickness = 0.4; thickness <= 2.0; thickness += 0.2) {
+  for (const int elements : {12, 48, 64}) {
+    for (double thickness = 0.4; thickness <= 2.01; thickness += 0.4) {
       spec.elements_per_wall = elements;
       check_lattice(scenes::hexagons(3, 2, 4.0, thickness));
       check_lattice(scenes::squares(3, 2, 4.0, thickness));
       check_lattice(scenes::triangles(4, 4, 4.0, thickness));
     }
   }
-  EXPECT_GT(refused, 3) << "walls far thicker than their elements are long";
+  EXPECT_GT(refused, 2) << "walls far thicker than their elements are long";
 }
 
 TEST(SpecChecker, BuildsOneMeshForAllSpecsThatShareIt) {
