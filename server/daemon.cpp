@@ -294,6 +294,10 @@ struct Daemon::Impl {
                    }});
     out.push_back({"The loop of watches", [this](Beat beat) { service.pump.post(std::move(beat)); }});
     out.push_back({"The loop of watches over HTTP", [this](Beat beat) { service.http_pump.post(std::move(beat)); }});
+    constexpr int kLongWork = 6;  // deletions and checks take seconds
+    out.push_back({"The pool of calls", [this](Beat beat) { service.calls.post(std::move(beat)); }, kLongWork});
+    out.push_back({"The pool of checks", [this](Beat beat) { service.checks.post(std::move(beat)); }, kLongWork});
+    out.push_back({"Housekeeping", [this](Beat beat) { service.housekeeping->post(std::move(beat)); }, kLongWork});
     if (gateway) out.push_back({"The loop of HTTP", [this](Beat beat) { gateway->post(std::move(beat)); }});
     return out;
   }

@@ -132,8 +132,10 @@ TEST(SourceStream, CancellingWaitsForNoBatchThatIsBeingMade) {
   metrics::Metrics metrics;
   StreamLimits limits({10, 2, 100'000'000});
   watch::Pump pump(2);
+  Accounts memory({1 << 20, 1 << 20});
+  CallPool checks({1, 1, 1, 1, 1}, memory);
   const auto stream = std::make_shared<SourceStream<TapSource>>(
-      StreamParts{pump, metrics, limits, {}}, "anna",
+      StreamParts{pump, checks, metrics, limits, {}}, "anna",
       [](const google::protobuf::Message& each, std::string& to) { to += each.SerializeAsString(); },
       [&tap] { return std::make_unique<TapSource>(tap); });
   auto promise = std::make_shared<std::promise<Batch>>();
@@ -165,11 +167,14 @@ TEST(ExportSource, AJobThatIsDeletedMeanwhileIsAnErrorNotAFileWithoutItsResults)
   request.set_name(store::name_of(job));
   const auto stored = reader.find_job(job);
   ASSERT_TRUE(stored);
+  const auto call = std::make_shared<Preparation>("anna");
   {
     ExportSource whole({data, reader, places}, *stored, request);
+    whole.prepare(*call);
     while (!whole.ended()) ASSERT_TRUE(whole.next());
   }
   ExportSource source({data, reader, places}, *stored, request);
+  source.prepare(*call);
   ASSERT_TRUE(source.next()) << "the head";
   journal.delete_job(job);
   EXPECT_THAT(
