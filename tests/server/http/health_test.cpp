@@ -76,7 +76,7 @@ TEST_F(HealthTest, HousekeepingAndCallsThatStandStillAreNamed) {
   };
   start(options);
   ASSERT_TRUE(point.wait());
-  EXPECT_TRUE(wait_until([&] { return get("/readyz").find("Housekeeping has made no progress") != std::string::npos; }));
+  EXPECT_TRUE(wait_until([&] { return get("/readyz").find("Housekeeping has made no") != std::string::npos; }));
   point.open();
   EXPECT_TRUE(wait_until([&] { return get("/readyz").starts_with("HTTP/1.1 200"); }));
 
