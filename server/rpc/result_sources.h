@@ -72,8 +72,8 @@ class DownloadSource final : public PlainSource<v1::DownloadResultResponse> {
   /// InputFile.
   DownloadSource(const std::filesystem::path& path, std::int64_t offset);
 
-  /// Checks the whole file against its seal, and sums up what the caller has of it. Throws ServiceError: data_loss for a
-  /// damaged file.
+  /// Checks the whole file against its seal, and sums up what the caller has of it. Throws ServiceError: data_loss for
+  /// a damaged file.
   void prepare(const Call& call);
   [[nodiscard]] bool is_large() const;
 

@@ -151,7 +151,9 @@ TEST_F(ConnectionLimitsTest, AnAnswerThatNobodyReadsIsCut) {
     std::this_thread::sleep_for(delay);
     grpc::ByteBuffer answer;
     call->Read(&answer, nullptr);
-    if (next()) EXPECT_GT(answer.Length(), 8'192U);
+    if (next()) {
+      EXPECT_GT(answer.Length(), 8'192U);
+    }
     grpc::Status out;
     call->Finish(&out, nullptr);
     EXPECT_TRUE(next());
