@@ -90,12 +90,16 @@ TEST(StreamLimits, BoundTheBytesThatNobodyHasRead) {
   StreamLimits limits({10, 10, 1000});
   auto first = limits.admit("anna");
   first.hold(5000);  // one alone may have its message
-  auto second = limits.admit("anna");
+  auto second = limits.admit("bob");
   EXPECT_THAT([&] { second.hold(1); }, Refuses(ServiceError::Kind::exhausted, "--max-call-memory"));
   first.hold(900);
   EXPECT_NO_THROW(second.hold(100));
   EXPECT_THAT([&] { second.hold(101); }, Refuses(ServiceError::Kind::exhausted, "--max-call-memory"));
   EXPECT_NO_THROW(second.hold(100)) << "What was refused is not counted.";
+  first.hold(400);
+  auto third = limits.admit("anna");
+  EXPECT_THAT([&] { third.hold(101); }, Refuses(ServiceError::Kind::exhausted, "Open streams of anna hold 400 bytes"));
+  EXPECT_NO_THROW(second.hold(600)) << "Others have the other half.";
 }
 
 /// What the test sees of a source of a thousand messages, of which the first is held.
