@@ -104,7 +104,7 @@ class MethodTable {
               new grpc::internal::CallbackUnaryHandler<grpc::ByteBuffer, Response>(
                   [this, begin, is_open = !scope](grpc::CallbackServerContext* context, const grpc::ByteBuffer* bytes,
                                                   Response* response) {
-                    auto* reactor = UnaryReactor::make(*context);
+                    auto* reactor = UnaryReactor::make(*context, patience_);
                     auto arrived = arrive(*context, *bytes, is_open, *reactor);
                     if (!arrived) return reactor;
                     begin(std::move(*arrived), [this, response, reactor](Response answer) {
@@ -200,8 +200,8 @@ class MethodTable {
   /// reading. It owns itself until gRPC is done with it.
   class UnaryReactor final : public grpc::ServerUnaryReactor {
    public:
-    static UnaryReactor* make(const grpc::CallbackServerContext& context) {
-      const auto out = std::shared_ptr<UnaryReactor>(new UnaryReactor(context));
+    static UnaryReactor* make(const grpc::CallbackServerContext& context, std::chrono::milliseconds patience) {
+      const auto out = std::shared_ptr<UnaryReactor>(new UnaryReactor(context, patience));
       out->self_ = out;
       return out.get();
     }
@@ -209,10 +209,11 @@ class MethodTable {
     void finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge);
     void OnDone() override;
 
-    std::chrono::milliseconds patience{};  ///< with the client once it is finished; set before
+    std::chrono::milliseconds patience;  ///< with the client once it is finished; set before
 
    private:
-    explicit UnaryReactor(const grpc::CallbackServerContext& context) : context_(context) {}
+    UnaryReactor(const grpc::CallbackServerContext& context, std::chrono::milliseconds given)
+        : patience(given), context_(context) {}
 
     const grpc::CallbackServerContext& context_;  ///< valid until OnDone
     std::shared_ptr<UnaryReactor> self_;
