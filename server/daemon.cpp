@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -37,6 +39,7 @@ namespace {
 
 constexpr std::chrono::seconds kCallsMayLast{2};
 constexpr int kCallsBesideStreams = 100;
+constexpr std::size_t kIntroductions = 4;  // threads
 constexpr int kBetweenPingsOfAClient = 10'000;  // ms
 /// Services with a status in grpc.health.v1; "" is the whole daemon.
 constexpr std::array kServices = {"", "cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
@@ -82,6 +85,7 @@ ListenAddress metrics_address(const std::string& text) {
 
 constexpr const char* kDefaultTcp = "127.0.0.1:50551";
 constexpr const char* kDefaultHttp = "127.0.0.1:8080";
+constexpr const char* kAnyHttp = "127.0.0.1:0";  // where that is another user's
 
 std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
   std::vector<ListenAddress> out;
@@ -149,6 +153,17 @@ struct Daemon::Impl {
         credentials(credentials_for(gate, wanted)),
         wanted_http(http_address(gate, options)),
         service(options, gate, measure_step_cost(), [this] { drain(); }) {
+    try {
+      serve();
+    } catch (...) {
+      stop();
+      throw;
+    }
+  }
+
+  ~Impl() { stop(); }
+
+  void serve() {
     listen();
     serve_metrics();
     serve_http();
@@ -159,8 +174,6 @@ struct Daemon::Impl {
       if (stuck.empty() && options.on_progress) options.on_progress();
     });
   }
-
-  ~Impl() { stop(); }
 
   void listen() {
     prepare_grpc_once();
@@ -188,12 +201,10 @@ struct Daemon::Impl {
     refusing_server.emplace(credentials);
     net::Acceptor::Parts parts;
     parts.hand_over = [this](std::size_t port, int listener, int descriptor) {
-      auto& door = doors[port];
-      if (auto* to = door.local ? door.local->find_port(descriptor) : door.common.get()) {
-        net::hand_over(*to, listener, descriptor);
+      if (doors[port].local && gate.asks_user_database(descriptor)) {
+        boost::asio::post(introductions, [=, this] { hand_over(port, listener, descriptor); });
       } else {
-        refusals.write(spdlog::level::warn, "refused a connection: too many Unix users have called this daemon");
-        refusing_server->take(port, listener, descriptor);
+        hand_over(port, listener, descriptor);
       }
     };
     parts.turn_away = [this](std::size_t port, int listener, int descriptor) {
@@ -217,6 +228,16 @@ struct Daemon::Impl {
     if (has_tcp && gate.knows_local_callers({}))
       spdlog::info("ports of loopback serve {} alone, without a token", access::own_user());
     probe.emplace(*acceptor, plain, options.connections);
+  }
+
+  void hand_over(std::size_t port, int listener, int descriptor) {
+    auto& door = doors[port];
+    if (auto* to = door.local ? door.local->find_port(descriptor) : door.common.get()) {
+      net::hand_over(*to, listener, descriptor);
+    } else {
+      refusals.write(spdlog::level::warn, "refused a connection: too many Unix users have called this daemon");
+      refusing_server->take(port, listener, descriptor);
+    }
   }
 
   // Whoever needs another port names it; a default one that is taken is another daemon's.
@@ -267,13 +288,18 @@ struct Daemon::Impl {
   void serve_http() {
     if (!wanted_http) return;
     const auto site = http::parse_public_url(options.public_url);
-    try {
-      gateway.emplace(*wanted_http, gate, service.methods, service.received, service.board, options.connections,
+    const auto open = [&](const ListenAddress& address) {
+      gateway.emplace(address, gate, service.methods, service.received, service.board, options.connections,
                       options.framing_origins, site);
+    };
+    try {
+      open(*wanted_http);
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
-      warn_without_http(error);
-      return;
+      if (error.kind() != ServiceError::Kind::failed_precondition) return warn_without_http(error);
+      spdlog::info("{} is taken, so the page is served on a free port, which `cellcrush open` knows",
+                   wanted_http->text());
+      open(parse_listen_address(kAnyHttp));
     }
     http_url = gateway->url();
     gate.sessions().serve_at(site.host.empty() ? absl::StrReplaceAll(http_url, {{"//0.0.0.0:", "//localhost:"}})
@@ -294,6 +320,10 @@ struct Daemon::Impl {
                    }});
     out.push_back({"The loop of watches", [this](Beat beat) { service.pump.post(std::move(beat)); }});
     out.push_back({"The loop of watches over HTTP", [this](Beat beat) { service.http_pump.post(std::move(beat)); }});
+    constexpr int kLongWork = 6;  // deletions and checks take seconds
+    out.push_back({"The pool of calls", [this](Beat beat) { service.calls.post(std::move(beat)); }, kLongWork});
+    out.push_back({"The pool of checks", [this](Beat beat) { service.checks.post(std::move(beat)); }, kLongWork});
+    out.push_back({"Housekeeping", [this](Beat beat) { service.housekeeping->post(std::move(beat)); }, kLongWork});
     if (gateway) out.push_back({"The loop of HTTP", [this](Beat beat) { gateway->post(std::move(beat)); }});
     return out;
   }
@@ -310,10 +340,12 @@ struct Daemon::Impl {
     service.stop();
     heartbeats.reset();
     probe.reset();
-    acceptor->stop();
+    if (acceptor) acceptor->stop();
+    introductions.join();
     if (gateway) gateway->stop();
     // Not left to gRPC: it would wait for idle connections too, whose clients do not read its request to close them.
     open_calls.wait_until_none(kCallsMayLast);
+    if (!server) return;
     server->Shutdown(std::chrono::system_clock::now());
     server->Wait();
   }
@@ -338,6 +370,7 @@ struct Daemon::Impl {
   rpc::OpenCalls open_calls;
   std::unique_ptr<grpc::Server> server;
   std::optional<net::RefusingServer> refusing_server;
+  boost::asio::thread_pool introductions{kIntroductions};  ///< of callers for whom the user database is asked
   std::optional<net::Acceptor> acceptor;
   std::optional<net::PortProbe> probe;
   std::optional<http::Gateway> gateway;

@@ -15,6 +15,7 @@ Heartbeats::Heartbeats(std::vector<Loop> loops, const Times& times, Tell tell) :
   for (Loop& loop : loops) {
     const auto pulse = pulses_.emplace_back(std::make_shared<Pulse>());
     pulse->name = std::move(loop.name);
+    pulse->patience = loop.patience * times.patience;
     const Beat beat = [pulse] {
       pulse->last = std::chrono::system_clock::now();
       pulse->missed = 0;
@@ -39,7 +40,7 @@ void Heartbeats::watch(const std::stop_token& stop) const {
   while (pause_unless_stopped(stop, times_.interval)) {
     std::string stuck;
     for (const auto& pulse : pulses_) {
-      const bool was_stuck = std::exchange(pulse->is_stuck, ++pulse->missed > times_.patience);
+      const bool was_stuck = std::exchange(pulse->is_stuck, ++pulse->missed > pulse->patience);
       if (!pulse->is_stuck && was_stuck) spdlog::info("{} makes progress again.", pulse->name);
       if (!pulse->is_stuck) continue;
       const auto since = std::chrono::floor<std::chrono::seconds>(pulse->last.load());

@@ -21,6 +21,7 @@ class Heartbeats {
     std::string name;  ///< as a sentence begins: "The journal"
     /// Has the loop do a small piece of work and beat then. Asked again once it has. Throws if the loop cannot work.
     std::function<void(Beat beat)> ask;
+    int patience = 1;  ///< times Times::patience, for a loop with long pieces of work
   };
 
   struct Times {
@@ -41,6 +42,7 @@ class Heartbeats {
  private:
   struct Pulse {
     std::string name;
+    int patience = 0;  ///< rounds
     std::atomic<int> missed = 0;
     std::atomic<bool> is_asked = false;
     std::atomic<std::chrono::system_clock::time_point> last = std::chrono::system_clock::now();

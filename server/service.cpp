@@ -15,8 +15,8 @@ namespace {
 constexpr const char* kQueueHealth = "cellcrush.queue";
 // Of the journal; not serving once it has lost changes or was found damaged.
 constexpr const char* kJournalHealth = "cellcrush.journal";
-constexpr int kPumpThreads = 2;
-constexpr int kHttpPumpThreads = 2;  // JSON is slow to make, and delays streams over HTTP only
+constexpr int kPumpThreads = 4;
+constexpr int kHttpPumpThreads = 4;  // JSON is slow to make, and delays streams over HTTP only
 constexpr int kCheckThreads = 12;    // threads for large cases; they wait for each other
 constexpr int kLargeChecks = 6;      // at once; the other threads are left to small cases
 constexpr int kLargeChecksPerCaller = 2;
@@ -34,7 +34,7 @@ rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
   return {limits.streams, limits.streams_per_caller, limits.memory_bytes};
 }
 
-// An export that nobody reads keeps others out.
+// An export that nobody reads keeps others out, as an answer does.
 watch::WatchTimes times_of_exports(watch::WatchTimes times) {
   times.patience = std::min<std::chrono::milliseconds>(times.patience, std::chrono::seconds(5));
   times.grace = std::min<std::chrono::milliseconds>(times.grace, std::chrono::seconds(2));
@@ -96,14 +96,15 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
              threads_of_sweep_check(),
              step_cost,
              options.limits.owner.running_jobs,
-             {pump, metrics, stream_limits, options.watch_times},
-             {pump, metrics, export_limits, times_of_exports(options.watch_times)}},
+             {pump, checks, metrics, stream_limits, options.watch_times},
+             {pump, checks, metrics, export_limits, times_of_exports(options.watch_times)}},
       reflection(rpc::make_reflection_services({"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
                                                 "cellcrush.v1.Admin", "grpc.health.v1.Health"},
                                                gate, stream_limits)),
-      methods(gate, http_pump, calls, received, store::epoch_for_callers(journal.epoch(), folder.journal())) {
+      methods(gate, http_pump, calls, received, store::epoch_for_callers(journal.epoch(), folder.journal()),
+              times_of_exports(options.watch_times).patience) {
   rpc::add_cases_methods(methods, shared);
-  rpc::add_health_methods(methods, board, {pump, metrics, health_limits, options.watch_times});
+  rpc::add_health_methods(methods, board, {pump, checks, metrics, health_limits, options.watch_times});
   rpc::add_jobs_methods(methods, shared);
   rpc::add_sweeps_methods(methods, shared);
   rpc::add_admin_methods(methods, shared, [this, drained = std::move(on_drain)] {
@@ -113,7 +114,10 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
 }
 
 // Before the methods whose sources the streams hold.
-Service::~Service() { http_pump.stop(); }
+Service::~Service() {
+  http_pump.stop();
+  checks.stop();
+}
 
 void Service::register_with(grpc::ServerBuilder& builder) {
   methods.register_with(builder);
@@ -135,7 +139,7 @@ void Service::start() {
 }
 
 void Service::stop() {
-  housekeeping.reset();
+  if (housekeeping) housekeeping->stop();
   queues.stop();
   pump.drain();
   http_pump.drain();

@@ -52,6 +52,13 @@ bool is_unix_socket(int connection) {
 
 std::string_view view_of(const grpc::string_ref& text) { return {text.data(), text.size()}; }
 
+constexpr std::string_view kBearer = "Bearer ";
+
+bool is_bearer(std::string_view authorization) {
+  return authorization.size() > kBearer.size() &&
+         strncasecmp(authorization.data(), kBearer.data(), kBearer.size()) == 0;
+}
+
 }  // namespace
 
 // Authenticates the caller of each call on a port, before the call reaches a service.
@@ -124,17 +131,24 @@ std::optional<Caller> Gate::find_local_caller(int connection) const {
   return scope ? std::optional(Caller{name_of_user(*user), *scope}) : std::nullopt;
 }
 
+bool Gate::asks_user_database(int connection) const {
+  return is_unix_socket(connection) && user_of_peer(connection) != geteuid();
+}
+
 std::size_t Gate::most_local_callers() const { return 2 + (groups_.empty() ? 0 : kMostMembers); }
 
 Caller Gate::caller_of_http(const HttpCredentials& shown) const {
   if (asks_for_certificates() && (shown.certificate == nullptr || !is_for_clients(*shown.certificate)))
     refuse_certificate();
-  if (shown.authorization.empty()) {
-    if (auto of_session = sessions_.find(shown.session)) return *of_session;
-  }
-  if (!asks_who_calls()) return shown.local ? *shown.local : refuse_stranger();
+  // A proxy may ask for a password of its own: "Basic ...".
   Metadata metadata;
-  for (const auto& value : shown.authorization) metadata.emplace("authorization", value);
+  for (const auto& value : shown.authorization) {
+    if (is_bearer(value)) metadata.emplace("authorization", value);
+  }
+  if (metadata.empty()) {
+    if (auto of_session = sessions_.find(shown.session, shown.user)) return *of_session;
+  }
+  if (!asks_who_calls()) return shown.user == geteuid() ? Caller{own_user(), Scope::admin} : refuse_stranger();
   return caller_of_token(metadata);
 }
 
@@ -241,7 +255,6 @@ Caller Gate::identify(const Metadata& metadata, const grpc::AuthContext& context
 }
 
 Caller Gate::caller_of_token(const Metadata& metadata) const {
-  constexpr std::string_view kBearer = "Bearer ";
   const auto [first, last] = metadata.equal_range("authorization");
   if (first == last) {
     refuse_caller(std::string("This server requires a token, and this call has none. Send it as the header "
@@ -250,9 +263,7 @@ Caller Gate::caller_of_token(const Metadata& metadata) const {
                   kAskForToken);
   }
   const std::string_view value = view_of(first->second);
-  const bool is_bearer =
-      value.size() > kBearer.size() && strncasecmp(value.data(), kBearer.data(), kBearer.size()) == 0;
-  if (std::next(first) != last || !is_bearer)
+  if (std::next(first) != last || !is_bearer(value))
     refuse_caller("The authorization metadata of this call is not a single \"Bearer TOKEN\". Send exactly one.");
   const auto caller = tokens()->find(value.substr(kBearer.size()));
   if (!caller) refuse_caller(std::string("The server does not recognise the token of this call. ") + kAskForToken);

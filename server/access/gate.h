@@ -39,8 +39,8 @@ struct Options {
 struct HttpCredentials {
   std::vector<std::string> authorization;  ///< all values of that header
   std::string session;                     ///< of Sessions; empty: none
+  std::optional<uid_t> user;               ///< who has opened the connection, as far as the kernel says
   const X509* certificate = nullptr;       ///< null: none
-  std::optional<Caller> local;             ///< of Gate::find_local_caller
 };
 
 /// Authenticates and authorizes callers. Every call is checked here before it reaches a service. Refused calls are
@@ -65,6 +65,9 @@ class Gate {
   /// The caller at the other end of such a connection; nothing if it has no scope or is unknown. The user that runs
   /// this process has the scope admin; on Unix sockets root has it too, and members of Options::groups have theirs.
   [[nodiscard]] std::optional<Caller> find_local_caller(int connection) const;
+
+  /// Whether find_local_caller asks the user database, which may take seconds if it is on another machine.
+  [[nodiscard]] bool asks_user_database(int connection) const;
 
   /// How many different callers find_local_caller may find.
   [[nodiscard]] std::size_t most_local_callers() const;

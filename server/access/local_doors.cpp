@@ -42,6 +42,7 @@ LocalDoors::LocalDoors(LocalDoors&&) noexcept = default;
 
 LocalDoors::Port* LocalDoors::find_port(int connection) {
   auto caller = gate_.find_local_caller(connection);
+  const MutexLock lock(*mutex_);
   const auto end = doors_.begin() + static_cast<std::ptrdiff_t>(taken_);
   const auto own = std::find_if(doors_.begin(), end, [&](const Door& door) { return door.check->caller == caller; });
   if (own != end) return own->port.get();

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "access/gate.h"
+#include "mutex.h"
 
 namespace cellcrush::access {
 
 /// Ports of gRPC 1.51 for the connections of one address whose callers the kernel knows: one port for each caller,
-/// since a call shows of its connection only what the port's credentials know. A port stays its caller's. Not
-/// thread-safe.
+/// since a call shows of its connection only what the port's credentials know. A port stays its caller's. Thread-safe.
 class LocalDoors {
  public:
   using Port = grpc::experimental::ExternalConnectionAcceptor;
@@ -24,7 +24,8 @@ class LocalDoors {
   LocalDoors(LocalDoors&&) noexcept;
   LocalDoors& operator=(LocalDoors&&) = delete;
 
-  /// The port of the connection's caller; null if none is left for a further one.
+  /// The port of the connection's caller; null if none is left for a further one. May ask the user database
+  /// (Gate::asks_user_database), without a lock.
   [[nodiscard]] Port* find_port(int connection);
 
  private:
@@ -36,6 +37,7 @@ class LocalDoors {
 
   const Gate& gate_;
   std::vector<Door> doors_;  ///< the first one is for connections without a caller
+  std::unique_ptr<Mutex> mutex_ = std::make_unique<Mutex>();  ///< guards the callers of doors
   std::size_t taken_ = 1;
 };
 

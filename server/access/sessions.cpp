@@ -1,13 +1,14 @@
 #include "access/sessions.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <utility>
 
 #include "error.h"
 
 namespace cellcrush::access {
 namespace {
 
-constexpr std::size_t kMostEntries = 1000;
+constexpr std::ptrdiff_t kMostOfCaller = 100;
 
 }  // namespace
 
@@ -25,22 +26,23 @@ Sessions::Link Sessions::make_link(const Caller& caller, const std::string& page
         "by default.");
   }
   const auto end = now_() + kCodeLasts;
-  return {url_ + "/sign-in?" + (page.empty() ? "" : "page=" + page + "&") + "code=" + add(codes_, caller, end), end};
+  return {url_ + "/sign-in?" + (page.empty() ? "" : "page=" + page + "&") + "code=" + add(codes_, {caller, end}), end};
 }
 
-std::optional<std::string> Sessions::redeem(const std::string& code) {
+std::optional<std::string> Sessions::redeem(const std::string& code, std::optional<uid_t> user) {
   const MutexLock lock(mutex_);
   const auto found = find_live(codes_, code);
   if (found == codes_.end()) return std::nullopt;
   const Caller caller = found->second.caller;
   codes_.erase(found);
-  return add(sessions_, caller, now_() + kSessionLasts);
+  return add(sessions_, {caller, now_() + kSessionLasts, user});
 }
 
-std::optional<Caller> Sessions::find(const std::string& session) {
+std::optional<Caller> Sessions::find(const std::string& session, std::optional<uid_t> user) {
   const MutexLock lock(mutex_);
   const auto found = find_live(sessions_, session);
-  return found == sessions_.end() ? std::nullopt : std::optional(found->second.caller);
+  const bool is_own = found != sessions_.end() && found->second.user == user;
+  return is_own ? std::optional(found->second.caller) : std::nullopt;
 }
 
 void Sessions::end_all() {
@@ -49,12 +51,17 @@ void Sessions::end_all() {
   sessions_.clear();
 }
 
-std::string Sessions::add(Entries& entries, const Caller& caller, Clock::time_point end) {
-  if (entries.size() >= kMostEntries) {
-    entries.erase(std::ranges::min_element(entries, {}, [](const auto& entry) { return entry.second.end; }));
+std::string Sessions::add(Entries& entries, Entry entry) {
+  auto oldest = entries.end();
+  std::ptrdiff_t count = 0;
+  for (auto each = entries.begin(); each != entries.end(); ++each) {
+    if (each->second.caller.name != entry.caller.name) continue;
+    ++count;
+    if (oldest == entries.end() || each->second.end < oldest->second.end) oldest = each;
   }
+  if (count >= kMostOfCaller) entries.erase(oldest);
   std::string word = random_word();
-  entries[hash_of_word(word)] = {caller, end};
+  entries[hash_of_word(word)] = std::move(entry);
   return word;
 }
 

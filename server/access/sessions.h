@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <functional>
 #include <map>
@@ -12,7 +14,7 @@
 namespace cellcrush::access {
 
 /// Browsers that callers have let in: a code, valid once and for minutes, becomes a session for a day. Holds hashes
-/// only, of at most 1,000 codes and sessions each; a further one takes the place of the oldest. Thread-safe.
+/// only, of at most 100 codes and sessions each of a caller; a further one takes the place of the oldest. Thread-safe.
 class Sessions {
  public:
   using Clock = std::chrono::system_clock;
@@ -32,11 +34,13 @@ class Sessions {
   /// web page is served, internal if no random bytes are available.
   Link make_link(const Caller& caller, const std::string& page);
 
-  /// The session that the code gives; nothing if it was used, is too old or is unknown.
-  std::optional<std::string> redeem(const std::string& code);
+  /// The session that the code gives; nothing if it was used, is too old or is unknown. `user`: the Unix user of the
+  /// browser's connection, as far as the kernel says.
+  std::optional<std::string> redeem(const std::string& code, std::optional<uid_t> user);
 
-  /// The caller of a session that has not ended.
-  std::optional<Caller> find(const std::string& session);
+  /// The caller of a session that has not ended, on a connection of the user to whom it was given: a browser sends its
+  /// cookies to every port of a machine, also to those of other users.
+  std::optional<Caller> find(const std::string& session, std::optional<uid_t> user);
 
   void end_all();
 
@@ -44,10 +48,11 @@ class Sessions {
   struct Entry {
     Caller caller;
     Clock::time_point end;
+    std::optional<uid_t> user = std::nullopt;  ///< of a session
   };
   using Entries = std::map<std::string, Entry>;  ///< by SHA-256
 
-  std::string add(Entries& entries, const Caller& caller, Clock::time_point end) CELLCRUSH_REQUIRES(mutex_);
+  static std::string add(Entries& entries, Entry entry);
   Entries::iterator find_live(Entries& entries, const std::string& word) CELLCRUSH_REQUIRES(mutex_);
 
   std::function<Clock::time_point()> now_;

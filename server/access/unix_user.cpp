@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "access/socket_table.h"
 #include "access/token_file.h"
 
 namespace cellcrush::access {
@@ -145,7 +146,9 @@ std::optional<uid_t> user_of_peer(int connection) {
     return user && !is_ambiguous(*user) ? user : std::nullopt;
   }
   if (!is_loopback(ends->own) || !is_loopback(ends->peer)) return std::nullopt;
-  const auto user = ask_kernel(*ends);
+  auto user = ask_kernel(*ends);
+  // A kernel may lack tcp_diag. A peer that has closed its socket costs no reading of the tables.
+  if (!user && is_established(connection)) user = user_in_socket_tables(ends->own, ends->peer);
   return user && is_established(connection) && !is_ambiguous(*user) ? user : std::nullopt;
 }
 

@@ -141,7 +141,7 @@ void DaemonFlags::add_addresses(CLI::App& app) {
   app.add_option(
       "--http", options_.http,
       "HOST:PORT that serves the API and the web page over HTTP, or over HTTPS with --tls-cert; none: nowhere "
-      "(default: 127.0.0.1:8080 if it is free)");
+      "(default: 127.0.0.1:8080, or a free port where that is taken)");
   app.add_option("--allow-framing", options_.framing_origins,
                  "Origin whose pages may show the web page in a frame, such as https://grafana.example.org; may be "
                  "repeated (default: none)")

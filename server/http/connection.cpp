@@ -212,7 +212,7 @@ void Connection::watch_client() {
 asio::awaitable<void> Connection::answer_sign_in(const Request& request, const SignIn& sign_in) {
   // Some programs look at a link before a person opens it.
   const bool opens = request.method() == bhttp::verb::get;
-  const auto session = opens ? parts_.gate.sessions().redeem(sign_in.code) : std::nullopt;
+  const auto session = opens ? parts_.gate.sessions().redeem(sign_in.code, user_) : std::nullopt;
   if (opens && !session) {
     co_await send(403, kText, "This link was used before, or is older than 5 minutes. Run `cellcrush open` again.\n");
     co_return;
@@ -221,7 +221,7 @@ asio::awaitable<void> Connection::answer_sign_in(const Request& request, const S
   auto response = new_response<bhttp::string_body>(303, keep_alive_, "no-store", parts_.methods.epoch());
   response.set(Field::location, "./" + sign_in.page);
   const std::string path = parts_.public_url.path + "/";
-  if (session) response.set(Field::set_cookie, session_cookie(*session, parts_.port, path, is_secure));
+  if (session) response.set(Field::set_cookie, session_cookie(*session, parts_.methods.epoch(), path, is_secure));
   response.content_length(0);
   stream_.plain().expires_after(parts_.limits.idle);
   co_await bhttp::async_write(stream_, response, asio::use_awaitable);

@@ -31,7 +31,6 @@ struct GatewayParts {
   net::ConnectionLimits limits;
   std::string framing_origins;  ///< which may frame the page, separated by spaces; empty: none
   PublicUrl public_url;
-  int port = 0;
   bool has_tls = false;
   bool stopping = false;
 };
@@ -39,10 +38,10 @@ struct GatewayParts {
 /// One connection of a client, served on the gateway's only thread. Owned by its own coroutine.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  /// `tls`: null for plain text; need not outlive the constructor. `caller`: of Gate::find_local_caller.
-  Connection(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context* tls, std::optional<access::Caller> caller,
+  /// `tls`: null for plain text; need not outlive the constructor. `user`: of access::user_of_peer.
+  Connection(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context* tls, std::optional<uid_t> user,
              GatewayParts& parts)
-      : stream_(std::move(socket), tls), local_caller_(std::move(caller)), parts_(parts) {}
+      : stream_(std::move(socket), tls), user_(user), parts_(parts) {}
 
   /// Serves requests until either side closes.
   boost::asio::awaitable<void> serve();
@@ -112,7 +111,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void watch_client();
 
   Stream stream_;
-  std::optional<access::Caller> local_caller_;
+  std::optional<uid_t> user_;
   boost::beast::flat_buffer buffer_{kMostBuffered};
   GatewayParts& parts_;
   std::shared_ptr<Call> call_;  ///< null while none runs

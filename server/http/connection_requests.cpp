@@ -124,8 +124,8 @@ Connection::Permit Connection::permit_for(const Request& head, std::int64_t body
 }
 
 access::HttpCredentials Connection::credentials_of(const Request& request) {
-  return {values_of(request, Field::authorization), session_of(values_of(request, Field::cookie), parts_.port),
-          stream_.client_certificate(), local_caller_};
+  return {values_of(request, Field::authorization),
+          session_of(values_of(request, Field::cookie), parts_.methods.epoch()), user_, stream_.client_certificate()};
 }
 
 std::optional<rpc::HealthBoard::Report> Connection::report_of(const Request& request) const {

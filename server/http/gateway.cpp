@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "access/unix_user.h"
 #include "error.h"
 #include "http/connection.h"
 #include "limited_log.h"
@@ -116,7 +117,6 @@ struct Gateway::Impl {
               limits,
               absl::StrJoin(framing_origins, " "),
               public_url,
-              port.address().port,
               tls.current() != nullptr},
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
@@ -156,8 +156,8 @@ struct Gateway::Impl {
       return;
     }
     socket.set_option(tcp::no_delay(true), error);
-    auto caller = parts.gate.find_local_caller(socket.native_handle());
-    const auto connection = std::make_shared<Connection>(std::move(socket), tls.current(), std::move(caller), parts);
+    const auto user = access::user_of_peer(socket.native_handle());
+    const auto connection = std::make_shared<Connection>(std::move(socket), tls.current(), user, parts);
     std::erase_if(connections, [](const auto& each) { return each.expired(); });
     connections.push_back(connection);
     asio::co_spawn(

@@ -11,7 +11,7 @@ namespace {
 
 bool is_page(const std::string& text) { return store::number_of(text) || store::sweep_number_of(text); }
 
-std::string cookie_name(int port) { return "cellcrush-" + std::to_string(port); }
+std::string cookie_name(const std::string& epoch) { return "cellcrush-" + epoch; }
 
 // What follows "NAME=" in one of the fields between the separators; empty if none does.
 std::string value_of(std::string_view fields, char separator, const std::string& name) {
@@ -36,16 +36,17 @@ std::optional<SignIn> read_sign_in(std::string_view target) {
   return out;
 }
 
-std::string session_of(const std::vector<std::string>& cookies, int port) {
+std::string session_of(const std::vector<std::string>& cookies, const std::string& epoch) {
   for (const auto& header : cookies) {
-    if (auto session = value_of(header, ';', cookie_name(port)); !session.empty()) return session;
+    if (auto session = value_of(header, ';', cookie_name(epoch)); !session.empty()) return session;
   }
   return {};
 }
 
-std::string session_cookie(const std::string& session, int port, const std::string& path, bool is_secure) {
+std::string session_cookie(const std::string& session, const std::string& epoch, const std::string& path,
+                           bool is_secure) {
   const auto age = std::chrono::duration_cast<std::chrono::seconds>(access::Sessions::kSessionLasts).count();
-  return cookie_name(port) + "=" + session + "; Path=" + path + "; HttpOnly; SameSite=Strict; Max-Age=" +
+  return cookie_name(epoch) + "=" + session + "; Path=" + path + "; HttpOnly; SameSite=Strict; Max-Age=" +
          std::to_string(age) + (is_secure ? "; Secure" : "");
 }
 

@@ -33,6 +33,7 @@ struct WorkerExit {
   Kind kind = Kind::exited;
   int code = 0;
   bool out_of_memory = false;            ///< the worker was killed while the kernel reported an OOM kill
+  bool at_own_limit = false;             ///< of a control group of its own, not of the whole machine
   std::optional<worker::Final> final{};  ///< its last report, if any
   std::string detail{};                  ///< what happened, as a sentence, where the kind does not say it
   Trouble trouble{};                     ///< with not_started: what the executor lacks; `code` then does not count

@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "pause.h"
-
 namespace cellcrush::jobs {
 namespace {
 
@@ -33,7 +31,37 @@ void Housekeeping::work(const std::stop_token& stop) {
       if (std::exchange(logged, error.what()) != error.what())
         spdlog::error("Housekeeping failed and will be retried: {}", error.what());
     }
-  } while (has_more ? !stop.stop_requested() : pause_unless_stopped(stop, parts_.interval));
+    run_posted();
+  } while (has_more ? !stop.stop_requested() : wait_for_next_round(stop));
+}
+
+void Housekeeping::post(std::function<void()> work) {
+  {
+    const MutexLock lock(mutex_);
+    work_ = std::move(work);
+  }
+  posted_.notify_all();
+}
+
+void Housekeeping::run_posted() {
+  std::function<void()> work;
+  {
+    const MutexLock lock(mutex_);
+    work.swap(work_);
+  }
+  if (work) work();
+}
+
+bool Housekeeping::wait_for_next_round(const std::stop_token& stop) {
+  const auto next = std::chrono::steady_clock::now() + parts_.interval;
+  while (std::chrono::steady_clock::now() < next && !stop.stop_requested()) {
+    {
+      MutexLock lock(mutex_);
+      posted_.wait_until(lock, stop, next, [this]() CELLCRUSH_REQUIRES(mutex_) { return work_ != nullptr; });
+    }
+    run_posted();
+  }
+  return !stop.stop_requested();
 }
 
 void Housekeeping::check_disk() {
@@ -57,7 +85,10 @@ void Housekeeping::check_clocks() {
 }
 
 bool Housekeeping::delete_ended(const std::stop_token& stop) {
-  const auto given_up = [&stop] { return stop.stop_requested(); };
+  const auto given_up = [this, &stop] {
+    run_posted();
+    return stop.stop_requested();
+  };
   parts_.deletion.finish_sweeps(given_up);
   retention_.measure(given_up);
   return retention_.enforce(given_up);

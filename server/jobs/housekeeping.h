@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <stop_token>
@@ -10,6 +11,7 @@
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/queues.h"
+#include "mutex.h"
 
 namespace cellcrush::jobs {
 
@@ -46,8 +48,17 @@ class Housekeeping {
     thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
   }
 
+  /// Waits for the check that runs. Safe to repeat.
+  void stop() { thread_ = {}; }
+
+  /// Has its thread run the work soon, between two checks or batches of deletions.
+  void post(std::function<void()> work);
+
  private:
   void work(const std::stop_token& stop);
+  void run_posted();
+  /// False if a stop is requested.
+  bool wait_for_next_round(const std::stop_token& stop);
   void check_clocks();
   /// Whether there may be more to delete at once.
   bool delete_ended(const std::stop_token& stop);
@@ -56,6 +67,9 @@ class Housekeeping {
   Retention retention_;
   std::chrono::nanoseconds clock_offset_;  ///< of the wall clock to the uptime, at the last check
   std::int64_t noted_;                     ///< service clock, s, when last made durable
+  Mutex mutex_;
+  std::condition_variable_any posted_;
+  std::function<void()> work_ CELLCRUSH_GUARDED_BY(mutex_);  ///< posted; null: none
   std::jthread thread_;
 };
 

@@ -263,7 +263,8 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
   if (run.trouble) return {};
   if (!got_further(stored.number)) return given_up(stored, std::move(next), run);
   spdlog::warn("{}: {}", store::name_of(stored.number), next.message);
-  if (next.cause == v1::Job::OUT_OF_MEMORY) {
+  // Where the machine is short for other reasons, a higher limit would help nobody.
+  if (next.cause == v1::Job::OUT_OF_MEMORY && (exit.at_own_limit || (exit.final && needs_more_memory(*exit.final)))) {
     losses_.raise_memory(stored.number);
     next.message += " The next attempt is allowed more.";
   }

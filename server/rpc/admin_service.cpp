@@ -14,6 +14,7 @@
 #include "revision.h"
 #include "rpc/request_fields.h"
 #include "rpc/services.h"
+#include "store/journal_schema.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::rpc {
@@ -96,7 +97,7 @@ class AdminCalls {
     out.set_name(caller.name);
     out.set_scope(access::name_of(caller.scope));
     out.set_server_owner(access::own_user());
-    out.set_epoch(parts_.reader.epoch().id);
+    out.set_epoch(store::epoch_for_callers(parts_.reader.epoch(), parts_.folder.journal()).id);
     return out;
   }
 

@@ -23,12 +23,13 @@ CallPool::CallPool(Most most, Accounts& memory) : most_(most), memory_(memory) {
   for (int i = 0; i < most_.threads; ++i) threads_.emplace_back([this] { serve(); });
 }
 
-CallPool::~CallPool() {
+void CallPool::stop() {
   {
     const MutexLock lock(mutex_);
     ending_ = true;
   }
   changed_.notify_all();
+  threads_.clear();
 }
 
 void CallPool::run(Task task) {
@@ -46,13 +47,17 @@ void CallPool::run(Task task) {
                fmt::format("{} calls of {} are waiting to be answered, the most of one caller. Try again later.",
                            line.waiting.size(), task.caller)};
   }
-  task.finish(refusal, nullptr);
+  if (task.finish) task.finish(refusal, nullptr);
+}
+
+void CallPool::post(std::function<void()> work) {
+  run({.call = nullptr, .caller = "the daemon", .body = [work = std::move(work)](Task&) { work(); }});
 }
 
 void CallPool::run_here(Task task) {
   const auto body = std::exchange(task.body, nullptr);  // which may give the task another
   const auto status = answer([&] {
-    task.call->require_wanted();
+    if (task.call) task.call->require_wanted();
     body(task);
   });
   if (task.finish) task.finish(status, std::move(task.charge));
@@ -75,7 +80,7 @@ std::optional<CallPool::Task> CallPool::next() {
     });
     if (task == line->waiting.end()) continue;
     if (!task->charge) task->charge = memory_.take(line->caller, task->bytes);
-    if (!task->charge && (ending_ || task->call->is_cancelled()))
+    if (!task->charge && (ending_ || (task->call && task->call->is_cancelled())))
       task->charge = std::make_shared<Accounts::Charge>(memory_, line->caller, 0);
     if (!task->charge) continue;
     auto out = std::move(*task);

@@ -52,26 +52,32 @@ class CallPool {
   };
 
   struct Task {
-    std::shared_ptr<const Call> call;
+    std::shared_ptr<const Call> call;  ///< null for work of the daemon
     std::string caller;      ///< for whom it counts
     std::int64_t bytes = 0;  ///< memory that it may take
     bool is_large = false;   ///< may take seconds
     /// May move the task on to another pool; it then is not finished here.
-    std::function<void(Task& task)> body;
-    std::function<void(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge)> finish;
+    std::function<void(Task& task)> body = nullptr;
+    /// Null: nobody is told.
+    std::function<void(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge)> finish = nullptr;
     std::shared_ptr<Accounts::Charge> charge = nullptr;  ///< for the memory; the pool takes one before the body runs
   };
 
   /// `memory` outlives the pool.
   CallPool(Most most, Accounts& memory);
-  /// Answers the waiting calls. REQUIRES: no further calls arrive.
-  ~CallPool();
+  ~CallPool() { stop(); }
   CallPool(const CallPool&) = delete;
   CallPool& operator=(const CallPool&) = delete;
+
+  /// Answers the waiting calls, and ends the threads. REQUIRES: no further calls arrive. Safe to repeat.
+  void stop();
 
   /// Runs the body on a thread of the pool and finishes with OK, or the status of its exception. A call cancelled while
   /// waiting is skipped; one beyond the limits ends with RESOURCE_EXHAUSTED.
   void run(Task task);
+
+  /// Runs work of the daemon in its turn.
+  void post(std::function<void()> work);
 
   /// Runs the body, on this thread, and finishes.
   static void run_here(Task task);

@@ -1,7 +1,6 @@
 #include "rpc/export_source.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -52,15 +51,16 @@ ExportSource::ExportSource(const Parts& parts, store::StoredJob job, const v1::E
   }
 }
 
-void ExportSource::append_check() {
-  const auto elements = translate::CaseChecker().elements_to_build(job_.job.case_());
-  const auto never = [] { return false; };
-  // Short, as the thread serves other streams.
-  const jobs::MeshPlaces::Place place(parts_.places, elements, never, std::chrono::milliseconds(100));
-  auto check = translate::check_case(job_.job.case_()).response;
-  translate::add_words(check);
-  text_ += web::exported_block("CheckCase", check, Compression::zlib);
-  stage_ = Stage::history;
+void ExportSource::prepare(const Call& call) {
+  {
+    const auto elements = translate::CaseChecker().elements_to_build(job_.job.case_());
+    const jobs::MeshPlaces::Place place(parts_.places, elements, [&call] { return call.is_cancelled(); });
+    auto check = translate::check_case(job_.job.case_(), [&call] { call.require_wanted(); }).response;
+    translate::add_words(check);
+    check_ = web::exported_block("CheckCase", check, Compression::zlib);
+  }
+  call.require_wanted();
+  series_ = jobs::open_frame_series(parts_.folder.job_folder(job_.number));
 }
 
 // What a deleted job has lost would be missing without a word.
@@ -83,7 +83,6 @@ void ExportSource::append_history() {
 }
 
 void ExportSource::append_times() {
-  series_ = jobs::open_frame_series(parts_.folder.job_folder(job_.number));
   frame_count_ = series_ ? static_cast<int>(series_->times().time_s_size()) : 0;
   stage_ = frame_count_ > 0 ? Stage::mesh : Stage::end;
   if (frame_count_ == 0) return check_is_there();
@@ -142,7 +141,10 @@ void ExportSource::append() {
       text_ += web::exported_block("GetJob", job_.job, Compression::zlib);
       stage_ = Stage::check;
       break;
-    case Stage::check: append_check(); break;
+    case Stage::check:
+      text_ += std::exchange(check_, "");
+      stage_ = Stage::history;
+      break;
     case Stage::history: append_history(); break;
     case Stage::times: append_times(); break;
     case Stage::mesh: append_mesh(); break;

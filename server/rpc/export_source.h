@@ -9,6 +9,7 @@
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "jobs/frame_series.h"
 #include "jobs/mesh_places.h"
+#include "rpc/services.h"
 #include "rpc/stream_state.h"
 #include "store/data_folder.h"
 #include "store/journal_reader.h"
@@ -30,8 +31,12 @@ class ExportSource final : public PlainSource<v1::ExportJobResponse> {
   /// ended.
   ExportSource(const Parts& parts, store::StoredJob job, const v1::ExportJobRequest& request);
 
-  /// Throws ServiceError: exhausted while checks of other large cases occupy the daemon, and the errors of
-  /// jobs::FrameSeries.
+  /// Checks the case and opens the frames. Throws ServiceError: exhausted while checks of other large cases occupy the
+  /// daemon, and the errors of jobs::FrameSeries.
+  void prepare(const Call& call);
+  [[nodiscard]] bool is_large() const { return is_large_case(job_.job.case_()); }
+
+  /// Throws the errors of jobs::FrameSeries.
   std::optional<Message> next();
   [[nodiscard]] bool has_more() const;
   [[nodiscard]] bool ended() const { return stage_ == Stage::done && text_.size() == sent_; }
@@ -42,11 +47,9 @@ class ExportSource final : public PlainSource<v1::ExportJobResponse> {
 
   /// Appends the next piece of the file to `text_`.
   void append();
-  void append_check();
   /// Throws ServiceError (not_found) if the job was deleted meanwhile.
   void check_is_there();
   void append_history();
-  /// Opens the frames.
   void append_times();
   void append_mesh();
   void append_frame();
@@ -57,6 +60,7 @@ class ExportSource final : public PlainSource<v1::ExportJobResponse> {
   Parts parts_;
   store::StoredJob job_;
   std::int64_t max_bytes_;
+  std::string check_;  ///< of the case, as it stands in the file
   Stage stage_ = Stage::head;
   std::string text_;       ///< made
   std::size_t sent_ = 0;   ///< of text_

@@ -78,9 +78,27 @@ std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call
   return std::make_unique<CallInterceptors>(open);
 }
 
+void MethodTable::UnaryReactor::finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge) {
+  if (charge) {
+    charge_ = std::move(charge);
+    alarm_.Set(std::chrono::system_clock::now() + patience, [self = self_](bool is_time) mutable {
+      const auto own = std::move(self);  // the alarm keeps this function
+      if (is_time) own->cut_.cancel(own->context_);
+    });
+  }
+  Finish(status);
+}
+
+void MethodTable::UnaryReactor::OnDone() {
+  cut_.end();
+  charge_.reset();
+  alarm_.Cancel();
+  const auto self = std::move(self_);
+}
+
 void MethodTable::UnaryCall::ask(Deliver deliver) {
   const auto answer = std::make_shared<Batch>();
-  CallPool::Task task{.call = shared_from_this(), .caller = incoming_.caller.name, .body = nullptr, .finish = nullptr};
+  CallPool::Task task{.call = shared_from_this(), .caller = incoming_.caller.name};
   task.finish = [answer, deliver = std::move(deliver)](const grpc::Status& status,
                                                        std::shared_ptr<Accounts::Charge> charge) {
     answer->end = status;

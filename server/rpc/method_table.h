@@ -1,5 +1,6 @@
 #pragma once
 
+#include <grpcpp/alarm.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/impl/codegen/proto_utils.h>
 #include <grpcpp/impl/codegen/server_callback_handlers.h>
@@ -20,6 +21,7 @@
 #include "mutex.h"
 #include "rpc/accounts.h"
 #include "rpc/call_pool.h"
+#include "rpc/cut.h"
 #include "rpc/request_weight.h"
 #include "rpc/source_stream.h"
 #include "rpc/stream_reactor.h"
@@ -55,10 +57,17 @@ class MethodTable {
     std::function<std::shared_ptr<MessageStream>(const Incoming& incoming)> open;
   };
 
-  /// `http_pump` advances the streams that are not gRPC's; `calls` parses requests and answers most calls. All of
-  /// them outlive the table.
-  MethodTable(access::Gate& gate, watch::Pump& http_pump, CallPool& calls, Accounts& received, store::Epoch epoch)
-      : gate_(gate), http_pump_(http_pump), calls_(calls), received_(received), epoch_(std::move(epoch)) {}
+  /// `http_pump` advances the streams that are not gRPC's; `calls` parses requests and answers most calls. A client of
+  /// gRPC that takes longer than `patience`, and a second for each 100 kB, to read an answer loses it. All of them
+  /// outlive the table.
+  MethodTable(access::Gate& gate, watch::Pump& http_pump, CallPool& calls, Accounts& received, store::Epoch epoch,
+              std::chrono::milliseconds patience = std::chrono::seconds(5))
+      : gate_(gate),
+        http_pump_(http_pump),
+        calls_(calls),
+        received_(received),
+        epoch_(std::move(epoch)),
+        patience_(patience) {}
 
   // In both, `path` is a literal: "/cellcrush.v1.Jobs/GetJob". `scope`: what callers need; nothing: open to everybody.
   // Throws ServiceError (internal) if the .proto files have no such method.
@@ -95,12 +104,14 @@ class MethodTable {
               new grpc::internal::CallbackUnaryHandler<grpc::ByteBuffer, Response>(
                   [this, begin, is_open = !scope](grpc::CallbackServerContext* context, const grpc::ByteBuffer* bytes,
                                                   Response* response) {
-                    auto* reactor = new UnaryReactor;
+                    auto* reactor = UnaryReactor::make(*context, patience_);
                     auto arrived = arrive(*context, *bytes, is_open, *reactor);
                     if (!arrived) return reactor;
-                    begin(std::move(*arrived), [response](Response answer) {
+                    begin(std::move(*arrived), [this, response, reactor](Response answer) {
                       *response = std::move(answer);
-                      return 2 * static_cast<std::int64_t>(response->ByteSizeLong());  // and as bytes
+                      const auto size = static_cast<std::int64_t>(response->ByteSizeLong());
+                      reactor->patience = patience_ + std::chrono::milliseconds(size / 100);
+                      return 2 * size;  // and as bytes
                     });
                     return reactor;
                   }));
@@ -134,7 +145,7 @@ class MethodTable {
                           return (*service.*make)(*read<Request>(path, incoming_of(*bytes)));
                         });
                   }));
-    const StreamParts http_parts{http_pump_, parts.metrics, parts.limits, parts.times};
+    const StreamParts http_parts{http_pump_, parts.checks, parts.metrics, parts.limits, parts.times};
     const auto open = [path, http_parts, service, make](const Incoming& incoming) {
       return std::make_shared<SourceStream<Source>>(
           http_parts, incoming.caller.name, incoming.encode,
@@ -185,17 +196,30 @@ class MethodTable {
     Incoming incoming;
   };
 
-  /// Ends a unary call of gRPC, and holds the memory of its answer until the client has it.
+  /// Ends a unary call of gRPC, and holds the memory of its answer until the client has it, or has lost it for lack of
+  /// reading. It owns itself until gRPC is done with it.
   class UnaryReactor final : public grpc::ServerUnaryReactor {
    public:
-    void finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge) {
-      charge_ = std::move(charge);
-      Finish(status);
+    static UnaryReactor* make(const grpc::CallbackServerContext& context, std::chrono::milliseconds patience) {
+      const auto out = std::shared_ptr<UnaryReactor>(new UnaryReactor(context, patience));
+      out->self_ = out;
+      return out.get();
     }
-    void OnDone() override { delete this; }
+
+    void finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge);
+    void OnDone() override;
+
+    std::chrono::milliseconds patience;  ///< with the client once it is finished; set before
 
    private:
+    UnaryReactor(const grpc::CallbackServerContext& context, std::chrono::milliseconds given)
+        : patience(given), context_(context) {}
+
+    const grpc::CallbackServerContext& context_;  ///< valid until OnDone
+    std::shared_ptr<UnaryReactor> self_;
     std::shared_ptr<Accounts::Charge> charge_;
+    Cut cut_;
+    grpc::Alarm alarm_;
   };
 
   /// A unary call that is not gRPC's: its own answer. It is asked for once.
@@ -251,6 +275,7 @@ class MethodTable {
   CallPool& calls_;
   Accounts& received_;
   const store::Epoch epoch_;
+  const std::chrono::milliseconds patience_;
   GrpcService grpc_;
   std::map<std::string, Method, std::less<>> methods_;
 };

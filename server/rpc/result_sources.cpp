@@ -17,6 +17,17 @@ namespace {
 // Memory held by an unread download.
 constexpr std::size_t kDownloadChunk = 128 * 1024;
 
+// Reading a file of this size takes seconds.
+constexpr std::int64_t kLargeFile = 256 << 20;
+
+// Whether what the job has to show is in such a file: its result, or else the reports of its worker.
+bool has_large_file(const ServiceParts& parts, std::int64_t job) {
+  const auto folder = parts.folder.job_folder(job);
+  const auto found = store::find_own(folder.result());
+  const auto file = found ? found : store::find_own(folder.reports());
+  return file && file->st_size >= kLargeFile;
+}
+
 // Position of the value nearest to `wanted`.
 int nearest(const std::vector<double>& values, double wanted) {
   const auto closer = [wanted](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); };
@@ -61,6 +72,8 @@ FrameSource::FrameSource(const ServiceParts& parts, store::StoredJob job, v1::Ge
                        "The strain or time of the requested frame is not finite. Use a finite number.");
 }
 
+bool FrameSource::is_large() const { return has_large_file(parts_, job_.number); }
+
 v1::FieldFrame FrameSource::find_frame() const {
   if (job_.job.has_summary())
     return read_frame(store::ResultReader(parts_.folder.job_folder(job_.number).result()), request_);
@@ -86,11 +99,13 @@ void FrameSource::read() {
 
 FrameSeriesSource::FrameSeriesSource(const ServiceParts& parts, store::StoredJob job,
                                      const v1::StreamFramesRequest& request)
-    : parts_(parts), job_(std::move(job)), request_(request) {
+    : parts_(parts), job_(std::move(job)), request_(request), next_(request.from()) {
   check(request_);
 }
 
-void FrameSeriesSource::begin() {
+bool FrameSeriesSource::is_large() const { return has_large_file(parts_, job_.number); }
+
+void FrameSeriesSource::prepare(const Call&) {
   series_ = jobs::open_frame_series(parts_.folder.job_folder(job_.number));
   const int count = series_ ? static_cast<int>(series_->times().time_s_size()) : 0;
   if (count == 0) {
@@ -103,7 +118,6 @@ void FrameSeriesSource::begin() {
                                                              ", but frames are numbered from 0 to " +
                                                              std::to_string(count - 1) + ". Use one of these.");
   }
-  next_ = request_.from();
   last_ = request_.has_to() ? std::min(request_.to(), count - 1) : count - 1;
   *messages_.emplace_back().mutable_times() = series_->times();
   mesh_ = parts_.reader.mesh(job_.number);
@@ -111,7 +125,7 @@ void FrameSeriesSource::begin() {
   for (auto& chunk : watch::chunks_of(*mesh_)) *messages_.emplace_back().mutable_mesh() = std::move(chunk);
 }
 
-void FrameSeriesSource::queue_frame() {
+void FrameSeriesSource::read() {
   auto frame = series_->frame(next_);
   if (request_.encoding() == v1::FieldFrame::PACKED) frame = watch::pack(frame, mesh_ ? &*mesh_ : nullptr);
   for (auto& chunk : watch::chunks_of(frame)) *messages_.emplace_back().mutable_frame() = std::move(chunk);
@@ -130,7 +144,6 @@ DownloadSource::DownloadSource(const std::filesystem::path& path, std::int64_t o
 
 std::optional<DownloadSource::Message> DownloadSource::next() {
   if (ended()) return std::nullopt;
-  if (!sent_) begin();
   Message out;
   out.set_offset(offset_);
   out.set_total_size(file_.size());
@@ -142,9 +155,12 @@ std::optional<DownloadSource::Message> DownloadSource::next() {
   return out;
 }
 
-void DownloadSource::begin() {
-  store::check_seal_if_any(path_);
+bool DownloadSource::is_large() const { return file_.size() >= kLargeFile; }
+
+void DownloadSource::prepare(const Call& call) {
+  store::check_seal_if_any(path_, [&call] { call.require_wanted(); });
   for (std::int64_t at = 0; at < offset_;) {
+    call.require_wanted();
     const auto left = static_cast<std::size_t>(offset_ - at);
     const std::string part = file_.read(at, std::min(kDownloadChunk, left));
     if (part.empty()) break;

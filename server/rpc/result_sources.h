@@ -25,6 +25,8 @@ class FrameSource final : public QueuedSource<v1::GetFrameResponse> {
   /// `parts` outlives the source. Throws ServiceError (invalid) for a strain or time that is not a finite number.
   FrameSource(const ServiceParts& parts, store::StoredJob job, v1::GetFrameRequest request);
 
+  void prepare(const Call&) { read(); }
+  [[nodiscard]] bool is_large() const;
   [[nodiscard]] static std::string resume_advice() { return "for the frame"; }
 
  private:
@@ -45,21 +47,21 @@ class FrameSeriesSource final : public QueuedSource<v1::StreamFramesResponse> {
   /// `parts` outlives the source. Throws InvalidField for a request that is not valid.
   FrameSeriesSource(const ServiceParts& parts, store::StoredJob job, const v1::StreamFramesRequest& request);
 
+  /// Throws ServiceError: failed_precondition while the job has no frame, out_of_range if `from` is beyond the last
+  /// one, and the errors of jobs::FrameSeries.
+  void prepare(const Call&);
+  [[nodiscard]] bool is_large() const;
   [[nodiscard]] std::string resume_advice() const { return "from frame " + std::to_string(next_); }
 
  private:
-  /// Throws ServiceError: failed_precondition while the job has no frame, out_of_range if `from` is beyond the last
-  /// one, and the errors of jobs::FrameSeries.
-  void read() override { series_ ? queue_frame() : begin(); }
-  void begin();
-  void queue_frame();
+  void read() override;
 
   const ServiceParts& parts_;
   store::StoredJob job_;
   v1::StreamFramesRequest request_;
-  std::unique_ptr<jobs::FrameSeries> series_;  ///< null before the first message
+  std::unique_ptr<jobs::FrameSeries> series_;  ///< null until it is prepared
   std::optional<v1::Mesh> mesh_;
-  int next_ = 0;   ///< index of the next frame to read
+  int next_;   ///< index of the next frame to read
   int last_ = -1;  ///< of the last frame to send
 };
 
@@ -70,15 +72,17 @@ class DownloadSource final : public PlainSource<v1::DownloadResultResponse> {
   /// InputFile.
   DownloadSource(const std::filesystem::path& path, std::int64_t offset);
 
-  /// Sends at least one message, so that the size is known even if no bytes are left. Before the first message, checks
-  /// the whole file against its seal. Throws ServiceError: data_loss for a damaged file.
+  /// Checks the whole file against its seal, and sums up what the caller has of it. Throws ServiceError: data_loss for
+  /// a damaged file.
+  void prepare(const Call& call);
+  [[nodiscard]] bool is_large() const;
+
+  /// Sends at least one message, so that the size is known even if no bytes are left.
   std::optional<Message> next();
   [[nodiscard]] bool ended() const { return sent_ && offset_ == file_.size(); }
   [[nodiscard]] std::string resume_advice() const { return "with offset " + std::to_string(offset_); }
 
  private:
-  /// Checks the file, and sums up what the caller has of it.
-  void begin();
   void add_to_crc(const std::string& bytes);
 
   std::filesystem::path path_;

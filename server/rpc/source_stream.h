@@ -52,7 +52,7 @@ class SourceStream final : public MessageStream,
 
   /// If `make` throws, the stream ends with its error.
   SourceStream(const StreamParts& parts, std::string caller, Encode encode, Make make)
-      : parts_(parts), encode_(std::move(encode)), caller_(std::move(caller)), make_(std::move(make)) {}
+      : Task(caller), parts_(parts), encode_(std::move(encode)), caller_(std::move(caller)), make_(std::move(make)) {}
   ~SourceStream() override {
     const MutexLock lock(mutex_);
     finish(cancelled());
@@ -133,7 +133,7 @@ class SourceStream final : public MessageStream,
 
   void open() CELLCRUSH_REQUIRES(mutex_) {
     state_.emplace(parts_, caller_, std::exchange(make_, nullptr)());
-    state_->source().open([weak = this->weak_from_this()] {
+    state_->open([weak = this->weak_from_this()] {
       const auto alive = weak.lock();
       if (!alive) return;
       alive->delay_.begin();
@@ -150,7 +150,7 @@ class SourceStream final : public MessageStream,
   void finish(const grpc::Status& status) CELLCRUSH_REQUIRES(mutex_) {
     if (status_) return;
     status_ = status;
-    if (state_) state_->source().close();
+    if (state_) state_->close();
     state_.reset();
   }
 

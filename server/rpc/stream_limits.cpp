@@ -16,48 +16,58 @@ std::string limit_of(const std::string& option, const char* end) {
 StreamLimits::Permit::~Permit() {
   if (limits_ == nullptr) return;
   const MutexLock lock(limits_->mutex_);
-  limits_->bytes_ -= bytes_;
-  --limits_->count_;
   const auto caller = limits_->callers_.find(caller_);
-  if (--caller->second == 0) limits_->callers_.erase(caller);
+  for (Held* held : {&limits_->all_, &caller->second}) {
+    held->bytes -= bytes_;
+    --held->count;
+  }
+  if (caller->second.count == 0) limits_->callers_.erase(caller);
 }
 
 void StreamLimits::Permit::hold(std::size_t bytes) {
   if (limits_ == nullptr) return;
   const MutexLock lock(limits_->mutex_);
-  limits_->bytes_ -= std::exchange(bytes_, 0);
+  Held& all = limits_->all_;
+  Held& own = limits_->callers_.at(caller_);
+  all.bytes -= bytes_;
+  own.bytes -= std::exchange(bytes_, 0);
   const auto wanted = static_cast<std::int64_t>(bytes);
   // A single stream may always hold its message.
-  if (limits_->bytes_ > 0 && limits_->bytes_ + wanted > limits_->most_.bytes) {
+  const bool is_own = own.bytes > 0 && own.bytes + wanted > limits_->most_.bytes / 2;
+  if (is_own || (all.bytes > 0 && all.bytes + wanted > limits_->most_.bytes)) {
     throw ServiceError(ServiceError::Kind::exhausted,
-                       "Open streams hold " + std::to_string(limits_->bytes_) +
-                           " bytes not yet read by their clients, the limit of --max-call-memory. Try again later, and "
-                           "read streams without delay.");
+                       fmt::format("Open streams{} hold {} bytes not yet read by their clients, the limit of "
+                                   "--max-call-memory{}. Try again later, and read streams without delay.",
+                                   is_own ? " of " + caller_ : "", is_own ? own.bytes : all.bytes,
+                                   is_own ? " for one caller" : ""));
   }
-  limits_->bytes_ += bytes_ = wanted;
+  bytes_ = wanted;
+  all.bytes += wanted;
+  own.bytes += wanted;
 }
 
 StreamLimits::Permit StreamLimits::admit(const std::string& caller) {
   const MutexLock lock(mutex_);
-  if (count_ >= most_.in_all) {
+  if (all_.count >= most_.in_all) {
     throw ServiceError(ServiceError::Kind::exhausted,
-                       fmt::format("{} {} are open, {}. Try again later, and close {} that are not read.", count_,
-                                   most_.what, limit_of(most_.option, ""), most_.what));
+                       fmt::format("{} {} are open, {}. Try again later, and close {} that are not read.",
+                                   all_.count, most_.what, limit_of(most_.option, ""), most_.what));
   }
-  int& of_caller = callers_[caller];
+  const auto found = callers_.find(caller);
+  const int of_caller = found == callers_.end() ? 0 : found->second.count;
   if (of_caller >= most_.per_caller) {
     throw ServiceError(ServiceError::Kind::exhausted,
                        fmt::format("{} has {} {} open, {}. Close some first.", caller, of_caller, most_.what,
                                    limit_of(most_.option, "-per-caller")));
   }
-  ++of_caller;
-  ++count_;
+  ++callers_[caller].count;
+  ++all_.count;
   return {*this, caller};
 }
 
 std::size_t StreamLimits::count() const {
   const MutexLock lock(mutex_);
-  return static_cast<std::size_t>(count_);
+  return static_cast<std::size_t>(all_.count);
 }
 
 }  // namespace cellcrush::rpc

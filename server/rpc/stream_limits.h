@@ -17,7 +17,7 @@ class StreamLimits {
   struct Most {
     int in_all = 0;
     int per_caller = 0;
-    std::int64_t bytes = 0;                ///< of unread messages
+    std::int64_t bytes = 0;                ///< of unread messages; of one caller half as many
     const char* what = "streams";          ///< in messages
     const char* option = "--max-streams";  ///< that sets the limit, with "-per-caller" the other; empty: none does
   };
@@ -34,8 +34,8 @@ class StreamLimits {
           bytes_(std::exchange(other.bytes_, 0)) {}
     Permit& operator=(Permit&&) = delete;
 
-    /// Sets the bytes that the stream holds. Throws ServiceError (exhausted) if all streams together would hold too
-    /// many; it then holds none.
+    /// Sets the bytes that the stream holds. Throws ServiceError (exhausted) if the streams of the caller, or of all
+    /// callers, would hold too many; it then holds none.
     void hold(std::size_t bytes);
 
    private:
@@ -52,11 +52,15 @@ class StreamLimits {
   [[nodiscard]] std::size_t count() const;
 
  private:
+  struct Held {
+    int count = 0;
+    std::int64_t bytes = 0;
+  };
+
   const Most most_;
   mutable Mutex mutex_;
-  std::map<std::string, int> callers_ CELLCRUSH_GUARDED_BY(mutex_);
-  int count_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
-  std::int64_t bytes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::map<std::string, Held> callers_ CELLCRUSH_GUARDED_BY(mutex_);
+  Held all_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
 }  // namespace cellcrush::rpc

@@ -2,13 +2,12 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <condition_variable>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "mutex.h"
+#include "rpc/cut.h"
 #include "rpc/stream_state.h"
 
 namespace cellcrush::rpc {
@@ -36,7 +35,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     {
       // The pump may run the reactor while the source is being opened.
       const MutexLock lock(reactor->mutex_);
-      reactor->state_.source().open([weak = std::weak_ptr<StreamReactor>(reactor)] {
+      reactor->state_.open([weak = std::weak_ptr<StreamReactor>(reactor)] {
         if (auto alive = weak.lock()) alive->wake(alive);
       });
     }
@@ -46,7 +45,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   StreamReactor(const StreamParts& parts, grpc::CallbackServerContext& context, const std::string& caller,
                 std::unique_ptr<Source> source)
-      : parts_(parts), context_(context), state_(parts, caller, std::move(source)) {}
+      : Task(caller), parts_(parts), context_(context), state_(parts, caller, std::move(source)) {}
 
   void run() override {
     Action action = Action::none;
@@ -63,7 +62,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
       case Action::none: return;
       case Action::write: this->StartWrite(&message_, options); return;
       case Action::finish: this->Finish(status_); return;
-      case Action::abandon: abandon(); return;
+      case Action::abandon: cut_.cancel(context_); return;
     }
   }
 
@@ -88,15 +87,12 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   }
 
   void OnDone() override {
+    cut_.end();
     {
-      // The pump may still run the reactor for a moment, but the objects of the call are gone. gRPC may call this from
-      // within TryCancel, on the same thread.
-      MutexLock lock(mutex_);
+      // The pump may still run the reactor for a moment, but the objects of the call are gone.
+      const MutexLock lock(mutex_);
       done_ = true;
-      abandoned_.wait(lock, [this]() CELLCRUSH_REQUIRES(mutex_) {
-        return abandoning_ == std::thread::id() || abandoning_ == std::this_thread::get_id();
-      });
-      state_.source().close();
+      state_.close();
     }
     // The last reference is `self`, or the pump's if it still holds one.
     const auto self = std::move(self_);
@@ -108,7 +104,8 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   Action decide() CELLCRUSH_REQUIRES(mutex_) {
     if (done_) return Action::none;
-    if (finished_) return is_to_be_abandoned() ? Action::abandon : Action::none;
+    // If the client has not read the status either, everything kept for it is dropped, and it sees CANCELLED.
+    if (finished_) return writing_ && state_.is_to_be_abandoned() ? Action::abandon : Action::none;
     // The status waits behind the unread message, for a client that soon resumes reading.
     if (writing_) return state_.is_stuck() ? close(state_.status_of_stuck()) : Action::none;
     if (cancelled_) return close({grpc::StatusCode::CANCELLED, "The client cancelled the stream."});
@@ -120,23 +117,6 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     delay_.end(parts_.metrics);
     writing_ = true;
     return Action::write;
-  }
-
-  /// Whether the client has not read the status either. Everything kept for it is then dropped, and it sees CANCELLED.
-  [[nodiscard]] bool is_to_be_abandoned() CELLCRUSH_REQUIRES(mutex_) {
-    if (!writing_ || abandoning_ != std::thread::id() || !state_.is_to_be_abandoned()) return false;
-    abandoning_ = std::this_thread::get_id();
-    return true;
-  }
-
-  /// Without the lock: gRPC may call back at once.
-  void abandon() {
-    context_.TryCancel();
-    {
-      const MutexLock lock(mutex_);
-      abandoning_ = std::thread::id();
-    }
-    abandoned_.notify_all();
   }
 
   /// Something may have changed.
@@ -155,6 +135,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   grpc::CallbackServerContext& context_;  ///< valid until OnDone
   std::shared_ptr<StreamReactor> self_;
   EventDelay delay_;
+  Cut cut_;
 
   Mutex mutex_;
   StreamState<Source> state_ CELLCRUSH_GUARDED_BY(mutex_);
@@ -164,8 +145,6 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   bool writing_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   bool finished_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   bool cancelled_ CELLCRUSH_GUARDED_BY(mutex_) = false;
-  std::thread::id abandoning_ CELLCRUSH_GUARDED_BY(mutex_);  ///< the thread in TryCancel, while it is there
-  std::condition_variable_any abandoned_;
   bool done_ CELLCRUSH_GUARDED_BY(mutex_) = false;
 };
 

@@ -17,6 +17,7 @@
 #include "error_table.h"
 #include "jobs/case_field.h"
 #include "metrics/metrics.h"
+#include "rpc/preparation.h"
 #include "rpc/stream_limits.h"
 #include "translate/case_words.h"
 #include "watch/pump.h"
@@ -27,6 +28,7 @@ namespace cellcrush::rpc {
 /// Dependencies of streams; all outlive them.
 struct StreamParts {
   watch::Pump& pump;
+  CallPool& checks;  ///< for what a source prepares
   metrics::Metrics& metrics;
   StreamLimits& limits;
   watch::WatchTimes times;
@@ -108,6 +110,10 @@ class QueuedSource : public PlainSource<M> {
 ///   ended               whether the last message was sent
 ///   bookmark            message to send after a long idle time; may be absent
 ///   resume_advice       how to continue a closed stream, as the end of a sentence
+/// and perhaps:
+///   prepare(call)       long work before the first message, until call.is_cancelled(), on a thread of its own; until
+///                       then only is_large, resume_advice and close are called
+///   is_large            whether that may take seconds
 /// Not thread-safe.
 template <class Source>
 class StreamState {
@@ -116,10 +122,11 @@ class StreamState {
 
   /// Throws ServiceError (exhausted) if the caller, or all callers, have too many open streams.
   StreamState(const StreamParts& parts, const std::string& caller, std::unique_ptr<Source> source)
-      : parts_(parts), permit_(parts.limits.admit(caller)), source_(std::move(source)) {
+      : parts_(parts), permit_(parts.limits.admit(caller)), caller_(caller), source_(std::move(source)) {
     if (Source::kIsWatch) parts_.metrics.count_watcher(1);
   }
   ~StreamState() {
+    if (preparation_) preparation_->cancel();
     if (Source::kIsWatch) parts_.metrics.count_watcher(-1);
   }
   StreamState(const StreamState&) = delete;
@@ -127,16 +134,37 @@ class StreamState {
 
   Source& source() { return *source_; }
 
+  /// Begins to serve the source. `wake`: called when there may be something to send.
+  void open(const std::function<void()>& wake) {
+    source_->open(wake);
+    if constexpr (requires(const Call& call) { source_->prepare(call); }) {
+      preparation_ = std::make_shared<Preparation>(caller_);
+      preparation_->begin(
+          parts_.checks, source_->is_large(), [source = source_](const Call& call) { source->prepare(call); }, wake);
+    }
+  }
+
+  /// Nobody reads any more.
+  void close() {
+    if (preparation_) preparation_->cancel();
+    source_->close();
+  }
+
   /// The next message; nothing if there is none now, or if the stream has ended: then `status` says how.
   std::optional<Message> next() {
     try {
-      auto out = source_->next();
-      if (!out && source_->ended()) {
+      const bool is_ready = !preparation_ || preparation_->is_done();
+      if (preparation_ && is_ready && !preparation_->status().ok()) {
+        status_ = preparation_->status();
+        return std::nullopt;
+      }
+      auto out = is_ready ? source_->next() : std::nullopt;
+      if (!out && is_ready && source_->ended()) {
         status_ = grpc::Status::OK;
       } else if (!out && parts_.pump.draining()) {
         status_ = {grpc::StatusCode::UNAVAILABLE,
                    "The daemon is shutting down. Ask again " + source_->resume_advice() + " after it restarts."};
-      } else if (!out && Clock::now() - last_write_ >= parts_.times.bookmark_interval) {
+      } else if (!out && is_ready && Clock::now() - last_write_ >= parts_.times.bookmark_interval) {
         out = source_->bookmark();
         last_write_ = Clock::now();  // one is enough
       }
@@ -189,7 +217,9 @@ class StreamState {
 
   StreamParts parts_;
   StreamLimits::Permit permit_;
-  std::unique_ptr<Source> source_;
+  std::string caller_;
+  std::shared_ptr<Source> source_;            ///< shared with what it prepares
+  std::shared_ptr<Preparation> preparation_;  ///< null for a source without one
   std::optional<grpc::Status> status_;
   Clock::time_point last_write_ = Clock::now();
 };

@@ -42,7 +42,7 @@ jobs::WorkerExit exit_by_meaning(Meaning meaning, const std::optional<worker::Fi
   jobs::WorkerExit out{.kind = ExitKind::gone, .final = final, .detail = what};
   if (meaning == Meaning::cancelled) out.kind = ExitKind::withdrawn;
   if (meaning == Meaning::displaced) out.kind = ExitKind::displaced;
-  out.out_of_memory = meaning == Meaning::no_memory;
+  out.out_of_memory = out.at_own_limit = meaning == Meaning::no_memory;
   return out;
 }
 
@@ -52,6 +52,7 @@ jobs::WorkerExit exit_of_last_word(const Ended& ended, const Attempt& attempt, c
   jobs::WorkerExit out{.kind = kind_of(ended.kind()), .code = ended.code(), .out_of_memory = ended.out_of_memory()};
   if (ended.has_final()) out.final = ended.final();
   const std::string where = host.empty() ? "" : " on " + host;
+  out.at_own_limit = out.out_of_memory;
   if (out.out_of_memory) out.detail = slurm_name(attempt) + where + ": " + ended.message();
   // What a node lacks is a loss of this attempt: other nodes may have it.
   const bool lacks = out.final && out.final->shortage() != 0;

@@ -18,6 +18,13 @@ constexpr std::uint64_t kProgressAnHour = std::uint64_t{4} << 20;
 
 }  // namespace
 
+// A run goes on while no daemon follows it.
+Mirror::Mirror(store::JobFolder from, store::JobFolder to, std::uint64_t reports_from, std::uint64_t most)
+    : from_(std::move(from)), to_(std::move(to)), start_(reports_from), most_(most), offset_(reports_from) {
+  const auto copied = version_of(from_.reports()) ? version_of(to_.reports()) : std::nullopt;
+  since_ = copied ? std::chrono::system_clock::from_time_t(copied->seconds) : std::chrono::system_clock::now();
+}
+
 std::optional<Mirror::Version> Mirror::version_of(const std::filesystem::path& path) {
   const auto status = store::find_own(path);
   if (!status || !S_ISREG(status->st_mode)) return std::nullopt;
@@ -42,10 +49,10 @@ void Mirror::put_checkpoint() const {
 // Of the reports before they are read: one of them may be as large as all.
 void Mirror::require_room() const {
   if (most_ == std::numeric_limits<std::uint64_t>::max()) return;
-  const auto hours = std::chrono::duration_cast<std::chrono::hours>(std::chrono::steady_clock::now() - opened_);
+  const auto hours = std::chrono::duration_cast<std::chrono::hours>(std::chrono::system_clock::now() - since_);
   const std::uint64_t size = size_of(from_.reports());
   store::require_size(from_.reports(), size - std::min(size, start_),
-                      most_ + static_cast<std::uint64_t>(hours.count()) * kProgressAnHour);
+                      most_ + static_cast<std::uint64_t>(std::max<std::int64_t>(0, hours.count())) * kProgressAnHour);
 }
 
 bool Mirror::pass() {

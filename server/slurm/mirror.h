@@ -21,8 +21,7 @@ class Mirror {
   /// `reports_from`: size of the reports that `to` has already, at a boundary of two reports. `most`: size limit of the
   /// result, of a checkpoint and of the reports to come.
   Mirror(store::JobFolder from, store::JobFolder to, std::uint64_t reports_from,
-         std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
-      : from_(std::move(from)), to_(std::move(to)), start_(reports_from), most_(most), offset_(reports_from) {}
+         std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
   /// Copies what is new. Returns whether anything was. Throws ServiceError (exhausted) for a file beyond its limit.
   bool pass();
@@ -45,7 +44,7 @@ class Mirror {
   store::JobFolder to_;
   std::uint64_t start_;  ///< offset of the reports at the beginning
   std::uint64_t most_;
-  std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
+  std::chrono::system_clock::time_point since_;  ///< the reports before were copied
   std::uint64_t offset_;
   std::optional<Version> checkpoint_;
   std::optional<Version> result_;

@@ -225,6 +225,13 @@ std::filesystem::path DataFolder::set_aside(const std::string& name) const {
   }
 }
 
-void DataFolder::remove_job_folder(std::int64_t job) const { remove_file(job_folder(job).root()); }
+void DataFolder::remove_job_folder(std::int64_t job) const {
+  const auto folder = job_folder(job).root();
+  const auto deleted = folder.string() + ".deleted";
+  remove_file(deleted);
+  if (const int error = rename_own(folder, deleted); error != 0 && error != ENOENT)
+    throw_file_error(folder, "deleted", error);
+  remove_file(deleted);
+}
 
 }  // namespace cellcrush::store

@@ -56,10 +56,12 @@ std::optional<Place> find_seal(const OpenFile& file, const std::filesystem::path
 }
 
 // The seal that these bytes should have.
-std::string seal_of(const OpenFile& file, const std::filesystem::path& path, const Place& place) {
+std::string seal_of(const OpenFile& file, const std::filesystem::path& path, const Place& place,
+                    const std::function<void()>& go_on = {}) {
   std::vector<unsigned char> part(kPart);
   std::uint64_t crc = 0;
   for (std::uint64_t at = place.begin; at < place.end;) {
+    if (go_on) go_on();
     const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), place.end - at));
     const std::size_t count = read_at(file, path, part.data(), wanted, at);
     if (count == 0) return "";
@@ -119,14 +121,15 @@ void seal_result(const std::filesystem::path& path) {
   write_all(file, path, seal);
 }
 
-Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole) {
+Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole,
+               const std::function<void()>& go_on) {
   static WholeFiles found_whole;
   const OpenFile file = open_to_read(path, ServiceError::Kind::internal, LastLink::of_owner);
   const auto identity = identity_of(file, path);
   if (!found_whole.contains(identity)) {
     const auto place = find_seal(file, path, static_cast<std::uint64_t>(identity[2]));
     if (!place) return Seal::missing;
-    if (bytes_at(file, path, place->seal, place->seal_size) != seal_of(file, path, *place)) return Seal::broken;
+    if (bytes_at(file, path, place->seal, place->seal_size) != seal_of(file, path, *place, go_on)) return Seal::broken;
     if (!is_settled(identity)) return Seal::whole;
     found_whole.add(identity);
   }
@@ -146,6 +149,8 @@ std::optional<FileIdentity> check_seal(const std::filesystem::path& path) {
   return whole;
 }
 
-void check_seal_if_any(const std::filesystem::path& path) { throw_if_broken(read_seal(path)); }
+void check_seal_if_any(const std::filesystem::path& path, const std::function<void()>& go_on) {
+  throw_if_broken(read_seal(path, nullptr, go_on));
+}
 
 }  // namespace cellcrush::store

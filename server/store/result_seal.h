@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 namespace cellcrush::store {
@@ -30,15 +31,17 @@ enum class Seal {
 using FileIdentity = std::array<std::int64_t, 5>;
 
 /// Reads the file and compares it with its seal. A file found whole is not read again until it is written to: `whole`
-/// becomes its identity, once the last write is so old that another one would change it. Throws ServiceError: internal
-/// if it cannot be read or is not a regular file. Thread-safe.
-Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole = nullptr);
+/// becomes its identity, once the last write is so old that another one would change it. `go_on`, if given: called now
+/// and then meanwhile; what it throws ends the reading. Throws ServiceError: internal if it cannot be read or is not a
+/// regular file. Thread-safe.
+Seal read_seal(const std::filesystem::path& path, std::optional<FileIdentity>* whole = nullptr,
+               const std::function<void()>& go_on = {});
 
 /// Returns that identity. Throws ServiceError: failed_precondition for a file without a seal, written by an earlier
 /// version; data_loss unless the seal matches the bytes; internal if they cannot be read. Thread-safe.
 std::optional<FileIdentity> check_seal(const std::filesystem::path& path);
 
-/// The same for callers that need the bytes only: a file without a seal passes.
-void check_seal_if_any(const std::filesystem::path& path);
+/// The same for callers that need the bytes only: a file without a seal passes. `go_on` as above.
+void check_seal_if_any(const std::filesystem::path& path, const std::function<void()>& go_on);
 
 }  // namespace cellcrush::store

@@ -38,6 +38,12 @@ std::string file_of(sqlite3* handle) {
   return path != nullptr && *path != '\0' ? path : "The job journal";
 }
 
+// Our statements fit the tables, unless the schema is damaged.
+bool is_of_schema(std::string_view reason) {
+  return reason.starts_with("no such table") || reason.starts_with("no such column") ||
+         reason.starts_with("no such index") || reason.find(" has no column named ") != std::string_view::npos;
+}
+
 [[noreturn]] void fail(sqlite3* handle, int code) {
   const std::string reason = handle != nullptr ? sqlite3_errmsg(handle) : sqlite3_errstr(code);
   const std::string message = "The job journal cannot be used: " + reason + ".";
@@ -49,8 +55,7 @@ std::string file_of(sqlite3* handle) {
                            "). Restore a backup to a new folder with `cellcrushd restore`, or move the file away to "
                            "start with an empty journal.");
   }
-  // Our statements fit the tables, unless the schema is damaged.
-  if ((code & 0xFF) == SQLITE_CORRUPT || (code & 0xFF) == SQLITE_ERROR) {
+  if ((code & 0xFF) == SQLITE_CORRUPT || ((code & 0xFF) == SQLITE_ERROR && is_of_schema(reason))) {
     throw ServiceError(ServiceError::Kind::data_loss, file_of(handle) + " is damaged (" + reason +
                                                           "). Run `cellcrushd verify` to list the damage, and restore "
                                                           "a backup to a new folder with `cellcrushd restore`.");

@@ -2,9 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
-#include <utility>
 
 #include "pause.h"
 
@@ -12,14 +12,14 @@ namespace cellcrush::watch {
 namespace {
 
 struct Work final : Pump::Task {
-  explicit Work(std::function<void()> given) : work(std::move(given)) {}
+  explicit Work(std::function<void()> given) : Task("the daemon"), work(std::move(given)) {}
   void run() override { work(); }
   std::function<void()> work;
 };
 
 }  // namespace
 
-Pump::Pump(int threads) {
+Pump::Pump(int threads) : most_of_caller_(std::max(1, threads / 2)) {
   threads_.emplace_back([this](const std::stop_token& stop) { tick(stop); });
   for (int i = 0; i < threads; ++i) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
 }
@@ -27,9 +27,10 @@ Pump::Pump(int threads) {
 void Pump::stop() {
   for (auto& thread : threads_) thread.request_stop();
   threads_.clear();
-  std::deque<std::shared_ptr<Task>> dropped;  // outside the lock: destroying a task may schedule others
+  Lines dropped;  // outside the lock: destroying a task may schedule others
   const MutexLock lock(mutex_);
-  dropped.swap(queue_);
+  turns_.clear();
+  dropped.swap(lines_);
 }
 
 void Pump::add(const std::shared_ptr<Task>& task) {
@@ -61,25 +62,50 @@ bool Pump::draining() const {
 void Pump::push(const std::shared_ptr<Task>& task) {
   if (task->queued_) return;
   task->queued_ = true;
-  queue_.push_back(task);
+  const auto line = lines_.try_emplace(task->caller_).first;
+  line->second.tasks.push_back(task);
+  line_up(line);
+}
+
+void Pump::line_up(Lines::iterator line) {
+  auto& [tasks, running, has_turn] = line->second;
+  if (has_turn || tasks.empty() || running >= most_of_caller_) return;
+  has_turn = true;
+  turns_.push_back(line);
   changed_.notify_one();
+}
+
+void Pump::end(Lines::iterator line) {
+  const MutexLock lock(mutex_);
+  --line->second.running;
+  line_up(line);
+  if (line->second.running == 0 && line->second.tasks.empty()) lines_.erase(line);
 }
 
 void Pump::work(const std::stop_token& stop) {
   while (true) {
     std::shared_ptr<Task> task;
+    Lines::iterator line;
     {
       MutexLock lock(mutex_);
-      if (!changed_.wait(lock, stop, [this]() CELLCRUSH_REQUIRES(mutex_) { return !queue_.empty(); })) return;
-      task = std::move(queue_.front());
-      queue_.pop_front();
+      if (!changed_.wait(lock, stop, [this]() CELLCRUSH_REQUIRES(mutex_) { return !turns_.empty(); })) return;
+      line = turns_.front();
+      turns_.pop_front();
+      auto& [tasks, running, has_turn] = line->second;
+      task = std::move(tasks.front());
+      tasks.pop_front();
       task->queued_ = false;
+      has_turn = false;
+      ++running;
+      line_up(line);
     }
     try {
       task->run();
     } catch (const std::exception& error) {
       spdlog::error("A watch could not be advanced and will be retried: {}", error.what());
     }
+    task.reset();
+    end(line);
   }
 }
 

@@ -3,27 +3,34 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stop_token>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "mutex.h"
 
 namespace cellcrush::watch {
 
-/// A few threads that serve all watchers, so that a watcher needs no thread of its own. A task runs soon after it is
-/// scheduled, and once a second while it exists. Thread-safe.
+/// A few threads that serve all streams, so that a stream needs no thread of its own. A task runs soon after it is
+/// scheduled, and once a second while it exists. The callers take turns, each on at most half of the threads.
+/// Thread-safe.
 class Pump {
  public:
   class Task {
    public:
+    /// `caller`: for whom it counts.
+    explicit Task(std::string caller) : caller_(std::move(caller)) {}
     virtual ~Task() = default;
     /// Does whatever needs no waiting. May run on two threads at once.
     virtual void run() = 0;
 
    private:
     friend class Pump;
+    const std::string caller_;
     bool queued_ = false;  ///< guarded by the pump's mutex
   };
 
@@ -37,7 +44,7 @@ class Pump {
   /// Quick; may be called under other locks.
   void schedule(const std::shared_ptr<Task>& task);
 
-  /// Runs the work once, soon.
+  /// Runs work of the daemon once, soon.
   void post(std::function<void()> work);
 
   /// Notifies the tasks that the daemon ends: they see draining() and close.
@@ -48,14 +55,27 @@ class Pump {
   void stop();
 
  private:
+  /// The tasks of one caller that are to run.
+  struct Line {
+    std::deque<std::shared_ptr<Task>> tasks = {};
+    int running = 0;
+    bool has_turn = false;  ///< is among the turns
+  };
+  using Lines = std::map<std::string, Line>;  ///< by caller
+
   void work(const std::stop_token& stop);
   void tick(const std::stop_token& stop);
   void schedule_all();
   void push(const std::shared_ptr<Task>& task) CELLCRUSH_REQUIRES(mutex_);
+  /// Lines the caller up for its next turn, if it has a task that may run.
+  void line_up(Lines::iterator line) CELLCRUSH_REQUIRES(mutex_);
+  void end(Lines::iterator line);
 
+  const int most_of_caller_;  ///< threads
   mutable Mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::shared_ptr<Task>> queue_ CELLCRUSH_GUARDED_BY(mutex_);
+  Lines lines_ CELLCRUSH_GUARDED_BY(mutex_);  ///< of callers with tasks that are to run, or run
+  std::deque<Lines::iterator> turns_ CELLCRUSH_GUARDED_BY(mutex_);
   std::vector<std::weak_ptr<Task>> tasks_ CELLCRUSH_GUARDED_BY(mutex_);
   bool draining_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> threads_;

@@ -1,5 +1,6 @@
 // What callers are held to on connections and streams.
 #include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
 
 #include <thread>
 
@@ -119,6 +120,47 @@ TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
   v1::DownloadResultResponse part;
   while (unread->Read(&part)) continue;
   EXPECT_FALSE(unread->Finish().ok());
+}
+
+TEST_F(ConnectionLimitsTest, AnAnswerThatNobodyReadsIsCut) {
+  auto options = default_options();
+  options.watch_times.patience = milliseconds(100);
+  start(options);
+  grpc::ChannelArguments small_window;
+  small_window.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+  small_window.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, 4096);
+  Client client(daemon_->addresses().front(), small_window);
+  const std::string job = client.create(small_case(), v1::Job::SUCCEEDED);
+  const auto status_after = [&](milliseconds delay) {
+    // A unary call whose answer is read when this test asks for it, which a stub would not do.
+    grpc::CompletionQueue queue;
+    const auto next = [&queue] {
+      void* tag = nullptr;
+      bool is_done = false;
+      return queue.Next(&tag, &is_done) && is_done;
+    };
+    const auto context = bounded_context();
+    grpc::GenericStub stub(client.channel);
+    const auto call = stub.PrepareCall(context.get(), "/cellcrush.v1.Jobs/GetHistory", &queue);
+    call->StartCall(nullptr);
+    EXPECT_TRUE(next());
+    const std::string bytes = named<v1::GetHistoryRequest>(job).SerializeAsString();
+    const grpc::Slice slice(bytes);
+    call->WriteLast(grpc::ByteBuffer(&slice, 1), {}, nullptr);
+    EXPECT_TRUE(next());
+    std::this_thread::sleep_for(delay);
+    grpc::ByteBuffer answer;
+    call->Read(&answer, nullptr);
+    if (next()) {
+      EXPECT_GT(answer.Length(), 8'192U);
+    }
+    grpc::Status out;
+    call->Finish(&out, nullptr);
+    EXPECT_TRUE(next());
+    return out;
+  };
+  EXPECT_TRUE(status_after(milliseconds(0)).ok());
+  EXPECT_FALSE(status_after(milliseconds(800)).ok());
 }
 
 TEST_F(ConnectionLimitsTest, ASocketThatWasRemovedIsOpenedAgain) {

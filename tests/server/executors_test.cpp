@@ -1,8 +1,10 @@
 // Several executors in one daemon: what is chosen, what one cannot do to another, and what a cluster's queue holds.
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <mutex>
 #include <set>
+#include <vector>
 
 #include "error.h"
 #include "log_format.h"
@@ -263,6 +265,72 @@ TEST_F(ExecutorsTest, JobsOfAClusterThatAreCancelledDuringAShortageAreEndedThere
     return calls.ended.size() == jobs.size();
   }));
   daemon_.reset();
+}
+
+/// Workers of this machine, of which the first of each job is killed for lack of memory once it has reported a sample.
+class ShortOfMemory final : public jobs::Executor {
+ public:
+  struct Seen {
+    std::mutex mutex;
+    std::vector<double> memory_factors;
+  };
+  ShortOfMemory(Seen& seen, bool at_own_limit, const jobs::ExecutorSurroundings& given)
+      : seen_(seen), at_own_limit_(at_own_limit), workers_(given.worker_program, given.stall_limit) {}
+
+  bool has_worker(const store::JobFolder& folder) override { return workers_.has_worker(folder); }
+  std::optional<jobs::WorkerExit> read_final_report(const store::JobFolder& folder,
+                                                    const jobs::WorkerEvents& events) override {
+    return workers_.read_final_report(folder, events);
+  }
+  void end_worker(const store::JobFolder& folder) override { workers_.end_worker(folder); }
+
+  jobs::WorkerExit run(const store::JobFolder& folder, const worker::Order& order, const jobs::WorkerEvents& events,
+                       const jobs::Interruptions& interruptions) override {
+    bool is_first = false;
+    if (!order.has_given_up()) {
+      const std::lock_guard lock(seen_.mutex);
+      seen_.memory_factors.push_back(order.memory_factor());
+      is_first = seen_.memory_factors.size() == 1;
+    }
+    if (!is_first) return workers_.run(folder, order, events, interruptions);
+    std::stop_source end;
+    auto until_a_sample = events;
+    until_a_sample.reported = [&](worker::Report& report) {
+      const bool is_sample = report.has_sample();
+      events.reported(report);
+      if (is_sample) end.request_stop();
+    };
+    workers_.run(folder, order, until_a_sample, {end.get_token(), {}, {}});
+    jobs::WorkerExit out{.kind = jobs::WorkerExit::Kind::signalled, .code = SIGKILL};
+    out.out_of_memory = true;
+    out.at_own_limit = at_own_limit_;
+    return out;
+  }
+
+ private:
+  Seen& seen_;
+  bool at_own_limit_;
+  jobs::LocalProcess workers_;
+};
+
+TEST_F(ExecutorsTest, OnlyAWorkerThatRanIntoItsOwnLimitIsAllowedMoreMemory) {
+  for (const bool at_own_limit : {false, true}) {
+    ShortOfMemory::Seen seen;
+    auto options = default_options();
+    options.executors.push_back({kCluster, 1, [&](const jobs::ExecutorSurroundings& given) {
+                                   return std::make_unique<ShortOfMemory>(seen, at_own_limit, given);
+                                 }});
+    restart(options);
+    auto client = this->client();
+    const std::string job = create_on(client, kCluster, endless_case());
+    EXPECT_TRUE(wait_until([&] {
+      const std::lock_guard lock(seen.mutex);
+      return seen.memory_factors.size() == 2;
+    }));
+    EXPECT_TRUE(client.cancel(job).ok());
+    daemon_.reset();
+    EXPECT_THAT(seen.memory_factors, ElementsAre(1.0, at_own_limit ? 1.5 : 1.0));
+  }
 }
 
 }  // namespace

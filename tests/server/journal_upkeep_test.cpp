@@ -8,6 +8,7 @@
 
 #include "error.h"
 #include "server/journal_fixture.h"
+#include "server/refuses.h"
 
 namespace cellcrush::store {
 namespace {
@@ -53,6 +54,15 @@ TEST_F(JournalUpkeepTest, AfterABurstAndItsDeletionJournalAndWalAreSmallAgain) {
   Statement check(database, "PRAGMA integrity_check");
   ASSERT_TRUE(check.step());
   EXPECT_EQ(check.bytes(0), "ok");
+}
+
+TEST_F(JournalUpkeepTest, AFileIsDamagedWhereItLacksATableAndNotForAnyOtherError) {
+  Database database(path().string() + ".other");
+  EXPECT_THAT([&] { database.execute("SELECT * FROM jobs"); },
+              testing::Refuses(ServiceError::Kind::data_loss, "is damaged (no such table: jobs)"));
+  database.execute("BEGIN");
+  EXPECT_THAT([&] { database.execute("BEGIN"); },
+              testing::Refuses(ServiceError::Kind::internal, "within a transaction"));
 }
 
 TEST_F(JournalUpkeepTest, AJournalOfAnEarlierVersionCanGiveBackAfterItsFirstStart) {

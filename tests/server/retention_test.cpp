@@ -216,5 +216,19 @@ TEST_F(RetentionTest, ASweepIsDeletedWithItsJobsOnceTheyHaveEnded) {
   EXPECT_EQ(delete_sweep(client, sweep.name()).error_code(), grpc::StatusCode::NOT_FOUND);
 }
 
+// Half of a job's folder has another name than a job.
+TEST_F(RetentionTest, ADeletionThatWasCutShortIsFinishedByTheNextDaemon) {
+  start(quick_options());
+  const std::string job = finished_job(tiny_case());
+  daemon_.reset();
+  store::Journal(data_folder() / "journal.sqlite", [](std::int64_t) {}).delete_job(1);
+  const auto folder = data_folder() / job;
+  std::filesystem::rename(folder, folder.string() + ".deleted");
+  std::filesystem::create_directory(folder);
+  start(quick_options());
+  EXPECT_EQ(folder_count(), 0U);
+  EXPECT_FALSE(std::filesystem::exists(data_folder() / "set-aside"));
+}
+
 }  // namespace
 }  // namespace cellcrush::testing

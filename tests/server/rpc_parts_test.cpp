@@ -90,12 +90,16 @@ TEST(StreamLimits, BoundTheBytesThatNobodyHasRead) {
   StreamLimits limits({10, 10, 1000});
   auto first = limits.admit("anna");
   first.hold(5000);  // one alone may have its message
-  auto second = limits.admit("anna");
+  auto second = limits.admit("bob");
   EXPECT_THAT([&] { second.hold(1); }, Refuses(ServiceError::Kind::exhausted, "--max-call-memory"));
   first.hold(900);
   EXPECT_NO_THROW(second.hold(100));
   EXPECT_THAT([&] { second.hold(101); }, Refuses(ServiceError::Kind::exhausted, "--max-call-memory"));
   EXPECT_NO_THROW(second.hold(100)) << "What was refused is not counted.";
+  first.hold(400);
+  auto third = limits.admit("anna");
+  EXPECT_THAT([&] { third.hold(101); }, Refuses(ServiceError::Kind::exhausted, "Open streams of anna hold 400 bytes"));
+  EXPECT_NO_THROW(second.hold(600)) << "Others have the other half.";
 }
 
 /// What the test sees of a source of a thousand messages, of which the first is held.
@@ -132,8 +136,10 @@ TEST(SourceStream, CancellingWaitsForNoBatchThatIsBeingMade) {
   metrics::Metrics metrics;
   StreamLimits limits({10, 2, 100'000'000});
   watch::Pump pump(2);
+  Accounts memory({1 << 20, 1 << 20});
+  CallPool checks({1, 1, 1, 1, 1}, memory);
   const auto stream = std::make_shared<SourceStream<TapSource>>(
-      StreamParts{pump, metrics, limits, {}}, "anna",
+      StreamParts{pump, checks, metrics, limits, {}}, "anna",
       [](const google::protobuf::Message& each, std::string& to) { to += each.SerializeAsString(); },
       [&tap] { return std::make_unique<TapSource>(tap); });
   auto promise = std::make_shared<std::promise<Batch>>();
@@ -165,11 +171,14 @@ TEST(ExportSource, AJobThatIsDeletedMeanwhileIsAnErrorNotAFileWithoutItsResults)
   request.set_name(store::name_of(job));
   const auto stored = reader.find_job(job);
   ASSERT_TRUE(stored);
+  const auto call = std::make_shared<Preparation>("anna");
   {
     ExportSource whole({data, reader, places}, *stored, request);
+    whole.prepare(*call);
     while (!whole.ended()) ASSERT_TRUE(whole.next());
   }
   ExportSource source({data, reader, places}, *stored, request);
+  source.prepare(*call);
   ASSERT_TRUE(source.next()) << "the head";
   journal.delete_job(job);
   EXPECT_THAT(

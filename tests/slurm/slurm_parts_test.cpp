@@ -374,6 +374,17 @@ TEST_F(MirrorTest, TakesNoLinkForAResultAndNothingBeyondItsLimit) {
   EXPECT_FALSE(fs::exists(to_.result()) || fs::exists(to_.checkpoint()));
 }
 
+// A run goes on while no daemon follows it.
+TEST_F(MirrorTest, TheReportsOfHoursWithoutADaemonHaveRoom) {
+  worker::Report large;
+  large.mutable_final()->set_message(std::string(2'000'000, 'x'));
+  store::ReportLog(from_.reports()).append(large);
+  write_small_file(to_.reports(), "");
+  EXPECT_THROW(Mirror(from_, to_, 0, 1'000).pass(), ServiceError);
+  fs::last_write_time(to_.reports(), fs::file_time_type::clock::now() - std::chrono::hours(2));
+  EXPECT_TRUE(Mirror(from_, to_, 0, 1'000).pass());
+}
+
 // What cannot be written holds up what has to come after it.
 TEST_F(MirrorTest, PutsTheResultBeforeTheReportThatAnnouncesItAndACheckpointAfterItsReports) {
   Mirror mirror(from_, to_, 0);

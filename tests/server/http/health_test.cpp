@@ -12,6 +12,7 @@
 #include "log_format.h"
 #include "open_file.h"
 #include "server/daemon_process.h"
+#include "server/held_point.h"
 #include "server/http/http_fixture.h"
 #include "server/log_capture.h"
 #include "store/sqlite.h"
@@ -62,6 +63,29 @@ TEST_F(HealthTest, AJournalThatTakesNoWritesIsNamedUntilItDoes) {
   EXPECT_TRUE(wait_until([&] { return get("/readyz").starts_with("HTTP/1.1 200"); }));
   EXPECT_TRUE(is_serving(client, "cellcrush.v1.Jobs"));
   EXPECT_EQ(log.count_lines("The journal makes progress again"), 1) << log.text();
+}
+
+TEST_F(HealthTest, HousekeepingAndCallsThatStandStillAreNamed) {
+  HeldPoint point;
+  DaemonOptions options = impatient();
+  options.heartbeats.patience = 1;
+  options.connections.threads = 1;
+  options.clocks.wall = [&point, is_first = std::make_shared<std::atomic<bool>>(true)] {
+    if (!is_first->exchange(false)) point.stand();  // the daemon's start reads it once
+    return Clocks::read(CLOCK_REALTIME);
+  };
+  start(options);
+  ASSERT_TRUE(point.wait());
+  EXPECT_TRUE(wait_until([&] { return get("/readyz").find("Housekeeping has made no") != std::string::npos; }));
+  point.open();
+  EXPECT_TRUE(wait_until([&] { return get("/readyz").starts_with("HTTP/1.1 200"); }));
+
+  const std::string job = client().create(small_case(), v1::Job::SUCCEEDED);
+  store::Database other(data_folder() / "journal.sqlite", store::Database::Access::shared);
+  other.execute("BEGIN EXCLUSIVE");
+  std::jthread blocked([&] { static_cast<void>(client().annotate(job, "waits for the journal")); });
+  EXPECT_TRUE(wait_until([&] { return get("/readyz").find("The pool of calls has made no") != std::string::npos; }));
+  other.execute("COMMIT");
 }
 
 TEST_F(HealthTest, ADaemonThatDrainsIsAliveAndTakesNoJobs) {

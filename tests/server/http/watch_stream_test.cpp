@@ -90,7 +90,7 @@ TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
   rpc::Accounts memory({1 << 20, 1 << 20});
   rpc::CallPool calls({1, 1, 0, 0, 1}, memory);
   rpc::MethodTable methods(gate, pump, calls, memory, {});
-  methods.stream("/cellcrush.v1.Jobs/DownloadResult", access::Scope::read, {pump, metrics, limits, {}},
+  methods.stream("/cellcrush.v1.Jobs/DownloadResult", access::Scope::read, {pump, calls, metrics, limits, {}},
                  std::make_shared<FountainService>(sent), &FountainService::open);
   rpc::HealthBoard board;
   http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, methods, memory, board, {});
