@@ -73,6 +73,9 @@ class CallPool {
   /// waiting is skipped; one beyond the limits ends with RESOURCE_EXHAUSTED.
   void run(Task task);
 
+  /// Runs the body on this thread and finishes, if the caller has memory for it; otherwise the task is as before.
+  bool run_at_once(Task& task);
+
   /// Runs the body, on this thread, and finishes.
   static void run_here(Task task);
 
