@@ -24,6 +24,8 @@ namespace cellcrush {
 namespace {
 
 constexpr std::size_t kMostBytes = 1024 * 1024;
+constexpr std::size_t kMostAtOnce = 64 * 1024;           // bytes
+constexpr std::chrono::milliseconds kGathering{10};  // lines that come meanwhile are written together
 constexpr const char* kPlain = "\033[m";
 constexpr const char* kName = "cellcrushd";
 
@@ -64,7 +66,7 @@ bool write_text(int file, std::string_view text) {
 struct LogWriter::State {
   Mutex mutex;
   std::condition_variable_any changed;
-  std::deque<std::string> lines CELLCRUSH_GUARDED_BY(mutex);  ///< the first is being written
+  std::deque<std::string> lines CELLCRUSH_GUARDED_BY(mutex);  ///< the first ones are being written
   std::size_t bytes CELLCRUSH_GUARDED_BY(mutex) = 0;
   std::int64_t lost CELLCRUSH_GUARDED_BY(mutex) = 0;  ///< not yet said in the log
   bool stopped CELLCRUSH_GUARDED_BY(mutex) = false;
@@ -90,14 +92,23 @@ struct LogWriter::State {
     while (true) {
       while (lines.empty() && !stopped) changed.wait(lock);
       if (lines.empty()) return;
+      if (!stopped) {
+        lock.unlock();
+        std::this_thread::sleep_for(kGathering);
+        lock.lock();
+      }
       const auto to = file;
-      const std::string line = lines.front();
+      std::string text;
+      std::size_t count = 0;
+      for (; count < lines.size() && text.size() < kMostAtOnce; ++count) text += lines[count];
       lock.unlock();
-      const bool written = write_text(to ? to->get() : STDERR_FILENO, line);
+      const bool written = write_text(to ? to->get() : STDERR_FILENO, text);
       lock.lock();
-      if (!written) lose();
-      bytes -= line.size();
-      lines.pop_front();
+      for (; count > 0; --count) {
+        if (!written) lose();
+        bytes -= lines.front().size();
+        lines.pop_front();
+      }
       changed.notify_all();
       if (lost > 0 && lines.empty() && written) say_lost();
     }

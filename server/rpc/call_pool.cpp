@@ -40,7 +40,8 @@ void CallPool::run(Task task) {
     if (line.waiting.size() < most_.waiting_per_caller) {
       line.waiting.push_back(std::move(task));
       ++waiting_;
-      wake_if_waiting();
+      // Otherwise a thread that answers this caller goes on with it.
+      if (line.running < most_.threads_per_caller) changed_.notify_one();
       return;
     }
     refusal = {grpc::StatusCode::RESOURCE_EXHAUSTED,
@@ -52,6 +53,13 @@ void CallPool::run(Task task) {
 
 void CallPool::post(std::function<void()> work) {
   run({.call = nullptr, .caller = "the daemon", .body = [work = std::move(work)](Task&) { work(); }});
+}
+
+bool CallPool::run_at_once(Task& task) {
+  task.charge = memory_.take(task.caller, task.bytes);
+  if (!task.charge) return false;
+  run_here(std::move(task));
+  return true;
 }
 
 void CallPool::run_here(Task task) {
@@ -103,11 +111,15 @@ void CallPool::end(const std::string& caller, bool is_large) {
   line->large_running -= is_large ? 1 : 0;
   large_running_ -= is_large ? 1 : 0;
   if (line->running == 0 && line->waiting.empty()) lines_.erase(line);
-  ending_ ? changed_.notify_all() : wake_if_waiting();
+  // This thread goes on with what may run now.
+  if (ending_) changed_.notify_all();
 }
 
 void CallPool::wake_if_waiting() {
-  if (waiting_ > 0) changed_.notify_one();
+  const auto may_go_on = [this](const Line& line) {
+    return !line.waiting.empty() && line.running < most_.threads_per_caller;
+  };
+  if (waiting_ > 0 && std::ranges::any_of(lines_, may_go_on)) changed_.notify_one();
 }
 
 void CallPool::serve() {

@@ -79,6 +79,9 @@ class CallPool {
   /// Runs work of the daemon in its turn.
   void post(std::function<void()> work);
 
+  /// Runs the body on this thread and finishes, if the caller has memory for it; otherwise the task is as before.
+  bool run_at_once(Task& task);
+
   /// Runs the body, on this thread, and finishes.
   static void run_here(Task task);
 

@@ -176,6 +176,7 @@ std::optional<MethodTable::Arrived> MethodTable::arrive(grpc::CallbackServerCont
   Arrived out;
   const auto status = answer([&] {
     out.incoming = incoming_of(bytes);
+    out.is_small = out.incoming.bytes <= kLightRequest;
     out.task.call = std::make_shared<GrpcCall>(gate_, context);
     out.task.caller = name_of(context, is_open);
     require_epoch(exchange_epochs(context));
@@ -192,8 +193,12 @@ std::optional<MethodTable::Arrived> MethodTable::arrive(grpc::CallbackServerCont
   return out;
 }
 
-void MethodTable::start(const CallPool* pool, CallPool::Task task) {
-  if (pool != nullptr) return calls_.run(std::move(task));
+void MethodTable::start(const CallPool* pool, CallPool::Task task, bool is_small) {
+  if (pool != nullptr) {
+    // To wake two threads one after the other takes longer than to parse a small request.
+    if (is_small && pool != &calls_ && calls_.run_at_once(task)) return;
+    return calls_.run(std::move(task));
+  }
   task.charge = std::make_shared<Accounts::Charge>(received_, task.caller, 0);
   CallPool::run_here(std::move(task));
 }

@@ -98,7 +98,7 @@ class MethodTable {
         next.body = respond;
         pool->run(std::move(next));
       };
-      start(pool, std::move(arrived.task));
+      start(pool, std::move(arrived.task), arrived.is_small);
     };
     grpc_.add(path, grpc::internal::RpcMethod::NORMAL_RPC,
               new grpc::internal::CallbackUnaryHandler<grpc::ByteBuffer, Response>(
@@ -194,6 +194,7 @@ class MethodTable {
   struct Arrived {
     CallPool::Task task;  ///< without its body
     Incoming incoming;
+    bool is_small = false;  ///< so that the thread that brings the call may parse it
   };
 
   /// Ends a unary call of gRPC, and holds the memory of its answer until the client has it, or has lost it for lack of
@@ -263,7 +264,7 @@ class MethodTable {
   std::optional<Arrived> arrive(grpc::CallbackServerContext& context, const grpc::ByteBuffer& bytes, bool is_open,
                                 UnaryReactor& reactor);
   /// Has the call's request parsed.
-  void start(const CallPool* pool, CallPool::Task task);
+  void start(const CallPool* pool, CallPool::Task task, bool is_small);
   static const google::protobuf::MethodDescriptor* describe(std::string_view path,
                                                             const google::protobuf::Descriptor& request,
                                                             const google::protobuf::Descriptor& response,

@@ -112,6 +112,7 @@ void check_priority(int priority, const std::string& field) {
 
 template <class Request>
 std::string payload_hash(Request request, const std::string& owner) {
+  if (request.request_id().empty()) return "";
   request.clear_request_id();
   request.clear_validate_only();
   // The form without owners, which journals of earlier versions hold.

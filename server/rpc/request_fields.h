@@ -58,7 +58,7 @@ void check_update(const google::protobuf::FieldMask& mask, const std::string& re
 void check_priority(int priority, const std::string& field);
 
 /// Hash of a CreateJobRequest or CreateSweepRequest and its owner, without the id: equal for a repetition of the call
-/// by the same owner.
+/// by the same owner. Empty without an id, as nothing then looks for a repetition.
 template <class Request>
 std::string payload_hash(Request request, const std::string& owner);
 

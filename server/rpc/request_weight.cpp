@@ -104,7 +104,8 @@ std::int64_t heaviest_request_of(std::size_t bytes) {
 }
 
 bool parse_within_limits(std::string_view bytes, protobuf::Message& message) {
-  return Scale(bytes).add(*message.GetDescriptor(), "") &&
+  const bool is_light = static_cast<std::int64_t>(bytes.size()) <= kLightRequest;
+  return (is_light || Scale(bytes).add(*message.GetDescriptor(), "")) &&
          message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()));
 }
 

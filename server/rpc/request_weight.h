@@ -11,6 +11,9 @@ namespace cellcrush::rpc {
 /// much.
 inline constexpr std::int64_t kHeaviestRequest = 32 << 20;
 
+/// Bytes of a request that cannot be that heavy: an empty message takes two, and less than 1 kB when parsed.
+inline constexpr std::int64_t kLightRequest = 32 << 10;
+
 /// Upper bound of the memory that a request takes while it is parsed and answered, by its bytes alone.
 std::int64_t heaviest_request_of(std::size_t bytes);
 

@@ -18,14 +18,17 @@ std::string job_bytes(v1::Job job) {
   return job.SerializeAsString();
 }
 
-void add_state(Database& database, std::int64_t number, const v1::Job& job, std::int64_t sequence) {
+void add_state(Database& database, std::int64_t number, const v1::Job& job, std::int64_t sequence,
+               std::optional<std::int64_t> ended_at) {
   const std::string bytes = job_bytes(job);
   Statement insert(database, "INSERT OR REPLACE INTO events (job, sequence, payload) VALUES (?1, ?2, ?3)");
   insert.bind(1, number).bind(2, sequence).bind_blob(3, bytes).run();
   Statement update(database,
-                   "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4, states = states + (last_sequence < ?4) "
-                   "WHERE number = ?1");
-  update.bind(1, number).bind(2, job.state()).bind_blob(3, bytes).bind(4, sequence).run();
+                   "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4, states = states + (last_sequence < ?4), "
+                   "ended_at = COALESCE(?5, ended_at) WHERE number = ?1");
+  update.bind(1, number).bind(2, job.state()).bind_blob(3, bytes).bind(4, sequence);
+  ended_at ? update.bind(5, *ended_at) : update.bind_null(5);
+  update.run();
 }
 
 void insert_mesh(Database& database, std::int64_t job, const v1::Mesh& mesh) {
@@ -48,8 +51,8 @@ JobInserter::JobInserter(Database& database)
     : database_(database),
       job_(database,
            "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence, priority, "
-           "submission, element_steps, owner, title, bytes, executor) "
-           "VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8, ?9, ?10, ?11, ?12)"),
+           "submission, element_steps, owner, title, bytes, executor, case_checksum) "
+           "VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8, ?9, ?10, ?11, ?12, row_checksum(?3))"),
       event_(database, "INSERT INTO events (job, sequence, payload) VALUES (?1, 1, ?2)"),
       label_(database, "INSERT INTO job_labels (key, value, job) VALUES (?1, ?2, ?3)") {}
 

@@ -12,9 +12,10 @@ namespace cellcrush::store {
 /// The blob that the journal stores for a job: every field without a column of its own, except transient ones.
 std::string job_bytes(v1::Job job);
 
-/// Adds or replaces the state event of this number, and makes the job's row agree. REQUIRES: a transaction is open.
-/// Throws ServiceError.
-void add_state(Database& database, std::int64_t number, const v1::Job& job, std::int64_t sequence);
+/// Adds or replaces the state event of this number, and makes the job's row agree, with the service clock's seconds of
+/// its end if given. REQUIRES: a transaction is open. Throws ServiceError.
+void add_state(Database& database, std::int64_t number, const v1::Job& job, std::int64_t sequence,
+               std::optional<std::int64_t> ended_at = {});
 
 /// Stores the mesh of a job, or another one. REQUIRES: a transaction is open. Throws ServiceError.
 void insert_mesh(Database& database, std::int64_t job, const v1::Mesh& mesh);

@@ -51,6 +51,9 @@ Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCom
   note_lost_changes();
   mend_jobs(database_, data_folder_, clock_.seconds());
   prepare_giving_back(database_);
+  // Each statement with a trigger keeps the pages that it changes, for its undoing, which is not worth a file; and a
+  // large transaction, as of a sweep, keeps its pages until it commits (at most 16 MB).
+  database_.execute("PRAGMA temp_store=MEMORY; PRAGMA cache_spill=4096;");
   epoch_ = read_epoch(database_);
   upkeep_.emplace(path, kUpkeepInterval);
   committer_ = std::thread([this] { commit_gathered_when_due(); });
@@ -142,9 +145,8 @@ void Journal::write_change(std::int64_t job, const StateChange& change) {
                            v1::Job::State_Name(change.state) + ".");
   }
   apply(change, stored);
-  add_state(database_, job, stored, last + 1);
-  if (!is_terminal(stored.state())) return;
-  Statement(database_, "UPDATE jobs SET ended_at = ?2 WHERE number = ?1").bind(1, job).bind(2, clock_.seconds()).run();
+  const auto ended_at = is_terminal(stored.state()) ? std::optional(clock_.seconds()) : std::nullopt;
+  add_state(database_, job, stored, last + 1, ended_at);
 }
 
 void Journal::note_samples(std::int64_t job, std::int64_t count, std::chrono::milliseconds within) {

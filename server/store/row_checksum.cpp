@@ -49,7 +49,8 @@ constexpr std::array kSealed{
                 "number, state, job, case_checksum, request_id, request_hash, last_sequence, priority, submission, "
                 "element_steps, owner, title, ended_at, bytes, measured, executor, samples, begun_again, states",
                 "number = new.number",
-                "UPDATE jobs SET case_checksum = row_checksum(submitted_case) WHERE number = new.number;"},
+                "UPDATE jobs SET case_checksum = row_checksum(submitted_case) WHERE number = new.number "
+                "AND case_checksum = 0;"},
     SealedTable{"events", "job, sequence, payload", "job = new.job AND sequence = new.sequence"},
     SealedTable{"meshes", "job, mesh", "job = new.job"},
     SealedTable{"sweeps", "number, sweep, max_parallel, request_id, request_hash, max_failures, owner, deleting",

@@ -27,10 +27,10 @@ class ListChecker {
   void check(const std::string& path, const google::protobuf::Message& message) {
     for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
       const auto* field = message.GetDescriptor()->field(i);
+      const int size = field->is_repeated() ? message.GetReflection()->FieldSize(message, field) : 0;
+      if (size == 0) continue;
       const v1::FieldRules& rules = field->options().GetExtension(v1::rules);
-      if (!field->is_repeated() || !rules.has_maximum()) continue;
-      const int size = message.GetReflection()->FieldSize(message, field);
-      if (size <= rules.maximum()) continue;
+      if (!rules.has_maximum() || size <= rules.maximum()) continue;
       *problems_.Add() = to_proto(Problem{path + "." + field->name(), std::to_string(size), "are too many.",
                                           "Give at most " + std::to_string(std::lround(rules.maximum())) + "."});
     }

@@ -1,4 +1,4 @@
-// A daemon of today on the data of an earlier version (tests/server/data): nothing is lost.
+// A daemon of today on the data of the two versions before (tests/server/data): nothing is lost.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -18,21 +18,46 @@ namespace cellcrush::testing {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 class UpgradeTest : public FaultFixture {
  protected:
-  void SetUp() override {
+  void unpack(int version) {
     std::filesystem::create_directories(data_folder());
-    const std::string command =
-        std::string("tar -C ") + data_folder().string() + " -xzf " + SERVER_TEST_DATA + "/journal-6.tar.gz";
+    const std::string command = std::string("tar -C ") + data_folder().string() + " -xzf " + SERVER_TEST_DATA +
+                                "/journal-" + std::to_string(version) + ".tar.gz";
     ASSERT_EQ(std::system(command.c_str()), 0);
     std::filesystem::permissions(data_folder(), std::filesystem::perms::owner_all);
   }
 };
 
-TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
+// Damage afterwards is found, so the rows were sealed.
+TEST_F(UpgradeTest, AJournalOfVersion7IsServedAndSealed) {
+  ASSERT_NO_FATAL_FAILURE(unpack(7));
+  ASSERT_NO_FATAL_FAILURE(start_daemon({"--workers", "1"}));
+  auto client = this->client();
+  const auto jobs = all_jobs(client);
+  EXPECT_EQ(jobs.size(), 7U);
+  EXPECT_EQ(jobs.at("jobs/1").state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(jobs.at("jobs/2").state(), v1::Job::CANCELLED);
+  EXPECT_EQ(client.history("jobs/1").size(), 21U);
+  for (const char* ended : {"jobs/1", "jobs/2"}) {
+    grpc::Status status;
+    EXPECT_GT(client.download(ended, 0, status).size(), 1000U);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+  }
+  EXPECT_EQ(get_sweep(client, "sweeps/1").jobs_size(), 2);
+  stop_daemon();
+  EXPECT_THAT(store::verify_folder(data_folder()).problems, IsEmpty());
+  store::Database damaged(journal());
+  damaged.execute("DROP TRIGGER seal_changed_jobs; UPDATE jobs SET priority = 5 WHERE number = 2");
+  EXPECT_THAT(store::verify_folder(data_folder()).problems, ElementsAre(HasSubstr("jobs/2")));
+}
+
+TEST_F(UpgradeTest, AllJobsOfVersion6AreServedOrRunToTheirEnd) {
+  ASSERT_NO_FATAL_FAILURE(unpack(6));
   std::int64_t last_before = 0;
   {
     store::Database before(journal(), store::Database::Access::read_only);
