@@ -109,6 +109,7 @@ std::string json_of(const protobuf::Message& message) {
 }
 
 void begin_envelope(std::uint8_t flags, std::size_t size, std::string& to) {
+  to.reserve(to.size() + kPrefix + size);
   to += static_cast<char>(flags);
   for (const unsigned shift : {24U, 16U, 8U, 0U}) to += static_cast<char>((size >> shift) & 0xFFU);
 }

@@ -54,6 +54,11 @@ rpc::MessageStream::Encode encode_for(const Encoding& encoding) {
   };
 }
 
+rpc::MessageStream::Begin begin_for(const Encoding& encoding) {
+  if (encoding.json) return nullptr;
+  return [](std::size_t bytes, std::string& to) { begin_envelope(0, bytes, to); };
+}
+
 bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
   const auto name = request[encoding.stream ? "Connect-Content-Encoding" : "Content-Encoding"];
   const bool flagged = encoding.stream && !request.body().empty() &&
@@ -125,7 +130,7 @@ std::shared_ptr<Call> Connection::begin_call(Request& request, Permit& permit,
     const std::string_view message = encoding.stream ? read_envelope(*body) : std::string_view(*body);
     rpc::Incoming incoming{permit.caller,   std::string(request[rpc::kEpochHeader]),
                            nullptr,         static_cast<std::int64_t>(message.size()),
-                           std::move(permit.received), encode_for(encoding)};
+                           std::move(permit.received), encode_for(encoding), begin_for(encoding)};
     incoming.decode = [body, message, json = encoding.json](google::protobuf::Message& to) {
       return decode(message, json, to);
     };

@@ -56,6 +56,8 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
     if (run.trouble) {
       parts_.hold.failed(run.trouble);
       state = states_.put_back(job, run.trouble, daemons_end);
+      // It was cancelled meanwhile, by a call that left its worker to this run.
+      if (store::is_terminal(state) && parts_.executor.keeps_workers()) end_leftover_if_possible(job);
     }
     // It is CANCELLING if it was cancelled just after its worker had left it: it then ends with the samples so far.
     if (state != v1::Job::CANCELLING) return state == v1::Job::PENDING;

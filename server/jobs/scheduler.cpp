@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include "error.h"
@@ -22,8 +23,21 @@ void Scheduler::start(int slots) {
   for (const auto& job : waiting) {
     if (!running_.contains(job.job)) waiting_.add(job);
   }
-  for (const auto& job : adopted) slots_.emplace_back([this, job](const std::stop_token& stop) { run(job, stop); });
-  for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
+  for (const auto& job : adopted) spawn([this, job] { run(job); });
+  spawn([this] { run_next(); });
+}
+
+void Scheduler::spawn(std::function<void()> work) {
+  ended_.clear();
+  std::jthread thread([this, work = std::move(work)] {
+    work();
+    const MutexLock lock(mutex_);
+    const auto own = threads_.find(std::this_thread::get_id());
+    if (own == threads_.end()) return;
+    ended_.push_back(std::move(own->second));
+    threads_.erase(own);
+  });
+  threads_.emplace(thread.get_id(), std::move(thread));
 }
 
 std::vector<store::QueuedJob> Scheduler::reconcile() {
@@ -238,17 +252,36 @@ std::size_t Scheduler::waiting_count(const std::string& owner) {
   return waiting_.count_of(owner);
 }
 
-void Scheduler::begin_stop() {
-  for (auto& slot : slots_) slot.request_stop();
-}
+void Scheduler::begin_stop() { end_.request_stop(); }
 
 void Scheduler::stop() {
   begin_stop();
-  slots_.clear();
+  while (true) {
+    std::map<std::thread::id, std::jthread> running;
+    std::vector<std::jthread> ended;
+    {
+      const MutexLock lock(mutex_);
+      running.swap(threads_);
+      ended.swap(ended_);
+    }
+    // They may spawn others until they have seen the request.
+    if (running.empty() && ended.empty()) return;
+  }
 }
 
-void Scheduler::run_slot(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
+bool Scheduler::spawn_next() {
+  try {
+    spawn([this] { run_next(); });
+    return true;
+  } catch (const std::system_error& error) {
+    spdlog::warn("{} has no thread for a further job, which waits: {}", parts_.executor_name, error.what());
+    return false;
+  }
+}
+
+void Scheduler::run_next() {
+  bool is_relieved = false;
+  while (!is_relieved && !end_.stop_requested()) {
     std::optional<store::QueuedJob> taken;
     bool is_trial = false;
     {
@@ -256,20 +289,21 @@ void Scheduler::run_slot(const std::stop_token& stop) {
       const bool is_open = parts_.hold.is_open();
       if (is_open && free_cores_ > 0) taken = waiting_.take();
       if (!taken) {
-        wait_for_change(lock, stop, is_open ? std::nullopt : parts_.hold.next_try());
+        wait_for_change(lock, is_open ? std::nullopt : parts_.hold.next_try());
         continue;
       }
       is_trial = parts_.hold.begin_start();
       --free_cores_;
       begin(taken->job);
+      is_relieved = spawn_next();
     }
-    run(*taken, stop);
+    run(*taken);
     if (is_trial) parts_.hold.end_trial();
   }
 }
 
-void Scheduler::wait_for_change(MutexLock& lock, const std::stop_token& stop,
-                                const std::optional<Hold::Clock::time_point>& limit) {
+void Scheduler::wait_for_change(MutexLock& lock, const std::optional<Hold::Clock::time_point>& limit) {
+  const auto stop = end_.get_token();
   const auto has_changed = [this, seen = changes_]() CELLCRUSH_REQUIRES(mutex_) { return changes_ != seen; };
   limit ? changed_.wait_until(lock, stop, *limit, has_changed) : changed_.wait(lock, stop, has_changed);
 }
@@ -288,12 +322,13 @@ void Scheduler::begin(std::int64_t job) {
   tell_metrics();
 }
 
-void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) {
+void Scheduler::run(const store::QueuedJob& taken) {
   Running running;
   {
     const MutexLock lock(mutex_);
     running = running_[taken.job];
   }
+  const auto stop = end_.get_token();
   const int extra = take_cores(taken);
   const std::stop_callback leave_at_the_end(stop, [&running] { running.leave.request_stop(); });
   const bool again = parts_.runner.run(

@@ -22,10 +22,10 @@
 namespace cellcrush::jobs {
 
 /// Runs the waiting jobs of one executor in the order of WaitingJobs, within the number of slots and the limits of
-/// their sweeps and owners. Each slot is a thread that lives as long as the scheduler and runs one job at a time. On
-/// the daemon's machine a job that requests several threads gets cores that no other job uses or waits for at its
-/// start: jobs side by side take precedence. Elsewhere it gets as many threads as it requests. A scheduler that is not
-/// started keeps its queue and runs nothing. Thread-safe.
+/// their sweeps and owners. Each running job has a thread, and one more waits for the next job. On the daemon's machine
+/// a job that requests several threads gets cores that no other job uses or waits for at its start: jobs side by side
+/// take precedence. Elsewhere it gets as many threads as it requests. A scheduler that is not started keeps its queue
+/// and runs nothing. Thread-safe.
 class Scheduler {
  public:
   /// Dependencies; all outlive the scheduler.
@@ -81,7 +81,7 @@ class Scheduler {
   /// While `reason` is set, the disk is nearly full and no job runs: workers checkpoint their jobs, and none starts.
   void hold_for_low_disk(const std::optional<std::string>& reason);
 
-  /// Wakes the slots to check the queue again after a change.
+  /// Has the queue checked again after a change.
   void wake();
 
   [[nodiscard]] std::size_t waiting_count();
@@ -95,7 +95,7 @@ class Scheduler {
   /// Has running workers checkpoint their jobs.
   void begin_stop();
 
-  /// The same, and waits for the slots to finish. These jobs and the waiting ones are PENDING for the next daemon.
+  /// The same, and waits for the threads to finish. These jobs and the waiting ones are PENDING for the next daemon.
   void stop();
 
  private:
@@ -112,14 +112,19 @@ class Scheduler {
   /// Whether the executor has the job, which no worker has started.
   bool is_placed(std::int64_t job);
   void adopt(const store::QueuedJob& job, std::vector<store::QueuedJob>& adopted);
-  void run_slot(const std::stop_token& stop);
+  /// On a thread of its own.
+  void spawn(std::function<void()> work) CELLCRUSH_REQUIRES(mutex_);
+  /// Waits for a job, has another thread wait in its place, and runs it.
+  void run_next();
+  /// False if there can be no further thread now.
+  bool spawn_next() CELLCRUSH_REQUIRES(mutex_);
   /// Waits for a change, at most until `limit`. REQUIRES: `lock` holds mutex_.
-  void wait_for_change(MutexLock& lock, const std::stop_token& stop,
-                       const std::optional<Hold::Clock::time_point>& limit) CELLCRUSH_REQUIRES(mutex_);
+  void wait_for_change(MutexLock& lock, const std::optional<Hold::Clock::time_point>& limit)
+      CELLCRUSH_REQUIRES(mutex_);
   /// Records that a job runs.
   void begin(std::int64_t job) CELLCRUSH_REQUIRES(mutex_);
   /// Runs the job on this thread. REQUIRES: `begin` was called for it. Does not throw.
-  void run(const store::QueuedJob& taken, const std::stop_token& stop);
+  void run(const store::QueuedJob& taken);
   /// Cores for a starting job beside its first.
   int take_cores(const store::QueuedJob& job);
   /// How many of free_cores_ a job on this many cores holds.
@@ -142,9 +147,11 @@ class Scheduler {
   std::map<std::int64_t, Running> running_ CELLCRUSH_GUARDED_BY(mutex_);
   /// slots minus what running jobs hold of them; negative after a restart with fewer
   int free_cores_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
-  std::uint64_t changes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< number of events that slots wait for
+  std::uint64_t changes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< number of events that may let a job start
   bool low_disk_ CELLCRUSH_GUARDED_BY(mutex_) = false;
-  std::vector<std::jthread> slots_;
+  std::stop_source end_;  ///< of all threads
+  std::map<std::thread::id, std::jthread> threads_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::vector<std::jthread> ended_ CELLCRUSH_GUARDED_BY(mutex_);  ///< or about to
 };
 
 }  // namespace cellcrush::jobs

@@ -37,6 +37,9 @@ class JobsSource::WatchedJob {
   /// A request that is not valid throws nothing: its status is the first message.
   WatchedJob(store::JournalReader& journal, watch::Hub& hub, const v1::WatchJobRequest& request)
       : name_(request.name()) {
+    Message::WatchedEvent named;
+    named.set_job(name_);
+    fields_ = named.SerializeAsString();
     const auto status = answer([&] {
       const std::int64_t job = find_job(journal, request.name()).number;
       check_epoch(journal.epoch(), request.epoch());
@@ -55,34 +58,33 @@ class JobsSource::WatchedJob {
     if (std::exchange(is_open_, false)) source_->close();
   }
 
-  std::optional<v1::WatchJobsResponse> next() {
+  std::optional<watch::SentMessage> next() {
     if (refused_) return end(*std::exchange(refused_, std::nullopt));
     if (!source_) return std::nullopt;
-    std::optional<v1::JobEvent> event;
+    std::optional<watch::SentMessage> event;
     const auto status = answer([&] { event = source_->next(); });
     if (!status.ok()) return end(status);
     if (!event) return source_->ended() ? std::optional(end(grpc::Status::OK)) : std::nullopt;
-    v1::WatchJobsResponse out;
-    out.mutable_watched()->set_job(name_);
-    *out.mutable_watched()->mutable_event() = *std::move(event);
-    return out;
+    auto watched = watch::nest(fields_, Message::WatchedEvent::kEventFieldNumber, *std::move(event));
+    return watch::nest("", Message::kWatchedFieldNumber, std::move(watched));
   }
   [[nodiscard]] bool has_more() const { return source_ && source_->has_more(); }
 
  private:
-  v1::WatchJobsResponse end(const grpc::Status& status) {
+  watch::SentMessage end(const grpc::Status& status) {
     close();
     source_.reset();
-    v1::WatchJobsResponse out;
+    Message out;
     out.mutable_watched_end()->set_job(name_);
     auto& sent = *out.mutable_watched_end()->mutable_status();
     if (!sent.ParseFromString(status.error_details())) sent.Clear();
     sent.set_code(status.error_code());
     sent.set_message(status.error_message());
-    return out;
+    return watch::encode(std::move(out));
   }
 
   std::string name_;
+  std::string fields_;  ///< of each WatchedEvent, encoded
   std::optional<watch::JobSource> source_;
   std::optional<grpc::Status> refused_;  ///< until it was sent
   bool is_open_ = false;
@@ -141,17 +143,18 @@ bool JobsSource::has_more() const {
   return !changes_.empty() || std::ranges::any_of(watched_, [](const auto& job) { return job->has_more(); });
 }
 
-std::optional<JobsSource::Message> JobsSource::next() {
+std::optional<watch::SentMessage> JobsSource::next() {
   if (!std::exchange(snapshot_sent_, true)) {
     Message out;
     out.mutable_snapshot()->set_epoch(parts_.reader.epoch().id);
     out.set_resume_token(token());
-    return out;
+    return watch::encode(std::move(out));
   }
   // Progress from before a change of state is outdated, and is not sent after it.
-  if (auto out = next_change()) return out;
+  if (auto out = next_change()) return watch::encode(*std::move(out));
   if (auto out = next_watched()) return out;
-  return next_progress();
+  if (auto out = next_progress()) return watch::encode(*std::move(out));
+  return std::nullopt;
 }
 
 std::optional<JobsSource::Message> JobsSource::next_change() {
@@ -216,7 +219,7 @@ std::optional<JobsSource::Message> JobsSource::message_of(const store::Change& c
   return std::nullopt;
 }
 
-std::optional<JobsSource::Message> JobsSource::next_watched() {
+std::optional<watch::SentMessage> JobsSource::next_watched() {
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     auto out = watched_[turn_++ % watched_.size()]->next();
     if (out) return out;
@@ -245,11 +248,11 @@ bool JobsSource::is_wanted(std::int64_t job) {
   return wanted_[job] = store::matches(filter_, stored->job);
 }
 
-JobsSource::Message JobsSource::bookmark() const {
+watch::SentMessage JobsSource::bookmark() const {
   Message out;
   out.mutable_bookmark();
   out.set_resume_token(token());
-  return out;
+  return watch::encode(std::move(out));
 }
 
 }  // namespace cellcrush::rpc

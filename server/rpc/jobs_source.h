@@ -12,6 +12,7 @@
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "rpc/services.h"
 #include "store/job_filter.h"
+#include "watch/sent_message.h"
 
 namespace cellcrush::rpc {
 
@@ -35,10 +36,10 @@ class JobsSource {
   /// Once this returns, `wake` is not called again.
   void close();
 
-  std::optional<Message> next();
+  std::optional<watch::SentMessage> next();
   [[nodiscard]] bool has_more() const;
   [[nodiscard]] static bool ended() { return false; }
-  [[nodiscard]] Message bookmark() const;
+  [[nodiscard]] watch::SentMessage bookmark() const;
   [[nodiscard]] static std::string resume_advice() { return "with the most recent resume_token"; }
 
  private:
@@ -50,7 +51,7 @@ class JobsSource {
   [[nodiscard]] store::ChangeReader::Stamp stamp() const;
   [[nodiscard]] bool is_repeated(const store::Change& change) const;
   std::optional<Message> message_of(const store::Change& change);
-  std::optional<Message> next_watched();
+  std::optional<watch::SentMessage> next_watched();
   std::optional<Message> next_progress();
   bool is_wanted(std::int64_t job);
 

@@ -44,6 +44,7 @@ struct Incoming {
   std::int64_t bytes = 0;                      ///< of the request
   std::shared_ptr<Accounts::Charge> received;  ///< for these bytes; may be null
   MessageStream::Encode encode;                ///< of the answers
+  MessageStream::Begin begin = nullptr;        ///< of the answers of a stream
 };
 
 /// All methods of the API: what each needs, and who answers it. gRPC and the Connect protocol both call through this
@@ -132,9 +133,8 @@ class MethodTable {
   template <class Service, class Source, class Request>
   void stream(const char* path, std::optional<access::Scope> scope, const StreamParts& parts,
               const std::shared_ptr<Service>& service, std::unique_ptr<Source> (Service::*make)(const Request&)) {
-    using Message = typename Source::Message;
     grpc_.add(path, grpc::internal::RpcMethod::SERVER_STREAMING,
-              new grpc::internal::CallbackServerStreamingHandler<grpc::ByteBuffer, Message>(
+              new grpc::internal::CallbackServerStreamingHandler<grpc::ByteBuffer, grpc::ByteBuffer>(
                   [this, path, parts, service, make, is_open = !scope](grpc::CallbackServerContext* context,
                                                                        const grpc::ByteBuffer* bytes) {
                     const auto epoch = exchange_epochs(*context);
@@ -149,9 +149,10 @@ class MethodTable {
     const auto open = [path, http_parts, service, make](const Incoming& incoming) {
       return std::make_shared<SourceStream<Source>>(
           http_parts, incoming.caller.name, incoming.encode,
-          [service, make, path, incoming] { return (*service.*make)(*read<Request>(path, incoming)); });
+          [service, make, path, incoming] { return (*service.*make)(*read<Request>(path, incoming)); },
+          incoming.begin);
     };
-    add(path, scope, {describe(path, *Request::descriptor(), *Message::descriptor(), true), open});
+    add(path, scope, {describe(path, *Request::descriptor(), *Source::Message::descriptor(), true), open});
   }
 
   /// Called for each call of gRPC that the gate has admitted, with gRPC's name of its connection. REQUIRES: no call has

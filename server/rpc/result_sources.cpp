@@ -85,7 +85,7 @@ v1::FieldFrame FrameSource::find_frame() const {
                            " and has no frames. A running job offers its newest frame. A job that SUCCEEDED, or was "
                            "cancelled or failed while running, offers all.");
   }
-  return frame->in(v1::FieldFrame::NUMBERS);
+  return frame->numbers();
 }
 
 void FrameSource::read() {

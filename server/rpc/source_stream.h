@@ -24,6 +24,8 @@ class MessageStream {
 
   /// Appends a message as it goes out. May throw ServiceError.
   using Encode = std::function<void(const google::protobuf::Message& message, std::string& to)>;
+  /// Appends what goes before a message of that many bytes, which goes out as it is. Null: messages go out otherwise.
+  using Begin = std::function<void(std::size_t bytes, std::string& to)>;
 
   /// Some messages, in order.
   struct Batch {
@@ -51,8 +53,13 @@ class SourceStream final : public MessageStream,
   using Make = std::function<std::unique_ptr<Source>()>;
 
   /// If `make` throws, the stream ends with its error.
-  SourceStream(const StreamParts& parts, std::string caller, Encode encode, Make make)
-      : Task(caller), parts_(parts), encode_(std::move(encode)), caller_(std::move(caller)), make_(std::move(make)) {}
+  SourceStream(const StreamParts& parts, std::string caller, Encode encode, Make make, Begin begin = nullptr)
+      : Task(caller),
+        parts_(parts),
+        encode_(std::move(encode)),
+        begin_(std::move(begin)),
+        caller_(std::move(caller)),
+        make_(std::move(make)) {}
   ~SourceStream() override {
     const MutexLock lock(mutex_);
     finish(cancelled());
@@ -111,7 +118,7 @@ class SourceStream final : public MessageStream,
           if (state_->status()) finish(grpc::Status(*state_->status()));
           break;
         }
-        encode_(*next, batch.bytes);
+        append(*next, batch.bytes);
         whole = batch.bytes.size();
         state_->count_skipped(*next);
       }
@@ -131,13 +138,20 @@ class SourceStream final : public MessageStream,
     batch.end = status_;
   }
 
+  void append(const google::protobuf::Message& message, std::string& to) { encode_(message, to); }
+  void append(const watch::SentMessage& message, std::string& to) {
+    if (!begin_) return encode_(message.parsed<typename Source::Message>(), to);
+    begin_(message.size(), to);
+    message.append_to(to);
+  }
+
   void open() CELLCRUSH_REQUIRES(mutex_) {
     state_.emplace(parts_, caller_, std::exchange(make_, nullptr)());
     state_->open([weak = this->weak_from_this()] {
       const auto alive = weak.lock();
       if (!alive) return;
       alive->delay_.begin();
-      alive->parts_.pump.schedule(alive);
+      alive->parts_.pump.wake(alive);
     });
   }
 
@@ -156,6 +170,7 @@ class SourceStream final : public MessageStream,
 
   StreamParts parts_;
   Encode encode_;
+  Begin begin_;
   EventDelay delay_;
 
   std::atomic<bool> is_cancelled_ = false;

@@ -20,16 +20,19 @@ class RefusedStream final : public Reactor {
   void OnDone() override { delete this; }
 };
 
+/// The bytes that gRPC sends for a message. Large ones that messages share are not copied.
+grpc::ByteBuffer wire_of(const watch::SentMessage& message);
+grpc::ByteBuffer wire_of(const google::protobuf::Message& message);
+
 /// One open stream over gRPC: sends the messages of its source (stream_state.h) one at a time, as fast as the client
 /// reads, and holds no thread. It owns itself until gRPC is done with it.
 template <class Source>
-class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Message>, public watch::Pump::Task {
+class StreamReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>, public watch::Pump::Task {
  public:
-  using Message = typename Source::Message;
-
   /// Throws ServiceError (exhausted) if the caller, or all callers, have too many open streams.
-  static grpc::ServerWriteReactor<Message>* start(const StreamParts& parts, grpc::CallbackServerContext& context,
-                                                  const std::string& caller, std::unique_ptr<Source> source) {
+  static grpc::ServerWriteReactor<grpc::ByteBuffer>* start(const StreamParts& parts,
+                                                           grpc::CallbackServerContext& context,
+                                                           const std::string& caller, std::unique_ptr<Source> source) {
     auto reactor = std::make_shared<StreamReactor>(parts, context, caller, std::move(source));
     reactor->self_ = reactor;
     {
@@ -73,6 +76,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
       writing_ = false;
       if (!ok) cancelled_ = true;
       at_once = state_.source().has_more();
+      if (!at_once && !cancelled_ && !finished_ && state_.is_quiet()) return;
     }
     // The pump's threads read the disk, not gRPC's.
     at_once ? run() : parts_.pump.schedule(self_);
@@ -111,9 +115,10 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     if (cancelled_) return close({grpc::StatusCode::CANCELLED, "The client cancelled the stream."});
     auto next = state_.next();
     if (!next && !state_.status()) return Action::none;
-    if (!next || !state_.begin_write(next->ByteSizeLong())) return close(*state_.status());
-    message_ = *std::move(next);
-    state_.count_skipped(message_);
+    if (!next) return close(*state_.status());
+    message_ = wire_of(*next);
+    if (!state_.begin_write(message_.Length())) return close(*state_.status());
+    state_.count_skipped(*next);
     delay_.end(parts_.metrics);
     writing_ = true;
     return Action::write;
@@ -122,7 +127,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   /// Something may have changed.
   void wake(const std::shared_ptr<StreamReactor>& self) {
     delay_.begin();
-    parts_.pump.schedule(self);
+    parts_.pump.wake(self);
   }
 
   Action close(grpc::Status status) CELLCRUSH_REQUIRES(mutex_) {
@@ -139,7 +144,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   Mutex mutex_;
   StreamState<Source> state_ CELLCRUSH_GUARDED_BY(mutex_);
-  Message message_;                                  ///< built under the mutex; owned by gRPC while writing_
+  grpc::ByteBuffer message_;                         ///< built under the mutex; owned by gRPC while writing_
   grpc::Status status_;                              ///< likewise while finished_
   bool begun_ CELLCRUSH_GUARDED_BY(mutex_) = false;  ///< the first message was written
   bool writing_ CELLCRUSH_GUARDED_BY(mutex_) = false;
@@ -151,13 +156,13 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 /// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns. If either throws, the
 /// stream ends with its error.
 template <class Source, class NameCaller, class Make>
-grpc::ServerWriteReactor<typename Source::Message>* open_stream(const StreamParts& parts,
-                                                                grpc::CallbackServerContext& context,
-                                                                const NameCaller& name_caller, const Make& make) {
+grpc::ServerWriteReactor<grpc::ByteBuffer>* open_stream(const StreamParts& parts,
+                                                        grpc::CallbackServerContext& context,
+                                                        const NameCaller& name_caller, const Make& make) {
   try {
     return StreamReactor<Source>::start(parts, context, name_caller(), make());
   } catch (const std::exception& error) {
-    return new RefusedStream<grpc::ServerWriteReactor<typename Source::Message>>(status_of(error));
+    return new RefusedStream<grpc::ServerWriteReactor<grpc::ByteBuffer>>(status_of(error));
   }
 }
 

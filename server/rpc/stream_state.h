@@ -12,15 +12,13 @@
 #include <string>
 #include <utility>
 
-#include "cellcrush/v1/event.pb.h"
-#include "cellcrush/v1/jobs_service.pb.h"
 #include "error_table.h"
 #include "jobs/case_field.h"
 #include "metrics/metrics.h"
 #include "rpc/preparation.h"
 #include "rpc/stream_limits.h"
-#include "translate/case_words.h"
 #include "watch/pump.h"
+#include "watch/sent_message.h"
 #include "watch/watch_times.h"
 
 namespace cellcrush::rpc {
@@ -35,14 +33,8 @@ struct StreamParts {
 };
 
 /// Number of frames skipped before this message.
-inline int skipped_before(const v1::JobEvent& event) { return event.has_frame() ? event.frame().skipped() : 0; }
-inline int skipped_before(const v1::WatchJobsResponse& message) {
-  return message.has_watched() ? skipped_before(message.watched().event()) : 0;
-}
-template <class Message>
-int skipped_before(const Message&) {
-  return 0;
-}
+inline int skipped_before(const watch::SentMessage& message) { return message.skipped_frames; }
+inline int skipped_before(const google::protobuf::Message&) { return 0; }
 
 /// For the metrics: how long events wait for their messages. Thread-safe.
 class EventDelay {
@@ -106,7 +98,9 @@ class QueuedSource : public PlainSource<M> {
 /// Source is JobSource, JobsSource, SweepSource, DownloadSource, FrameSource or HealthSource, or has the same members:
 ///   Message, kIsWatch   type of the messages; whether the metrics count it as a watch
 ///   open(wake), close   start and end of the calls to `wake` on changes
-///   next, has_more      the next message, if there is one; whether it is available without waiting for the disk
+///   next, has_more      the next message, if there is one, as a Message or encoded (watch::SentMessage); whether it is
+///                       available without waiting for the disk
+///   is_quiet            whether next has nothing before the next call to `wake`; may be absent
 ///   ended               whether the last message was sent
 ///   bookmark            message to send after a long idle time; may be absent
 ///   resume_advice       how to continue a closed stream, as the end of a sentence
@@ -118,7 +112,7 @@ class QueuedSource : public PlainSource<M> {
 template <class Source>
 class StreamState {
  public:
-  using Message = typename Source::Message;
+  using Sent = typename decltype(std::declval<Source&>().next())::value_type;
 
   /// Throws ServiceError (exhausted) if the caller, or all callers, have too many open streams.
   StreamState(const StreamParts& parts, const std::string& caller, std::unique_ptr<Source> source)
@@ -151,7 +145,7 @@ class StreamState {
   }
 
   /// The next message; nothing if there is none now, or if the stream has ended: then `status` says how.
-  std::optional<Message> next() {
+  std::optional<Sent> next() {
     try {
       const bool is_ready = !preparation_ || preparation_->is_done();
       if (preparation_ && is_ready && !preparation_->status().ok()) {
@@ -168,12 +162,17 @@ class StreamState {
         out = source_->bookmark();
         last_write_ = Clock::now();  // one is enough
       }
-      if (out) translate::add_words(*out);
       return out;
     } catch (const std::exception& error) {
       status_ = status_of(error);
       return std::nullopt;
     }
+  }
+
+  /// Whether next has nothing before the source calls `wake`. False if only next can tell.
+  [[nodiscard]] bool is_quiet() const {
+    if constexpr (requires { source_->is_quiet(); }) return !parts_.pump.draining() && source_->is_quiet();
+    return false;
   }
 
   [[nodiscard]] const std::optional<grpc::Status>& status() const { return status_; }
@@ -208,7 +207,7 @@ class StreamState {
                                                       source_->resume_advice() + ", and read messages without delay."};
   }
 
-  void count_skipped(const Message& message) {
+  void count_skipped(const Sent& message) {
     if (const int skipped = skipped_before(message); skipped > 0) parts_.metrics.count_skipped_frames(skipped);
   }
 

@@ -4,13 +4,26 @@
 #include <utility>
 
 #include "error.h"
+#include "store/job_state.h"
 #include "store/resource_name.h"
+#include "translate/case_words.h"
 
 namespace cellcrush::watch {
 
-bool begins_again(const v1::JobEvent& event) {
-  return event.has_state() && event.state().begun_again_sequence() == event.sequence();
+namespace {
+
+RecentEvents::Event entry_of(v1::JobEvent event) {
+  RecentEvents::Entry out{.sequence = event.sequence(), .is_sample = event.has_sample()};
+  if (event.has_state()) {
+    out.begins_again = event.state().begun_again_sequence() == event.sequence();
+    out.is_last = store::is_terminal(event.state().state());
+  }
+  translate::add_words(event);
+  event.SerializeToString(&out.bytes);
+  return std::make_shared<const RecentEvents::Entry>(std::move(out));
 }
+
+}  // namespace
 
 std::shared_ptr<RecentEvents::Window> RecentEvents::window_of(std::int64_t job) {
   const MutexLock lock(mutex_);
@@ -23,6 +36,12 @@ std::shared_ptr<RecentEvents::Window> RecentEvents::window_of(std::int64_t job) 
   return out;
 }
 
+bool RecentEvents::ends_with(std::int64_t job, std::int64_t after, std::uint64_t stamp) {
+  const auto window = window_of(job);
+  const MutexLock lock(window->mutex);
+  return after == window->last && window->end_stamp && *window->end_stamp >= stamp;
+}
+
 void RecentEvents::forget(std::int64_t job) {
   const MutexLock lock(mutex_);
   windows_.erase(job);
@@ -32,8 +51,7 @@ std::vector<RecentEvents::Event> RecentEvents::read(store::JournalReader& journa
                                                     std::int64_t after) {
   ++reads_;
   std::vector<Event> out;
-  for (auto& event : journal.events(job, after, kAtOnce))
-    out.push_back(std::make_shared<const v1::JobEvent>(std::move(event)));
+  for (auto& event : journal.events(job, after, kAtOnce)) out.push_back(entry_of(std::move(event)));
   if (out.empty() && !journal.has_job(job))
     throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::name_of(job) + ".");
   return out;
@@ -50,7 +68,7 @@ std::vector<RecentEvents::Event> RecentEvents::after(store::JournalReader& journ
   }
   if (after < window->last) {
     const auto first = std::ranges::partition_point(window->events,
-                                                    [after](const Event& event) { return event->sequence() <= after; });
+                                                    [after](const Event& event) { return event->sequence <= after; });
     return {first, first + std::min<std::ptrdiff_t>(kAtOnce, window->events.end() - first)};
   }
   const auto begin_behind = [&window](std::int64_t event) CELLCRUSH_REQUIRES(window->mutex) {
@@ -67,13 +85,13 @@ std::vector<RecentEvents::Event> RecentEvents::after(store::JournalReader& journ
     return out;
   }
   // When a job begins again, its samples no longer count.
-  if (std::ranges::any_of(out, [](const Event& event) { return begins_again(*event); })) begin_behind(after);
-  window->last = out.back()->sequence();
-  for (const Event& event : out) window->bytes += event->ByteSizeLong();
+  if (std::ranges::any_of(out, [](const Event& event) { return event->begins_again; })) begin_behind(after);
+  window->last = out.back()->sequence;
+  for (const Event& event : out) window->bytes += event->bytes.size();
   window->events.insert(window->events.end(), out.begin(), out.end());
   while (window->bytes > kMostBytes) {
-    window->before = window->events.front()->sequence();
-    window->bytes -= window->events.front()->ByteSizeLong();
+    window->before = window->events.front()->sequence;
+    window->bytes -= window->events.front()->bytes.size();
     window->events.pop_front();
   }
   return out;
@@ -81,7 +99,7 @@ std::vector<RecentEvents::Event> RecentEvents::after(store::JournalReader& journ
 
 void Channel::publish(v1::Mesh mesh) {
   const MutexLock lock(mutex_);
-  newest_.mesh = std::make_shared<const v1::Mesh>(std::move(mesh));
+  newest_.mesh = std::make_shared<const PublishedMesh>(std::move(mesh));
   for (const auto& [id, watcher] : watchers_) watcher.wake();
 }
 

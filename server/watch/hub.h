@@ -19,17 +19,23 @@
 #include "mutex.h"
 #include "store/journal_reader.h"
 #include "watch/sent_frame.h"
+#include "watch/sent_message.h"
 
 namespace cellcrush::watch {
 
-/// Whether the job restarts from step 0 with this event.
-bool begins_again(const v1::JobEvent& event);
-
-/// The latest events of the jobs that are watched. Each is read once, by the first watcher that asks for it, and is
-/// shared. Memory is bounded: at most kMostJobs times kMostBytes. Thread-safe.
+/// The latest events of the jobs that are watched. Each is read and encoded once, by the first watcher that asks for
+/// it, and is shared. Memory is bounded: at most kMostJobs times kMostBytes. Thread-safe.
 class RecentEvents {
  public:
-  using Event = std::shared_ptr<const v1::JobEvent>;
+  /// A state or sample.
+  struct Entry {
+    std::int64_t sequence = 0;
+    bool is_sample = false;
+    bool begins_again = false;  ///< the job restarts from step 0 with this event
+    bool is_last = false;       ///< of the job
+    std::string bytes = {};     ///< of the JobEvent, with its words
+  };
+  using Event = std::shared_ptr<const Entry>;
 
   static constexpr int kAtOnce = 256;  ///< events
   static constexpr std::size_t kMostJobs = 64;
@@ -39,6 +45,9 @@ class RecentEvents {
   /// before the call: the journal has no other events as long as it is the same. Throws ServiceError: not_found if
   /// there is no such job, and the errors of JournalReader::events.
   std::vector<Event> after(store::JournalReader& journal, std::int64_t job, std::int64_t after, std::uint64_t stamp);
+
+  /// Whether it is known that `after` would return none.
+  bool ends_with(std::int64_t job, std::int64_t after, std::uint64_t stamp);
 
   /// Drops the events of a job, whose last one has changed.
   void forget(std::int64_t job);
@@ -66,26 +75,42 @@ class RecentEvents {
   std::atomic<std::int64_t> reads_ = 0;
 };
 
-/// A frame that any number of watchers read, as numbers or packed. It is packed once, by the first who asks.
-/// Thread-safe.
+/// A mesh that any number of watchers are sent. Thread-safe.
+class PublishedMesh {
+ public:
+  explicit PublishedMesh(v1::Mesh mesh) : mesh_(std::move(mesh)) {}
+
+  [[nodiscard]] const v1::Mesh& mesh() const { return mesh_; }
+  /// Of type MeshChunk.
+  [[nodiscard]] const std::vector<SharedBytes>& parts() const {
+    return parts_.get([this] { return chunks_of(mesh_); });
+  }
+
+ private:
+  v1::Mesh mesh_;
+  SharedParts parts_;
+};
+
+/// A frame that any number of watchers are sent, as numbers or packed. Thread-safe.
 class PublishedFrame {
  public:
   /// `mesh` has the positions before loading; null: packed displacements are positions.
-  PublishedFrame(v1::FieldFrame frame, std::shared_ptr<const v1::Mesh> mesh)
+  PublishedFrame(v1::FieldFrame frame, std::shared_ptr<const PublishedMesh> mesh)
       : numbers_(std::move(frame)), mesh_(std::move(mesh)) {}
 
   [[nodiscard]] int index() const { return numbers_.index(); }
-  [[nodiscard]] const v1::FieldFrame& in(v1::FieldFrame::Encoding encoding) const {
-    if (encoding != v1::FieldFrame::PACKED) return numbers_;
-    std::call_once(once_, [this] { packed_ = pack(numbers_, mesh_.get()); });
-    return packed_;
+  [[nodiscard]] const v1::FieldFrame& numbers() const { return numbers_; }
+  /// Of type FrameChunk.
+  [[nodiscard]] const std::vector<SharedBytes>& parts(v1::FieldFrame::Encoding encoding) const {
+    if (encoding != v1::FieldFrame::PACKED) return parts_.get([this] { return chunks_of(numbers_); });
+    return packed_.get([this] { return chunks_of(pack(numbers_, mesh_ ? &mesh_->mesh() : nullptr)); });
   }
 
  private:
   v1::FieldFrame numbers_;
-  std::shared_ptr<const v1::Mesh> mesh_;
-  mutable std::once_flag once_;
-  mutable v1::FieldFrame packed_;
+  std::shared_ptr<const PublishedMesh> mesh_;
+  SharedParts parts_;
+  SharedParts packed_;
 };
 
 /// The newest progress and frame of a running job and its place, which are not in the journal, its mesh, and the
@@ -98,7 +123,7 @@ class Channel {
   using Wake = std::function<void()>;
 
   struct Newest {
-    std::shared_ptr<const v1::Mesh> mesh;          ///< null before a worker has built it
+    std::shared_ptr<const PublishedMesh> mesh;     ///< null before a worker has built it
     std::shared_ptr<const v1::Progress> progress;  ///< null before the first
     std::shared_ptr<const PublishedFrame> frame;   ///< null before the first
     std::string place;                             ///< where the executor has the job (Job.place); empty: nowhere

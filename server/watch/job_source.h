@@ -28,11 +28,12 @@ class JobSource {
   /// Once this returns, `wake` is not called again.
   void close() { channel_->unsubscribe(subscription_); }
 
-  std::optional<v1::JobEvent> next() { return cursor_.next(); }
+  std::optional<SentMessage> next() { return cursor_.next(); }
   /// Whether the next message is available without waiting.
   [[nodiscard]] bool has_more() const { return cursor_.has_more(); }
+  [[nodiscard]] bool is_quiet() const { return cursor_.is_quiet(); }
   [[nodiscard]] bool ended() const { return cursor_.ended(); }
-  [[nodiscard]] v1::JobEvent bookmark() const { return cursor_.bookmark(); }
+  [[nodiscard]] SentMessage bookmark() const { return cursor_.bookmark(); }
   /// How to continue a watch that was closed, as the end of a sentence.
   [[nodiscard]] std::string resume_advice() const {
     return "with after_sequence " + std::to_string(cursor_.sequence());

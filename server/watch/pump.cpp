@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-
-#include "pause.h"
+#include <utility>
 
 namespace cellcrush::watch {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kTick{1};
+constexpr std::chrono::microseconds kBeatOfATask{500};
+constexpr std::chrono::milliseconds kLongestBeat{100};
 
 struct Work final : Pump::Task {
   explicit Work(std::function<void()> given) : Task("the daemon"), work(std::move(given)) {}
@@ -27,10 +32,13 @@ Pump::Pump(int threads) : most_of_caller_(std::max(1, threads / 2)) {
 void Pump::stop() {
   for (auto& thread : threads_) thread.request_stop();
   threads_.clear();
-  Lines dropped;  // outside the lock: destroying a task may schedule others
+  // Outside the lock: destroying a task may schedule others.
+  Lines dropped;
+  std::vector<std::shared_ptr<Task>> waiting;
   const MutexLock lock(mutex_);
   turns_.clear();
   dropped.swap(lines_);
+  waiting.swap(waiting_);
 }
 
 void Pump::add(const std::shared_ptr<Task>& task) {
@@ -42,6 +50,23 @@ void Pump::add(const std::shared_ptr<Task>& task) {
 void Pump::schedule(const std::shared_ptr<Task>& task) {
   const MutexLock lock(mutex_);
   push(task);
+}
+
+void Pump::wake(const std::shared_ptr<Task>& task) {
+  const MutexLock lock(mutex_);
+  if (task->queued_ || task->waits_) return;
+  const auto now = Clock::now();
+  if (now - task->woken_ >= beat()) {
+    task->woken_ = now;
+    return push(task);
+  }
+  task->waits_ = true;
+  waiting_.push_back(task);
+  if (waiting_.size() == 1) beaten_.notify_one();
+}
+
+Clock::duration Pump::beat() const {
+  return std::min<Clock::duration>(kLongestBeat, kBeatOfATask * tasks_.size());
 }
 
 void Pump::post(std::function<void()> work) { schedule(std::make_shared<Work>(std::move(work))); }
@@ -110,7 +135,27 @@ void Pump::work(const std::stop_token& stop) {
 }
 
 void Pump::tick(const std::stop_token& stop) {
-  while (pause_unless_stopped(stop, std::chrono::seconds(1))) schedule_all();
+  auto next_tick = Clock::now() + kTick;
+  auto next_beat = Clock::now();
+  while (!stop.stop_requested()) {
+    {
+      MutexLock lock(mutex_);
+      const auto has_waiting = [this]() CELLCRUSH_REQUIRES(mutex_) { return !waiting_.empty(); };
+      if (beaten_.wait_until(lock, stop, next_tick, has_waiting)) {
+        beaten_.wait_until(lock, stop, next_beat, [] { return false; });
+        const auto now = Clock::now();
+        for (const auto& task : std::exchange(waiting_, {})) {
+          task->waits_ = false;
+          task->woken_ = now;
+          push(task);
+        }
+        next_beat = now + beat();
+      }
+    }
+    if (stop.stop_requested() || Clock::now() < next_tick) continue;
+    schedule_all();
+    next_tick = Clock::now() + kTick;
+  }
 }
 
 void Pump::schedule_all() {

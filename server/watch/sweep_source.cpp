@@ -206,7 +206,7 @@ void SweepSource::close() {
   for (auto& member : members_) member.channel->unsubscribe(member.subscription);
 }
 
-std::optional<v1::WatchSweepResponse> SweepSource::next() {
+std::optional<SentMessage> SweepSource::next() {
   if (!std::exchange(snapshot_sent_, true)) return snapshot();
   while (const auto position = news_->take()) {
     if (places_[*position].ended) continue;
@@ -227,7 +227,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next() {
   return std::nullopt;
 }
 
-std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position) {
+std::optional<SentMessage> SweepSource::next_of(std::size_t position) {
   const JobPlace& place = places_[position];
   auto& cursor = members_[position].cursor;
   try {
@@ -241,10 +241,9 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
     if (!event) return std::nullopt;
     v1::WatchSweepResponse out;
     out.set_job(store::name_of(place.job));
-    const bool advances = event->has_state() || event->has_sample() || place.ended;
-    if (advances && is_token_due(event->ByteSizeLong())) out.set_resume_token(resume_token());
-    *out.mutable_event() = *std::move(event);
-    return out;
+    const bool advances = event->is_numbered || place.ended;
+    if (advances && is_token_due(event->size())) out.set_resume_token(resume_token());
+    return nest(out.SerializeAsString(), v1::WatchSweepResponse::kEventFieldNumber, *std::move(event));
   } catch (const ServiceError& error) {
     if (error.kind() != ServiceError::Kind::not_found) throw;
   }
@@ -260,21 +259,21 @@ void SweepSource::end(std::size_t position) {
   --left_;
 }
 
-v1::WatchSweepResponse SweepSource::bookmark() const {
+SentMessage SweepSource::bookmark() const {
   v1::WatchSweepResponse out;
   out.mutable_event()->mutable_bookmark();
   out.set_resume_token(resume_token());
-  return out;
+  return encode(std::move(out));
 }
 
-v1::WatchSweepResponse SweepSource::snapshot() {
+SentMessage SweepSource::snapshot() {
   auto sweep = sweeps_.find_sweep(sweep_);
   if (!sweep) throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::sweep_name_of(sweep_) + ".");
   if (!sweep->has_create_time()) throw store::unreadable_sweep(sweep_);
   v1::WatchSweepResponse out;
   *out.mutable_snapshot() = *std::move(sweep);
   out.set_resume_token(resume_token());
-  return out;
+  return encode(std::move(out));
 }
 
 }  // namespace cellcrush::watch

@@ -77,11 +77,11 @@ class SweepSource {
 
   /// Throws ServiceError if the journal cannot be read, or out_of_range if the token named an event that does not
   /// exist.
-  std::optional<v1::WatchSweepResponse> next();
+  std::optional<SentMessage> next();
   /// Whether next has a message without reading the journal: the job whose turn it is holds one.
   [[nodiscard]] bool has_more() const { return has_more_; }
   [[nodiscard]] bool ended() const { return snapshot_sent_ && left_ == 0; }
-  [[nodiscard]] v1::WatchSweepResponse bookmark() const;
+  [[nodiscard]] SentMessage bookmark() const;
   [[nodiscard]] static std::string resume_advice() { return "with the most recent resume_token"; }
 
  private:
@@ -110,8 +110,8 @@ class SweepSource {
   /// Whether an event of this many bytes is to carry a token: a long one only after as many bytes of events.
   bool is_token_due(std::size_t event_bytes);
   [[nodiscard]] std::map<std::int64_t, JobPlace> places_in(const std::string& token) const;
-  v1::WatchSweepResponse snapshot();
-  std::optional<v1::WatchSweepResponse> next_of(std::size_t position);
+  SentMessage snapshot();
+  std::optional<SentMessage> next_of(std::size_t position);
   void end(std::size_t position);
 
   store::JournalReader& journal_;

@@ -1,15 +1,13 @@
 #include "watch/watch_cursor.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
-#include <vector>
 
 #include "error.h"
 #include "store/job_state.h"
 #include "store/journal_mending.h"
 #include "store/resource_name.h"
-#include "watch/sent_frame.h"
+#include "watch/sent_message.h"
 
 namespace cellcrush::watch {
 namespace {
@@ -39,7 +37,7 @@ WatchCursor::WatchCursor(store::JournalReader& journal, Hub& hub, std::int64_t j
   ended_ = store::is_terminal(stored.job.state()) && after == stored.last_sequence;
 }
 
-std::optional<v1::JobEvent> WatchCursor::next() {
+std::optional<SentMessage> WatchCursor::next() {
   if (!std::exchange(snapshot_sent_, true)) return snapshot();
   // Not between the parts of a frame.
   if (parts_.empty()) {
@@ -53,27 +51,34 @@ std::optional<v1::JobEvent> WatchCursor::next() {
     events_.assign(read.begin(), read.end());
   }
   // A mesh is published before the first sample is durable, and comes before it.
-  if (parts_.empty() && !events_.empty() && events_.front()->has_sample()) {
+  if (parts_.empty() && !events_.empty() && events_.front()->is_sample) {
     if (auto part = mesh_part()) return part;
   }
   if (auto event = transient()) return event;
   if (events_.empty()) return std::nullopt;
-  v1::JobEvent event = *events_.front();
+  const auto event = std::move(events_.front());
   events_.pop_front();
-  after_ = event.sequence();
-  ended_ = event.has_state() && store::is_terminal(event.state().state());
-  if (begins_again(event)) mesh_queued_ = false;
-  return event;
+  after_ = event->sequence;
+  ended_ = event->is_last;
+  if (event->begins_again) mesh_queued_ = false;
+  return SentMessage{.shared = SharedBytes(event, &event->bytes), .is_numbered = true};
 }
 
-v1::JobEvent WatchCursor::bookmark() const {
+bool WatchCursor::is_quiet() const {
+  if (!snapshot_sent_ || ended_ || has_more()) return false;
+  const auto newest = channel_->newest();
+  return newest.progress_count <= progress_given_ && (!wanted_.frames || newest.frame_count <= frames_given_) &&
+         (!wanted_.mesh || mesh_queued_ || !newest.mesh) && recent_.ends_with(job_, after_, channel_->stamp());
+}
+
+SentMessage WatchCursor::bookmark() const {
   v1::JobEvent event;
   event.set_sequence(after_);
   event.mutable_bookmark();
-  return event;
+  return encode(std::move(event));
 }
 
-v1::JobEvent WatchCursor::snapshot() {
+SentMessage WatchCursor::snapshot() {
   v1::JobEvent event;
   event.set_sequence(after_);
   auto& snapshot = *event.mutable_snapshot();
@@ -85,62 +90,67 @@ v1::JobEvent WatchCursor::snapshot() {
     *snapshot.mutable_job()->mutable_progress() = *newest.progress;
     progress_given_ = newest.progress_count;
   }
-  return event;
+  return encode(std::move(event));
 }
 
 // The channel of a running job has its mesh; that of a job that ran before the watch is in the journal.
 void WatchCursor::queue_mesh() {
   if (!wanted_.mesh || mesh_queued_) return;
-  std::vector<v1::MeshChunk> parts;
   if (const auto mesh = channel_->newest().mesh) {
-    parts = chunks_of(*mesh);
+    mesh_parts_.assign(mesh->parts().begin(), mesh->parts().end());
   } else if (!std::exchange(mesh_looked_up_, true)) {
-    if (const auto stored = journal_.mesh(job_)) parts = chunks_of(*stored);
+    if (auto stored = journal_.mesh(job_)) {
+      const PublishedMesh own(*std::move(stored));
+      mesh_parts_.assign(own.parts().begin(), own.parts().end());
+    }
   }
-  mesh_queued_ = !parts.empty();
-  mesh_parts_.assign(std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
+  mesh_queued_ = !mesh_parts_.empty();
 }
 
-std::optional<v1::JobEvent> WatchCursor::mesh_part() {
+std::optional<SentMessage> WatchCursor::mesh_part() {
   queue_mesh();
   if (mesh_parts_.empty()) return std::nullopt;
-  v1::JobEvent event;
-  event.set_sequence(after_);
-  *event.mutable_mesh() = std::move(mesh_parts_.front());
-  mesh_parts_.pop_front();
-  return event;
+  return part_of(v1::JobEvent::kMeshFieldNumber, mesh_parts_);
 }
 
-std::optional<v1::JobEvent> WatchCursor::transient() {
-  v1::JobEvent event;
-  event.set_sequence(after_);
-  if (parts_.empty()) {
-    const auto newest = channel_->newest();
-    if (newest.progress && newest.progress_count > progress_given_) {
-      progress_given_ = newest.progress_count;
-      *event.mutable_progress() = *newest.progress;
-      return event;
-    }
-    if (wanted_.frames && newest.frame && newest.frame_count > frames_given_) {
-      frames_given_ = newest.frame_count;
-      queue_frame(newest.frame->in(wanted_.encoding));
-    }
+std::optional<SentMessage> WatchCursor::transient() {
+  if (!parts_.empty()) return frame_part();
+  const auto newest = channel_->newest();
+  if (newest.progress && newest.progress_count > progress_given_) {
+    progress_given_ = newest.progress_count;
+    v1::JobEvent event;
+    event.set_sequence(after_);
+    *event.mutable_progress() = *newest.progress;
+    return encode(std::move(event));
   }
-  if (parts_.empty()) return std::nullopt;
-  *event.mutable_frame() = std::move(parts_.front());
-  parts_.pop_front();
-  return event;
+  if (!wanted_.frames || !newest.frame || newest.frame_count <= frames_given_) return std::nullopt;
+  frames_given_ = newest.frame_count;
+  queue_frame(*newest.frame);
+  auto first = frame_part();
+  first.skipped_frames = skipped_;
+  return first;
 }
 
-void WatchCursor::queue_frame(const v1::FieldFrame& frame) {
-  auto parts = chunks_of(frame);
-  if (last_frame_) {
-    // A job that restarts from step 0 starts with its first frame.
-    const int skipped = std::max(0, frame.index() - *last_frame_ - 1);
-    for (auto& part : parts) part.set_skipped(skipped);
-  }
+void WatchCursor::queue_frame(const PublishedFrame& frame) {
+  // A job that restarts from step 0 starts with its first frame.
+  skipped_ = last_frame_ ? std::max(0, frame.index() - *last_frame_ - 1) : 0;
   last_frame_ = frame.index();
-  parts_.assign(std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
+  const auto& parts = frame.parts(wanted_.encoding);
+  parts_.assign(parts.begin(), parts.end());
+}
+
+SentMessage WatchCursor::frame_part() {
+  v1::FrameChunk own;
+  own.set_skipped(skipped_);
+  return part_of(v1::JobEvent::kFrameFieldNumber, parts_, own.SerializeAsString());
+}
+
+SentMessage WatchCursor::part_of(int field, std::list<SharedBytes>& parts, std::string after) const {
+  SentMessage part{.shared = std::move(parts.front()), .after = std::move(after)};
+  parts.pop_front();
+  v1::JobEvent event;
+  event.set_sequence(after_);
+  return nest(event.SerializeAsString(), field, std::move(part));
 }
 
 }  // namespace cellcrush::watch

@@ -11,8 +11,8 @@
 
 namespace cellcrush::watch {
 
-/// One watcher's position in the events of a job. It reads them by sequence number, from RecentEvents, so that a slow
-/// watcher delays nobody and costs no memory. Not thread-safe.
+/// One watcher's position in the events of a job, each of which is a JobEvent. It reads them by sequence number, from
+/// RecentEvents, so that a slow watcher delays nobody and costs no memory. Not thread-safe.
 class WatchCursor {
  public:
   /// What to send beside states, samples and progress.
@@ -30,26 +30,32 @@ class WatchCursor {
   /// and frame.
   /// Nothing if there is none now. Throws ServiceError: not_found if the job was deleted meanwhile, or if the journal
   /// cannot be read.
-  std::optional<v1::JobEvent> next();
+  std::optional<SentMessage> next();
 
   /// Whether next has a message without reading the journal.
   [[nodiscard]] bool has_more() const { return !events_.empty() || !parts_.empty() || !mesh_parts_.empty(); }
+
+  /// Whether next has nothing before something changes; false if only the journal can tell.
+  [[nodiscard]] bool is_quiet() const;
 
   /// Whether the job's last event was sent, and next has nothing more.
   [[nodiscard]] bool ended() const { return ended_ && snapshot_sent_ && mesh_parts_.empty(); }
 
   /// A bookmark: everything up to its sequence number was sent.
-  [[nodiscard]] v1::JobEvent bookmark() const;
+  [[nodiscard]] SentMessage bookmark() const;
 
   /// Sequence number of the last state or sample sent.
   [[nodiscard]] std::int64_t sequence() const { return after_; }
 
  private:
-  v1::JobEvent snapshot();
-  std::optional<v1::JobEvent> mesh_part();
+  SentMessage snapshot();
+  std::optional<SentMessage> mesh_part();
   void queue_mesh();
-  std::optional<v1::JobEvent> transient();
-  void queue_frame(const v1::FieldFrame& frame);
+  std::optional<SentMessage> transient();
+  void queue_frame(const PublishedFrame& frame);
+  SentMessage frame_part();
+  /// An event of which this field is the next of the parts.
+  SentMessage part_of(int field, std::list<SharedBytes>& parts, std::string after = "") const;
 
   store::JournalReader& journal_;
   RecentEvents& recent_;
@@ -61,8 +67,9 @@ class WatchCursor {
   bool ended_ = false;
   // Lists, as an empty one takes no memory: a watch of a large sweep has a cursor for each job.
   std::list<RecentEvents::Event> events_;  ///< read, not sent yet
-  std::list<v1::FrameChunk> parts_;        ///< of the frame being sent
-  std::list<v1::MeshChunk> mesh_parts_;
+  std::list<SharedBytes> parts_;           ///< of the frame being sent
+  int skipped_ = 0;                        ///< frames before that one
+  std::list<SharedBytes> mesh_parts_;
   bool mesh_queued_ = false;
   bool mesh_looked_up_ = false;       ///< in the journal, for a job whose mesh was built before the watch
   std::uint64_t progress_given_ = 0;  ///< count of the channel's progress when last sent

@@ -1,6 +1,8 @@
-// Measures what watchers over HTTP cost the daemon, on this machine. Prints a figure a line; asserts nothing.
-// usage: watch_load [WATCHERS [ROUNDS [packed|numbers|json]]]
+// Measures what pages (HTTP) and watchers (gRPC) of one crush cost the daemon, on this machine. Prints a figure a line;
+// asserts nothing.
+// usage: watch_load [PAGES [WATCHERS [ROUNDS [packed|numbers|json]]]]
 #include <fmt/core.h>
+#include <grpcpp/grpcpp.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -39,6 +41,36 @@ struct Received {
   std::int64_t skipped_frames = 0;
   std::int64_t wrong_numbers = 0;  ///< states and samples that did not follow the one before
   int failed = 0;                  ///< watchers whose watch ended otherwise than with the job
+
+  void add(const Received& other) {
+    messages += other.messages;
+    bytes += other.bytes;
+    samples += other.samples;
+    frames += other.frames;
+    skipped_frames += other.skipped_frames;
+    wrong_numbers += other.wrong_numbers;
+    failed += other.failed;
+  }
+
+  // `sequence`: of the watcher's last state or sample.
+  void count(const v1::JobEvent& event, std::int64_t& sequence) {
+    samples += event.has_sample();
+    if (event.has_frame() && event.frame().part() == 0) {
+      ++frames;
+      skipped_frames += event.frame().skipped();
+    }
+    if (event.has_sample() || event.has_state()) wrong_numbers += event.sequence() != ++sequence;
+  }
+
+  void print(const char* who, double watchers) const {
+    if (watchers == 0.0) return;
+    fmt::print("  each {} {:.1f} messages, {:.0f} kB, {:.1f} samples, {:.1f} frames, {:.1f} frames skipped\n", who,
+               static_cast<double>(messages) / watchers, 1e-3 * static_cast<double>(bytes) / watchers,
+               static_cast<double>(samples) / watchers, static_cast<double>(frames) / watchers,
+               static_cast<double>(skipped_frames) / watchers);
+    if (failed > 0 || wrong_numbers > 0)
+      fmt::print("  {} watches failed, {} events out of order\n", failed, wrong_numbers);
+  }
 };
 
 /// How the watchers ask.
@@ -155,13 +187,7 @@ class Watcher {
     if (!message_.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return end(false);
     if (message_.has_watched_end()) return end(message_.watched_end().status().code() == 0);
     if (!message_.has_watched()) return;
-    const auto& event = message_.watched().event();
-    received_.samples += event.has_sample();
-    if (event.has_frame()) {
-      received_.frames += event.frame().part() == 0;
-      received_.skipped_frames += event.frame().part() == 0 ? event.frame().skipped() : 0;
-    }
-    if (event.has_sample() || event.has_state()) received_.wrong_numbers += event.sequence() != ++sequence_;
+    received_.count(message_.watched().event(), sequence_);
   }
 
   const bool is_json_;
@@ -172,6 +198,25 @@ class Watcher {
   std::int64_t sequence_ = 0;
   bool ended_ = false;
 };
+
+// Watches the job and its frames by WatchJob until it has ended, on a connection of its own.
+void watch_over_grpc(const std::string& address, const std::string& job, Received& received) {
+  grpc::ChannelArguments own;
+  own.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  const Client client(address, own);
+  auto request = testing::named<v1::WatchJobRequest>(job);
+  request.set_frames(true);
+  const auto context = testing::bounded_context(std::chrono::minutes(4));
+  const auto reader = client.jobs->WatchJob(context.get(), request);
+  std::int64_t sequence = 0;
+  v1::JobEvent event;
+  while (reader->Read(&event)) {
+    ++received.messages;
+    received.bytes += static_cast<std::int64_t>(event.ByteSizeLong());
+    received.count(event, sequence);
+  }
+  received.failed += !reader->Finish().ok();
+}
 
 // Watches the job and its frames over HTTP by WatchJobs, each watcher on a connection of its own. One thread serves
 // them all; it returns once the job has ended for each. Of JSON it counts messages and bytes only.
@@ -212,42 +257,51 @@ int free_port() {
 }
 
 // Processor time of the daemon from before the first watcher to the end of the job, s.
-double measure_crush(Client& client, int daemon, HttpWatch watch) {
+double measure_crush(const std::string& address, int daemon, HttpWatch pages, int watchers) {
+  Client client(address);
   const double before = processor_time_of(daemon);
   const auto start = std::chrono::steady_clock::now();
-  watch.job = client.create(crush(client));
-  const Received got = watch_over_http(watch);
-  client.wait_for_state(watch.job, v1::Job::SUCCEEDED);
+  pages.job = client.create(crush(client));
+  std::vector<Received> of_watchers(static_cast<std::size_t>(watchers));
+  std::vector<std::jthread> threads;
+  threads.reserve(of_watchers.size());
+  for (auto& received : of_watchers)
+    threads.emplace_back([&address, &pages, &received] { watch_over_grpc(address, pages.job, received); });
+  const Received of_pages = watch_over_http(pages);
+  threads.clear();
+  client.wait_for_state(pages.job, v1::Job::SUCCEEDED);
   const double used = processor_time_of(daemon) - before;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  const double watchers = std::max(1, watch.watchers);
-  fmt::print("{} watchers: {:.2f} s of the daemon, {:.2f} s of the solver, {:.1f} s on the clock\n", watch.watchers,
-             used, client.get(watch.job).summary().solver_seconds(), taken.count());
-  fmt::print("  each {:.1f} messages, {:.0f} kB, {:.1f} samples, {:.1f} frames, {:.1f} frames skipped\n",
-             static_cast<double>(got.messages) / watchers, 1e-3 * static_cast<double>(got.bytes) / watchers,
-             static_cast<double>(got.samples) / watchers, static_cast<double>(got.frames) / watchers,
-             static_cast<double>(got.skipped_frames) / watchers);
-  if (got.failed > 0 || got.wrong_numbers > 0)
-    fmt::print("  {} watches failed, {} events out of order\n", got.failed, got.wrong_numbers);
+  fmt::print("{} pages, {} watchers: {:.2f} s of the daemon, {:.2f} s of the solver, {:.1f} s on the clock\n",
+             pages.watchers, watchers, used, client.get(pages.job).summary().solver_seconds(), taken.count());
+  of_pages.print("page", pages.watchers);
+  Received sum;
+  for (const auto& each : of_watchers) sum.add(each);
+  sum.print("watcher", watchers);
   fmt::print("  the daemon's memory: {:.0f} MiB\n", memory_of(daemon));
   return used;
 }
 
-int measure(const std::filesystem::path& folder, HttpWatch watch, int rounds) {
+int measure(const std::filesystem::path& folder, HttpWatch pages, int watchers, int rounds) {
   const std::string address = "unix:" + (folder / "socket").string();
-  watch.port = free_port();
+  pages.port = free_port();
   testing::DaemonProcess daemon({"--data", (folder / "data").string(), "--listen", address, "--http",
-                                 "127.0.0.1:" + std::to_string(watch.port), "--workers", "1"});
+                                 "127.0.0.1:" + std::to_string(pages.port), "--workers", "1"});
   if (daemon.wait_for_addresses(1).empty()) {
     fmt::print("the daemon does not start\n");
     return 1;
   }
-  Client client(address);
   std::vector<double> used;
-  for (int i = 0; i < rounds; ++i) used.push_back(measure_crush(client, daemon.number(), watch));
+  for (int i = 0; i < rounds; ++i) used.push_back(measure_crush(address, daemon.number(), pages, watchers));
   std::sort(used.begin(), used.end());
-  fmt::print("{} watchers: median {:.2f} s of the daemon's processor time ({:.2f} to {:.2f})\n", watch.watchers,
-             used[used.size() / 2], used.front(), used.back());
+  double load = 0.0;
+  static_cast<void>(getloadavg(&load, 1));
+  fmt::print("the daemon's processor time, as a row of tests/load/figures.csv:\n");
+  const char* form = pages.form == HttpWatch::Form::packed    ? "packed"
+                     : pages.form == HttpWatch::Form::numbers ? "numbers"
+                                                              : "json";
+  fmt::print("watchers,s,{:.2f},{:.2f},{:.2f},watch_load {} {} {} {},{:.0f}\n", used[used.size() / 2], used.front(),
+             used.back(), pages.watchers, watchers, rounds, form, load);
   return 0;
 }
 
@@ -256,14 +310,15 @@ int measure(const std::filesystem::path& folder, HttpWatch watch, int rounds) {
 
 int main(int count, char** words) {
   using cellcrush::load::HttpWatch;
-  HttpWatch watch;
-  watch.watchers = count > 1 ? std::atoi(words[1]) : 200;
-  const int rounds = count > 2 ? std::max(1, std::atoi(words[2])) : 3;
-  const std::string form = count > 3 ? words[3] : "packed";
-  if (form == "numbers") watch.form = HttpWatch::Form::numbers;
-  if (form == "json") watch.form = HttpWatch::Form::json;
+  HttpWatch pages;
+  pages.watchers = count > 1 ? std::atoi(words[1]) : 200;
+  const int watchers = count > 2 ? std::atoi(words[2]) : 200;
+  const int rounds = count > 3 ? std::max(1, std::atoi(words[3])) : 3;
+  const std::string form = count > 4 ? words[4] : "packed";
+  if (form == "numbers") pages.form = HttpWatch::Form::numbers;
+  if (form == "json") pages.form = HttpWatch::Form::json;
   const cellcrush::testing::TemporaryFolder folder;
-  const int result = cellcrush::load::measure(folder.path(), watch, rounds);
+  const int result = cellcrush::load::measure(folder.path(), pages, watchers, rounds);
   cellcrush::testing::kill_workers(folder.path() / "data");
   return result;
 }

@@ -97,6 +97,24 @@ TEST_F(ExecutorsTest, TroubleOfOneHoldsItsOwnQueueOnly) {
   EXPECT_TRUE(is_serving(client, "cellcrush.queue"));
 }
 
+TEST_F(ExecutorsTest, ItsThreadsAreThoseOfRunningJobs) {
+  const auto threads = [] {
+    using Entries = std::filesystem::directory_iterator;
+    return std::distance(Entries("/proc/self/task"), Entries());
+  };
+  constexpr int kGrpcsOwn = 16;  // which come and go
+  start(default_options());
+  const auto without = threads();
+  restart(with_cluster(300));
+  EXPECT_LE(threads(), without + kGrpcsOwn);
+  cluster_.open();
+  auto client = this->client();
+  std::vector<std::string> jobs;
+  for (int i = 0; i < 20; ++i) jobs.push_back(create_on(client, kCluster));
+  for (const auto& job : jobs) EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
+  EXPECT_TRUE(wait_until([&] { return threads() <= without + kGrpcsOwn; }));
+}
+
 TEST_F(ExecutorsTest, AnOwnersLimitCountsOnEach) {
   auto options = with_program(CELLCRUSHD_PROGRAM);
   options.limits.owner.running_jobs = 1;

@@ -13,7 +13,9 @@ namespace {
 
 class SweepSourceTest : public WatchFixture {
  protected:
-  SweepSource source(const std::string& token = "") { return {reader_, sweeps_, hub_, made_.sweep, token}; }
+  Received<SweepSource, v1::WatchSweepResponse> source(const std::string& token = "") {
+    return {reader_, sweeps_, hub_, made_.sweep, token};
+  }
 
   void run(std::int64_t job, int samples) {
     change(job, v1::Job::RUNNING);
@@ -79,7 +81,7 @@ TEST_F(SweepSourceTest, NewsOfAJobWakeTheWatcherAndOnlyThatJobSpeaks) {
   ASSERT_TRUE(response);
   EXPECT_EQ(response->job(), "jobs/" + std::to_string(made_.jobs[1]));
   EXPECT_FALSE(source.next());
-  const auto bookmark = source.bookmark();
+  const auto bookmark = source.bookmark().parsed<v1::WatchSweepResponse>();
   EXPECT_TRUE(bookmark.event().has_bookmark());
   EXPECT_FALSE(bookmark.resume_token().empty());
   source.close();

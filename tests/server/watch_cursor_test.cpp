@@ -14,10 +14,12 @@
 namespace cellcrush::watch {
 namespace {
 
+using Cursor = Received<WatchCursor, v1::JobEvent>;
+
 class WatchCursorTest : public WatchFixture {
  protected:
-  WatchCursor cursor(std::int64_t after = 0, bool frames = true) {
-    return {reader_, hub_, job_, after, {frames, true, v1::FieldFrame::NUMBERS}};
+  Cursor cursor(std::int64_t after = 0, bool frames = true) {
+    return {reader_, hub_, job_, after, WatchCursor::Wanted{frames, true, v1::FieldFrame::NUMBERS}};
   }
 
   void change(v1::Job::State state) { WatchFixture::change(job_, state); }
@@ -135,6 +137,47 @@ TEST_F(WatchCursorTest, TheNewestFrameWinsAndTheGapIsTold) {
   EXPECT_FALSE(cursor.next());
 }
 
+TEST_F(WatchCursorTest, WhatAllAreSentIsEncodedOnce) {
+  const auto channel = hub_.open(job_);
+  WatchCursor one(reader_, hub_, job_, 0, {true, true, v1::FieldFrame::PACKED});
+  WatchCursor other(reader_, hub_, job_, 1, {true, true, v1::FieldFrame::PACKED});
+  v1::Mesh mesh;
+  mesh.set_particle_count(1);
+  channel->publish(mesh);
+  one.next();
+  other.next();
+  EXPECT_EQ(one.next()->shared, other.next()->shared) << "a part of the mesh";
+  EXPECT_TRUE(one.next()->is_numbered);
+  channel->publish(frame(0));
+  const auto first = one.next();
+  EXPECT_EQ(first->shared, other.next()->shared) << "a part of the frame";
+  change(v1::Job::RUNNING);
+  const auto state = one.next();
+  EXPECT_EQ(state->shared, other.next()->shared);
+  EXPECT_EQ(state->size(), state->shared->size());
+}
+
+TEST_F(WatchCursorTest, OneThatHasAllIsQuietUntilSomethingChanges) {
+  const auto channel = hub_.open(job_);
+  auto cursor = this->cursor();
+  const auto read_all = [&cursor] {
+    while (cursor.next()) EXPECT_FALSE(cursor.has_more() && cursor.is_quiet());
+  };
+  EXPECT_FALSE(cursor.is_quiet());
+  read_all();
+  EXPECT_TRUE(cursor.is_quiet());
+  channel->publish(v1::Progress());
+  EXPECT_FALSE(cursor.is_quiet());
+  read_all();
+  channel->publish(frame(0));
+  EXPECT_FALSE(cursor.is_quiet());
+  read_all();
+  change(v1::Job::RUNNING);
+  EXPECT_FALSE(cursor.is_quiet());
+  read_all();
+  EXPECT_TRUE(cursor.is_quiet());
+}
+
 TEST_F(WatchCursorTest, FramesAreSentOnlyToThoseWhoAsk) {
   hub_.open(job_)->publish(frame(0));
   auto cursor = this->cursor(1, false);
@@ -160,7 +203,7 @@ TEST_F(WatchCursorTest, AJobThatIsDeletedMeanwhileIsNotFound) {
 
 TEST_F(WatchCursorTest, WatchersThatAreUpToDateReadTheJournalTogether) {
   change(v1::Job::RUNNING);
-  std::vector<WatchCursor> cursors;
+  std::vector<Cursor> cursors;
   for (int i = 0; i < 200; ++i) cursors.emplace_back(reader_, hub_, job_, 2, WatchCursor::Wanted{});
   for (auto& cursor : cursors) EXPECT_TRUE(cursor.next()->has_snapshot());
   for (int round = 0; round < 3; ++round) {
@@ -184,7 +227,7 @@ TEST_F(WatchCursorTest, WatchersOnSeveralThreadsGetEveryEventOnceWhileTheJobRuns
     std::vector<std::jthread> watchers;
     for (int i = 0; i < 6; ++i) {
       watchers.emplace_back([&, i] {
-        WatchCursor cursor(reader_, hub_, job_, i % 2, {});
+        Cursor cursor(reader_, hub_, job_, i % 2, WatchCursor::Wanted{});
         std::int64_t last = i % 2;
         bool in_order = true;
         while (!cursor.ended()) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 
 #include "programs/temporary_folder.h"
 #include "server/sample_writer.h"
@@ -11,6 +12,18 @@
 #include "watch/hub.h"
 
 namespace cellcrush::watch {
+
+/// A source of messages, each as it is received.
+template <class Source, class Message>
+class Received : public Source {
+ public:
+  using Source::Source;
+
+  std::optional<Message> next() {
+    const auto sent = Source::next();
+    return sent ? std::optional(sent->template parsed<Message>()) : std::nullopt;
+  }
+};
 
 /// A journal, and a hub to which it announces what is durable.
 class WatchFixture : public ::testing::Test {
