@@ -15,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "access/call_backlog.h"
 #include "access/gate.h"
 #include "access/local_doors.h"
 #include "access/unix_user.h"
@@ -26,9 +27,11 @@
 #include "net/acceptor.h"
 #include "net/connection_limits.h"
 #include "net/listening_port.h"
+#include "net/open_streams.h"
 #include "net/port_probe.h"
 #include "net/refusing_server.h"
 #include "rpc/method_table.h"
+#include "rpc/open_calls.h"
 #include "rpc/request_fields.h"
 #include "service.h"
 #include "translate/presets.h"
@@ -41,6 +44,7 @@ constexpr std::chrono::seconds kCallsMayLast{2};
 constexpr int kCallsBesideStreams = 100;
 constexpr std::size_t kIntroductions = 4;  // threads
 constexpr int kBetweenPingsOfAClient = 10'000;  // ms
+constexpr int kMostReadAtOnce = 32 * 1024;      // bytes; gRPC opens all calls in them before it ends one
 /// Services with a status in grpc.health.v1; "" is the whole daemon.
 constexpr std::array kServices = {"", "cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
                                   "cellcrush.v1.Admin"};
@@ -192,9 +196,7 @@ struct Daemon::Impl {
       plain.push_back(wanted[i].kind == ListenAddress::Kind::unix_socket || options.access.tls_certificate.empty());
     }
     service.register_with(builder);
-    std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
-    interceptors.push_back(rpc::make_call_interceptors(open_calls));
-    builder.experimental().SetInterceptorCreators(std::move(interceptors));
+    rpc::count_calls(builder, open_calls, gate);
     server = builder.BuildAndStart();
     if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The gRPC server could not be started.");
     for (const auto& port : ports) addresses.push_back(port.address().text());
@@ -222,6 +224,12 @@ struct Daemon::Impl {
     service.methods.on_admitted = [this](const std::string& connection, const std::string& caller) {
       acceptor->know(connection, caller);
     };
+    gate.backlog().set_alarms({[this](const std::string& connection) {
+                                 acceptor->cut([connection] { return std::vector{connection}; });
+                               },
+                               [this] {
+                                 acceptor->cut([this] { return gate.backlog().settle(net::count_open_streams()); });
+                               }});
     acceptor->start();
     const auto is_tcp = [](const ListenAddress& address) { return address.kind == ListenAddress::Kind::tcp; };
     const bool has_tcp = wanted_http || std::ranges::any_of(wanted, is_tcp);
@@ -277,6 +285,7 @@ struct Daemon::Impl {
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
     // A caller with too many streams is refused another, but can make other calls.
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams_per_caller + kCallsBesideStreams);
+    builder.AddChannelArgument(GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, kMostReadAtOnce);
   }
 
   void serve_metrics() {

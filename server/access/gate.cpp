@@ -10,6 +10,7 @@
 #include <iterator>
 #include <utility>
 
+#include "access/call_backlog.h"
 #include "access/tls_credentials.h"
 #include "access/unix_user.h"
 #include "error.h"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr std::size_t kLongestPath = 128;  // of a method in the log
 constexpr std::size_t kMostKnownCertificates = 256;
+constexpr std::size_t kMostCalls = 4'000;                    // over gRPC, open at once
 constexpr std::size_t kMostMembers = 200;                    // callers whom a group lets in, while the daemon runs
 constexpr const char* kCallerProperty = "cellcrush_caller";  // of a connection: scope and name
 constexpr const char* kAskForToken =
@@ -73,10 +75,12 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
   grpc::Status Process(const InputMetadata& metadata, grpc::AuthContext* context, OutputMetadata*,
                        OutputMetadata*) override {
     const auto found = metadata.find(":path");
-    return gate_.admit(found == metadata.end() ? std::string_view() : view_of(found->second), [&] {
+    const auto path = found == metadata.end() ? std::string_view() : view_of(found->second);
+    auto status = gate_.admit(path, [&] {
       gate_.check_certificate(*context);
       return gate_.identify(metadata, *context);
     });
+    return status.ok() ? gate_.find_place(*context) : status;
   }
 
  private:
@@ -109,10 +113,24 @@ grpc::Status Gate::check_local_call(std::string_view path, const std::optional<C
     if (context.FindPropertyValues(kCallerProperty).empty())
       context.AddProperty(kCallerProperty, name_of(caller->scope) + " " + caller->name);
   }
-  return admit(path, [&] {
+  auto status = admit(path, [&] {
     if (!caller) refuse_stranger();
     return *caller;
   });
+  return status.ok() ? find_place(context) : status;
+}
+
+grpc::Status Gate::find_place(const grpc::AuthContext& connection) const {
+  if (backlog_->admit(key_of(connection))) return grpc::Status::OK;
+  note_refusal("RESOURCE_EXHAUSTED: its connection has too many open calls");
+  return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+          "Too many calls of this connection are open or wait to begin. Make fewer at once, and try again later."};
+}
+
+const void* Gate::key_of(const grpc::AuthContext& connection) const {
+  const MutexLock lock(contexts_);
+  const auto kept = connection.FindPropertyValues(GRPC_TRANSPORT_SECURITY_TYPE_PROPERTY_NAME);
+  return kept.empty() ? nullptr : kept.front().data();  // every connection keeps a copy of its own
 }
 
 std::optional<Caller> Gate::find_local_caller(int connection) const {
@@ -171,7 +189,7 @@ void Gate::check_http_address(const ListenAddress& address) const {
                  ". Give what is missing, or a loopback address, such as --http 127.0.0.1:8080.");
 }
 
-Gate::Gate(const Options& options) : options_(options) {
+Gate::Gate(const Options& options) : options_(options), backlog_(std::make_unique<CallBacklog>(kMostCalls)) {
   if (options.tls_certificate.empty() != options.tls_key.empty())
     refuse_options("--tls-cert and --tls-key belong together. Give both or neither.");
   if (!options.tls_client_authority.empty() && options.tls_certificate.empty())
@@ -185,6 +203,8 @@ Gate::Gate(const Options& options) : options_(options) {
     groups_[*group] = scope;
   }
 }
+
+Gate::~Gate() = default;
 
 std::string Gate::read_tls() {
   auto next = std::make_shared<const TlsFiles>(
@@ -295,17 +315,18 @@ Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {
   return {std::string(name), options_.certificate_scope};
 }
 
+std::optional<Caller> Gate::local_caller_of(const grpc::AuthContext& connection) const {
+  const MutexLock lock(contexts_);
+  const auto local = connection.FindPropertyValues(kCallerProperty);
+  if (local.empty()) return std::nullopt;
+  const std::string_view text = view_of(local.front());
+  const auto space = text.find(' ');
+  return Caller{std::string(text.substr(space + 1)), parse_scope(text.substr(0, space)).value()};
+}
+
 Caller Gate::caller_of(const grpc::ServerContextBase& context) const {
   const auto connection = context.auth_context();
-  {
-    const MutexLock lock(contexts_);
-    const auto local = connection->FindPropertyValues(kCallerProperty);
-    if (!local.empty()) {
-      const std::string_view text = view_of(local.front());
-      const auto space = text.find(' ');
-      return {std::string(text.substr(space + 1)), parse_scope(text.substr(0, space)).value()};
-    }
-  }
+  if (const auto local = local_caller_of(*connection)) return *local;
   return asks_who_calls() ? identify(context.client_metadata(), *connection) : refuse_stranger();
 }
 

@@ -22,6 +22,8 @@
 
 namespace cellcrush::access {
 
+class CallBacklog;
+
 /// Files that define who may call, as the daemon's options name them. An empty path means that the option was not
 /// given.
 struct Options {
@@ -49,6 +51,7 @@ class Gate {
  public:
   /// Reads the files. Throws ServiceError (invalid) for conflicting options and for an unusable file.
   explicit Gate(const Options& options);
+  ~Gate();
 
   /// Credentials for listening on the address. They check each call with `check`; if it is null, by token or
   /// certificate where callers must have one. The gate and the credentials outlive the server. Throws ServiceError
@@ -76,6 +79,12 @@ class Gate {
   [[nodiscard]] grpc::Status check_local_call(std::string_view path, const std::optional<Caller>& caller,
                                               grpc::AuthContext& context) const;
 
+  /// The calls over gRPC that the gate has let in.
+  [[nodiscard]] CallBacklog& backlog() const { return *backlog_; }
+
+  /// Its key in the backlog.
+  [[nodiscard]] const void* key_of(const grpc::AuthContext& connection) const;
+
   /// Callers of this method need the scope; nothing: everybody may call it. A method without this needs admin. `path`
   /// has gRPC's form: "/cellcrush.v1.Jobs/GetJob". REQUIRES: no call has come.
   void guard(std::string path, std::optional<Scope> scope) { scopes_[std::move(path)] = scope; }
@@ -100,6 +109,9 @@ class Gate {
   /// log names the files read. It also names unusable files, whose previous contents stay in force.
   void read_files_again();
 
+  /// The caller whom the kernel knows at the other end of a connection; nothing if it knows none.
+  [[nodiscard]] std::optional<Caller> local_caller_of(const grpc::AuthContext& connection) const;
+
   /// The caller of an admitted call.
   [[nodiscard]] Caller caller_of(const grpc::ServerContextBase& context) const;
 
@@ -113,6 +125,8 @@ class Gate {
   /// Answers a call that needs a scope. `identify_caller` says who calls, and throws ServiceError (unauthenticated). If
   /// the call is refused, the log says so.
   [[nodiscard]] grpc::Status admit(std::string_view path, const std::function<Caller()>& identify_caller) const;
+  /// Refuses an admitted call if it is one too many of its connection.
+  [[nodiscard]] grpc::Status find_place(const grpc::AuthContext& connection) const;
   /// Throws ServiceError (unauthenticated) for a call without the required credentials.
   [[nodiscard]] Caller identify(const Metadata& metadata, const grpc::AuthContext& context) const;
   /// Throws ServiceError (unauthenticated) for a certificate not issued for clients.
@@ -141,6 +155,7 @@ class Gate {
   std::shared_ptr<const TokenFile> tokens_ CELLCRUSH_GUARDED_BY(mutex_);  ///< null without tokens
   /// Which certificates, as PEM, were issued for clients: the last answers, since every call asks.
   mutable std::map<std::string, bool, std::less<>> for_clients_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::unique_ptr<CallBacklog> backlog_;
   mutable Mutex contexts_;  ///< gRPC shares the context of a connection among its calls, without a lock
   mutable LimitedLog refusals_{"refused calls", 1};
 };

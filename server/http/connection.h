@@ -70,6 +70,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     std::optional<Refusal> refusal;
     grpc::Status status;                              ///< of the gate, for a call
     access::Caller caller;                            ///< of a call
+    bool is_stranger = false;                         ///< the caller's name is that of its address
     std::shared_ptr<rpc::Accounts::Charge> received;  ///< for the body of a call
   };
   boost::asio::awaitable<bool> read_head(Parser& parser, bool first);
@@ -88,6 +89,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Null if there is none.
   [[nodiscard]] const rpc::MethodTable::Method* method_of(const Request& request) const;
   [[nodiscard]] access::HttpCredentials credentials_of(const Request& request);
+  [[nodiscard]] std::string address_of_client();
   boost::asio::awaitable<void> answer_file(const Request& request);
   boost::asio::awaitable<void> answer_sign_in(const Request& request, const SignIn& sign_in);
   /// A file made by calls, with errors as text. One that comes once the file has begun cuts it off.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "error_table.h"
@@ -78,7 +79,7 @@ asio::awaitable<bool> Connection::read_head(Parser& parser, bool first) {
 
 asio::awaitable<bool> Connection::read_body(Parser& parser, Permit& permit) {
   const bool is_wanted = permit.received != nullptr;
-  const std::uint64_t most = is_wanted && !permit.caller.name.empty() ? kLargestBody : kLargestUnasked;
+  const std::uint64_t most = is_wanted && !permit.is_stranger ? kLargestBody : kLargestUnasked;
   beast::error_code error;
   if (parser.content_length().value_or(0) > most) {
     error = bhttp::error::body_limit;
@@ -115,12 +116,25 @@ Connection::Permit Connection::permit_for(const Request& head, std::int64_t body
   if (out.refusal || head.method() != bhttp::verb::post) return out;
   out.status = parts_.gate.check_http_call(path_of(*method_of(head)->descriptor), credentials_of(head), out.caller);
   if (!out.status.ok()) return out;
-  parts_.table.know(stream_.plain().socket().native_handle(), out.caller.name);
-  // Methods that are open to everybody, whose callers have no name, need small requests.
-  if (out.caller.name.empty()) body_bytes = std::min<std::int64_t>(body_bytes, kLargestUnasked);
+  out.is_stranger = out.caller.name.empty();
+  if (out.is_stranger) {
+    // The methods that are open to everybody need small requests.
+    body_bytes = std::min<std::int64_t>(body_bytes, kLargestUnasked);
+    out.caller.name = local_caller_ ? local_caller_->name : address_of_client();
+  } else {
+    parts_.table.know(stream_.plain().socket().native_handle(), out.caller.name);
+  }
   out.received = parts_.received.take(out.caller.name, body_bytes);
   if (!out.received) out.status = status_of(rpc::too_many_bytes(out.caller.name));
   return out;
+}
+
+std::string Connection::address_of_client() {
+  beast::error_code error;
+  const auto end = stream_.plain().socket().remote_endpoint(error);
+  sockaddr_storage address{};
+  std::memcpy(&address, end.data(), std::min(end.size(), sizeof(address)));
+  return net::peer_of(address);
 }
 
 access::HttpCredentials Connection::credentials_of(const Request& request) {

@@ -22,6 +22,26 @@
 #include "translate/case_checker.h"
 
 namespace cellcrush::jobs {
+
+class JobMaker {
+ public:
+  JobMaker(const v1::Sweep& sweep, std::string executor)
+      : sweep_(sweep), points_(expand(sweep)), executor_(std::move(executor)) {}
+
+  [[nodiscard]] const SweepPoints& points() const { return points_; }
+  /// "loading.speed_m_per_s = 50, lattice.hexagon.rows = 6".
+  [[nodiscard]] std::string text(std::size_t point) const;
+  /// Throws InvalidField if a value is none of its field.
+  [[nodiscard]] v1::Case case_at(std::size_t point) const;
+  /// REQUIRES: its case can be made.
+  [[nodiscard]] v1::Job job_at(std::size_t point) const;
+
+ private:
+  const v1::Sweep& sweep_;
+  const SweepPoints points_;
+  const std::string executor_;
+};
+
 namespace {
 
 constexpr std::size_t kLongestTitle = 200;                 // of a case, in bytes
@@ -48,7 +68,6 @@ std::string title_text_of(double value) {
   return {text.data(), written.ptr};
 }
 
-// "loading.speed_m_per_s = 50, lattice.hexagon.rows = 6".
 std::string text_of_point(const std::vector<std::string>& fields, const std::vector<double>& values) {
   std::string out;
   for (std::size_t i = 0; i < fields.size(); ++i)
@@ -62,16 +81,6 @@ std::string title_of(std::string title, std::string point) {
   if (point.size() + 2 >= kLongestTitle) return point;
   title = cut_text(std::move(title), kLongestTitle - point.size() - 2);
   return title.empty() ? point : title + ", " + point;
-}
-
-v1::Job job_of(const v1::Sweep& sweep, v1::Case made) {
-  v1::Job out;
-  *out.mutable_case_() = std::move(made);
-  *out.mutable_labels() = sweep.labels();
-  out.set_priority(sweep.priority());
-  out.set_time_limit_s(sweep.time_limit_s());
-  out.set_owner(sweep.owner());
-  return out;
 }
 
 // Throws InvalidField if the sweep is too large for its number of points.
@@ -170,22 +179,21 @@ std::string PointProblems::key_of(const v1::Problem& problem) const {
 
 struct CheckedPoint {
   std::string text;
-  v1::Case made;
   translate::CaseChecker::Verdict verdict;
 };
 
 // Checks points with several threads, each with its own checker: each thread builds one mesh for points that share it.
 class PointChecker {
  public:
-  PointChecker(const v1::Sweep& sweep, const SweepPoints& points, const PointChecking& checking)
-      : sweep_(sweep), points_(points), checking_(checking), checkers_(static_cast<std::size_t>(checking.threads)) {}
+  PointChecker(const JobMaker& maker, const PointChecking& checking)
+      : maker_(maker), checking_(checking), checkers_(static_cast<std::size_t>(checking.threads)) {}
 
   // The points `first` ... `end` - 1, in their order.
   std::vector<CheckedPoint> check(std::size_t first, std::size_t end) {
     std::vector<CheckedPoint> checked(end - first);
     std::atomic<std::size_t> next = first;
     const auto work = [&](translate::CaseChecker& checker) {
-      for (std::size_t i = next++; i < end; i = next++) checked[i - first] = check_one(points_.values[i], checker);
+      for (std::size_t i = next++; i < end; i = next++) checked[i - first] = check_one(i, checker);
     };
     // If no thread is available, this thread does the work.
     constexpr auto kIfPossible = std::launch::async | std::launch::deferred;
@@ -198,26 +206,23 @@ class PointChecker {
   }
 
  private:
-  CheckedPoint check_one(const std::vector<double>& values, translate::CaseChecker& checker) const {
+  CheckedPoint check_one(std::size_t point, translate::CaseChecker& checker) const {
     if (checking_.given_up())
       throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call. No sweep was created.");
-    CheckedPoint out{text_of_point(points_.fields, values), sweep_.case_(), {}};
+    CheckedPoint out{maker_.text(point), {}};
     try {
-      for (std::size_t i = 0; i < values.size(); ++i) set_case_field(out.made, points_.fields[i], values[i]);
+      const v1::Case made = maker_.case_at(point);
+      // Large lattices of a sweep are built one after another; the sweep waits for places as long as its caller does.
+      const MeshPlaces::Place mesh(checking_.places, checker.elements_to_build(made), checking_.given_up,
+                                   std::chrono::hours(24));
+      out.verdict = checker.check(made);
     } catch (const InvalidField& refused) {
       out.verdict.problems.push_back(invalid_problem(refused.field(), refused.message(), refused.remedy()));
-      return out;
     }
-    // Large lattices of a sweep are built one after another; the sweep waits for places as long as its caller does.
-    const MeshPlaces::Place mesh(checking_.places, checker.elements_to_build(out.made), checking_.given_up,
-                                 std::chrono::hours(24));
-    out.verdict = checker.check(out.made);
-    out.made.set_title(title_of(out.made.title(), out.text));
     return out;
   }
 
-  const v1::Sweep& sweep_;
-  const SweepPoints& points_;
+  const JobMaker& maker_;
   const PointChecking& checking_;
   std::vector<translate::CaseChecker> checkers_;
 };
@@ -255,13 +260,35 @@ std::optional<v1::Problem> idle_seed_note(const v1::Sweep& sweep, const std::vec
 
 }  // namespace
 
+std::string JobMaker::text(std::size_t point) const { return text_of_point(points_.fields, points_.values[point]); }
+
+v1::Case JobMaker::case_at(std::size_t point) const {
+  v1::Case out = sweep_.case_();
+  for (std::size_t i = 0; i < points_.fields.size(); ++i)
+    set_case_field(out, points_.fields[i], points_.values[point][i]);
+  return out;
+}
+
+v1::Job JobMaker::job_at(std::size_t point) const {
+  v1::Job out;
+  *out.mutable_case_() = case_at(point);
+  out.mutable_case_()->set_title(title_of(out.case_().title(), text(point)));
+  *out.mutable_labels() = sweep_.labels();
+  out.set_priority(sweep_.priority());
+  out.set_time_limit_s(sweep_.time_limit_s());
+  out.set_owner(sweep_.owner());
+  out.set_executor(executor_);
+  return out;
+}
+
 SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
-  const SweepPoints points = expand(sweep);
-  check_sizes(sweep, points.values.size());
   SweepPlan out;
+  out.maker = std::make_shared<const JobMaker>(sweep, checking.executor);
+  const SweepPoints& points = out.maker->points();
+  check_sizes(sweep, points.values.size());
   PointProblems problems(points.values.size(), PointProblems::Merge::equal);
   PointProblems notes(points.values.size(), PointProblems::Merge::but_for_numbers);
-  PointChecker checker(sweep, points, checking);
+  PointChecker checker(*out.maker, checking);
   for (std::size_t first = 0; first < points.values.size(); first += kPointsAtOnce) {
     for (auto& point : checker.check(first, std::min(first + kPointsAtOnce, points.values.size()))) {
       const std::size_t i = out.jobs.size();
@@ -271,7 +298,8 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
         out.most_memory_bytes = point.verdict.most_memory_bytes;
         out.largest = i;
       }
-      out.jobs.push_back({job_of(sweep, std::move(point.made)), points.values[i], point.verdict.element_steps});
+      const auto make = [maker = out.maker.get(), i] { return maker->job_at(i); };
+      out.jobs.push_back({make, points.values[i], point.verdict.element_steps});
     }
   }
   malloc_trim(0);  // otherwise each thread's heap keeps the memory of its largest mesh

@@ -172,7 +172,27 @@ std::vector<std::vector<double>> listed(const v1::Sweep& sweep, const std::vecto
   return out;
 }
 
+std::int64_t count_of(const v1::SweepAxis& axis) {
+  switch (axis.values_case()) {
+    case v1::SweepAxis::kList: return axis.list().values_size();
+    case v1::SweepAxis::kLinear: return axis.linear().count();
+    case v1::SweepAxis::kLogarithmic: return axis.logarithmic().count();
+    case v1::SweepAxis::kSeedCount: return axis.seed_count();
+    case v1::SweepAxis::VALUES_NOT_SET: break;
+  }
+  return 0;
+}
+
 }  // namespace
+
+std::int64_t most_points(const v1::Sweep& sweep) {
+  constexpr auto kMost = static_cast<std::int64_t>(kMostPoints);
+  std::int64_t out = std::clamp<std::int64_t>(sweep.points_size(), 1, kMost);
+  for (const auto& axis : sweep.axes()) {
+    if (!axis.with_previous()) out = std::min(out * std::clamp<std::int64_t>(count_of(axis), 1, kMost), kMost);
+  }
+  return out;
+}
 
 RepeatedPoints find_repeated(const std::vector<std::vector<double>>& points) {
   std::vector<std::size_t> order;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct RepeatedPoints {
   std::size_t second = 0;
 };
 RepeatedPoints find_repeated(const std::vector<std::vector<double>>& points);
+
+/// At least as many points as the sweep has, and at most kMostPoints, without making them.
+std::int64_t most_points(const v1::Sweep& sweep);
 
 /// The fields that a sweep varies: those of its axes in order, or those of its points by name.
 std::vector<std::string> swept_fields(const v1::Sweep& sweep);

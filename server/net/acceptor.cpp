@@ -44,6 +44,11 @@ Acceptor::Acceptor(std::vector<ListeningPort> ports, const ConnectionLimits& lim
                        std::string("Cannot accept connections: ") + std::strerror(errno) + ".");
 }
 
+Acceptor::~Acceptor() {
+  stop();
+  close(wake_);
+}
+
 void Acceptor::start() {
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -56,7 +61,6 @@ void Acceptor::stop() {
   if (std::exchange(closed_, true)) return;
   ports_.clear();
   if (reserve_ >= 0) close(reserve_);
-  close(wake_);
 }
 
 std::vector<ListenAddress> Acceptor::addresses() const {
@@ -87,9 +91,29 @@ void Acceptor::look_after_connections() {
   parts_.counted(of_others_.count() + of_owner_.count());
 }
 
-void Acceptor::wake() const {
-  const MutexLock lock(mutex_);
-  if (!closed_) eventfd_write(wake_, 1);
+void Acceptor::wake() const { eventfd_write(wake_, 1); }
+
+void Acceptor::cut(std::function<std::vector<std::string>()> choose) {
+  {
+    const MutexLock lock(cuts_mutex_);
+    cuts_.push_back(std::move(choose));
+  }
+  wake();
+}
+
+void Acceptor::cut_connections() {
+  std::vector<std::function<std::vector<std::string>()>> cuts;
+  {
+    const MutexLock lock(cuts_mutex_);
+    cuts.swap(cuts_);
+  }
+  for (const auto& choose : cuts) {
+    const auto names = choose();
+    const MutexLock lock(mutex_);
+    for (const auto& name : names) {
+      if (of_others_.cut(name)) parts_.refused("further calls of " + name + ", which has too many open");
+    }
+  }
 }
 
 void Acceptor::run(const std::stop_token& stop) {
@@ -97,6 +121,7 @@ void Acceptor::run(const std::stop_token& stop) {
 }
 
 void Acceptor::wait_and_accept() {
+  cut_connections();
   std::vector<pollfd> waiting = {{wake_, POLLIN, 0}};
   std::vector<std::size_t> port_of;
   {
@@ -112,7 +137,7 @@ void Acceptor::wait_and_accept() {
   poll(waiting.data(), waiting.size(), kLookMilliseconds);
   eventfd_t none = 0;
   if (waiting.front().revents != 0) {
-    // A port was reopened, so its sockets have changed.
+    // A port was reopened, so its sockets have changed, or a connection is to be cut.
     eventfd_read(wake_, &none);
     return;
   }

@@ -37,7 +37,7 @@ class Acceptor {
 
   /// Accepts from `start` on. The ports already listen: earlier connections wait.
   Acceptor(std::vector<ListeningPort> ports, const ConnectionLimits& limits, Parts parts);
-  ~Acceptor() { stop(); }
+  ~Acceptor();
   Acceptor(const Acceptor&) = delete;
   Acceptor& operator=(const Acceptor&) = delete;
 
@@ -48,6 +48,10 @@ class Acceptor {
     const MutexLock lock(mutex_);
     of_others_.know(name, caller);
   }
+
+  /// Closes the connections of these names soon, and drops what they have sent. `choose` is called on the acceptor's
+  /// thread.
+  void cut(std::function<std::vector<std::string>()> choose);
 
   /// Closes the ports; connections handed over stay open.
   void stop();
@@ -67,6 +71,7 @@ class Acceptor {
   void refuse_with_reserve(int listener) CELLCRUSH_REQUIRES(mutex_);
   void take(std::size_t port, int listener, int descriptor, const sockaddr_storage& peer) CELLCRUSH_REQUIRES(mutex_);
   void wake() const;
+  void cut_connections();
   void look_after_connections() CELLCRUSH_REQUIRES(mutex_);
 
   ConnectionLimits limits_;
@@ -80,7 +85,9 @@ class Acceptor {
   int reserve_ CELLCRUSH_GUARDED_BY(mutex_) = -1;
   bool closed_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::chrono::steady_clock::time_point last_count_ CELLCRUSH_GUARDED_BY(mutex_);
-  const int wake_;  ///< eventfd; exists until closed_
+  Mutex cuts_mutex_;  ///< held for a moment: gRPC may cut a connection while it is given another one
+  std::vector<std::function<std::vector<std::string>()>> cuts_ CELLCRUSH_GUARDED_BY(cuts_mutex_);
+  const int wake_;  ///< eventfd
   std::jthread thread_;
 };
 

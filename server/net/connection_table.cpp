@@ -46,6 +46,18 @@ void ConnectionTable::know(const std::string& name, const std::string& caller) {
   if (const auto found = names_.find(name); found != names_.end()) know(found->second, caller);
 }
 
+bool ConnectionTable::cut(const std::string& name) {
+  const auto found = names_.find(name);
+  if (found == names_.end()) return false;
+  const auto entry = entries_.find(found->second);
+  const bool was_open = is_open(entry->first, entry->second);
+  // Unlike shutdown, this leaves nothing to be read. The connection's owner then closes it.
+  const sockaddr nobody{AF_UNSPEC, {}};
+  if (was_open) connect(entry->first, &nobody, sizeof(nobody));
+  erase(entry);
+  return was_open;
+}
+
 bool ConnectionTable::is_open(int descriptor, const Entry& entry) {
   struct stat status {};
   return fstat(descriptor, &status) == 0 && status.st_ino == entry.inode && status.st_dev == entry.device;
@@ -114,6 +126,22 @@ std::string peer_of(const sockaddr_storage& address) {
   if (IN6_IS_ADDR_LOOPBACK(&network)) return "::1";
   std::fill(network.s6_addr + 8, network.s6_addr + 16, std::uint8_t{0});
   return text_of(AF_INET6, &network) + "/64";
+}
+
+std::string peer_of_name(const std::string& name) {
+  constexpr std::size_t kIpv4 = 5;  // "ipv4:"
+  constexpr std::size_t kIpv6 = 8;  // "ipv6:%5B"
+  sockaddr_storage out{};
+  if (name.starts_with("ipv4:")) {
+    out.ss_family = AF_INET;
+    const std::string host = name.substr(kIpv4, name.rfind(':') - kIpv4);
+    inet_pton(AF_INET, host.c_str(), &reinterpret_cast<sockaddr_in&>(out).sin_addr);
+  } else if (name.starts_with("ipv6:%5B")) {
+    out.ss_family = AF_INET6;
+    const std::string host = name.substr(kIpv6, name.find("%5D") - kIpv6);
+    inet_pton(AF_INET6, host.c_str(), &reinterpret_cast<sockaddr_in6&>(out).sin6_addr);
+  }
+  return peer_of(out);
 }
 
 }  // namespace cellcrush::net

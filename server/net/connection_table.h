@@ -35,6 +35,9 @@ class ConnectionTable {
   void know(int descriptor, const std::string& caller);
   void know(const std::string& name, const std::string& caller);
 
+  /// Closes the connection of this name, and drops what was received on it. False if there is none.
+  bool cut(const std::string& name);
+
   /// Drops closed connections.
   void drop_closed();
 
@@ -72,5 +75,6 @@ std::string name_of(const sockaddr_storage& address);
 
 /// The peer as far as its address identifies it: the IPv4 address, the IPv6 network (first 64 bits), or "unix".
 std::string peer_of(const sockaddr_storage& address);
+std::string peer_of_name(const std::string& name);  ///< by that name of the connection
 
 }  // namespace cellcrush::net

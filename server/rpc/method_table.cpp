@@ -1,12 +1,12 @@
 #include "rpc/method_table.h"
 
 #include <google/protobuf/descriptor.h>
-#include <grpcpp/support/server_interceptor.h>
 
 #include <algorithm>
 
 #include "error.h"
 #include "error_table.h"
+#include "net/connection_table.h"
 #include "rpc/request_fields.h"
 
 namespace cellcrush::rpc {
@@ -23,60 +23,7 @@ InvalidField parse_error(std::string_view path) {
           "Encode it with this server's .proto files, and every string as UTF-8."};
 }
 
-// "ipv4:127.0.0.1" of "ipv4:127.0.0.1:40312".
-std::string address_of(const std::string& peer) {
-  return peer.starts_with("unix:") ? "unix" : peer.substr(0, peer.rfind(':'));
-}
-
-namespace grpc_hooks = grpc::experimental;
-
-// Lives as long as its call over gRPC.
-class CallInterceptor final : public grpc_hooks::Interceptor {
- public:
-  explicit CallInterceptor(OpenCalls& open) : open_(open) { open_.add(); }
-  ~CallInterceptor() override { open_.remove(); }
-  CallInterceptor(const CallInterceptor&) = delete;
-  CallInterceptor& operator=(const CallInterceptor&) = delete;
-
-  void Intercept(grpc_hooks::InterceptorBatchMethods* methods) override { methods->Proceed(); }
-
- private:
-  OpenCalls& open_;
-};
-
-class CallInterceptors final : public grpc_hooks::ServerInterceptorFactoryInterface {
- public:
-  explicit CallInterceptors(OpenCalls& open) : open_(open) {}
-
-  // gRPC owns the returned object.
-  grpc_hooks::Interceptor* CreateServerInterceptor(grpc_hooks::ServerRpcInfo*) override {
-    return new CallInterceptor(open_);
-  }
-
- private:
-  OpenCalls& open_;
-};
-
 }  // namespace
-
-void OpenCalls::add() {
-  const MutexLock lock(mutex_);
-  ++count_;
-}
-
-void OpenCalls::remove() {
-  const MutexLock lock(mutex_);
-  if (--count_ == 0) none_.notify_all();
-}
-
-void OpenCalls::wait_until_none(std::chrono::milliseconds longest) {
-  MutexLock lock(mutex_);
-  none_.wait_for(lock, longest, [this]() CELLCRUSH_REQUIRES(mutex_) { return count_ == 0; });
-}
-
-std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_interceptors(OpenCalls& open) {
-  return std::make_unique<CallInterceptors>(open);
-}
 
 void MethodTable::UnaryReactor::finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge) {
   if (charge) {
@@ -164,7 +111,10 @@ Incoming MethodTable::incoming_of(const grpc::ByteBuffer& bytes) {
 
 std::string MethodTable::name_of(const grpc::CallbackServerContext& context, bool is_open) const {
   const std::string connection = context.peer();
-  if (is_open) return address_of(connection);
+  if (is_open) {
+    const auto local = gate_.local_caller_of(*context.auth_context());
+    return local ? local->name : net::peer_of_name(connection);
+  }
   auto out = gate_.caller_of(context).name;
   if (on_admitted) on_admitted(connection, out);
   return out;

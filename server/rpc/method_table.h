@@ -7,8 +7,6 @@
 #include <grpcpp/impl/codegen/service_type.h>
 
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
@@ -18,7 +16,6 @@
 #include <utility>
 
 #include "access/gate.h"
-#include "mutex.h"
 #include "rpc/accounts.h"
 #include "rpc/call_pool.h"
 #include "rpc/cut.h"
@@ -74,12 +71,14 @@ class MethodTable {
   // Throws ServiceError (internal) if the .proto files have no such method.
 
   /// `pool`: answers the calls; null: the thread that brings a call. `is_large`: whether an answer may take seconds.
+  /// `weigh`: bytes of memory that it takes beside the request.
   template <class Service, class Request, class Response>
   void unary(const char* path, std::optional<access::Scope> scope, CallPool* pool,
              const std::shared_ptr<Service>& service, Response (Service::*handle)(const Call&, const Request&),
-             bool (*is_large)(const std::type_identity_t<Request>&) = nullptr) {
+             bool (*is_large)(const std::type_identity_t<Request>&) = nullptr,
+             std::int64_t (*weigh)(const std::type_identity_t<Request>&) = nullptr) {
     // What both doors do: parse, perhaps move to the pool for checks, answer with `take`.
-    const auto begin = [this, path, pool, service, handle, is_large](Arrived arrived, auto take) {
+    const auto begin = [this, path, pool, service, handle, is_large, weigh](Arrived arrived, auto take) {
       const auto request = std::make_shared<Request>();
       const auto respond = [service, handle, request, take](CallPool::Task& task) {
         auto response = (*service.*handle)(*task.call, *request);
@@ -87,12 +86,12 @@ class MethodTable {
         task.charge->set(take(std::move(response)));
       };
       arrived.task.bytes = heaviest_request_of(static_cast<std::size_t>(arrived.incoming.bytes));
-      arrived.task.body = [this, path, pool, request, respond, is_large,
+      arrived.task.body = [this, path, pool, request, respond, is_large, weigh,
                            in = std::move(arrived.incoming)](CallPool::Task& task) mutable {
         read_into(*request, path, in);
         in = {};
         if (pool == nullptr || pool == &calls_) return respond(task);
-        task.charge->set(static_cast<std::int64_t>(request->SpaceUsedLong()));
+        task.charge->set(static_cast<std::int64_t>(request->SpaceUsedLong()) + (weigh ? weigh(*request) : 0));
         CallPool::Task next = std::move(task);
         task.finish = nullptr;
         next.is_large = is_large != nullptr && is_large(*request);
@@ -281,22 +280,5 @@ class MethodTable {
   GrpcService grpc_;
   std::map<std::string, Method, std::less<>> methods_;
 };
-
-/// Counts the calls over gRPC that are not answered yet. Thread-safe.
-class OpenCalls {
- public:
-  void add();
-  void remove();
-  /// Returns once there is none, or after this time.
-  void wait_until_none(std::chrono::milliseconds longest);
-
- private:
-  Mutex mutex_;
-  std::condition_variable_any none_;
-  int count_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
-};
-
-/// Counts every call over gRPC in `open`, which outlives the server.
-std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_call_interceptors(OpenCalls& open);
 
 }  // namespace cellcrush::rpc

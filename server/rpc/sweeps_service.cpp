@@ -22,6 +22,8 @@
 namespace cellcrush::rpc {
 namespace {
 
+constexpr std::int64_t kPointBytes = 500;  // of a point of a sweep, until its job is queued
+
 // The caller's fields only; the daemon sets the rest.
 v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
   auto& sweep = *request.mutable_sweep();
@@ -77,9 +79,8 @@ class SweepCalls {
     const std::string hash = payload_hash(request, owner);
     request.mutable_sweep()->set_owner(owner);
     const auto given_up = [&call] { return call.is_cancelled(); };
-    // The cases of 100,000 jobs have 400 MB, most of which the C library would keep.
     const absl::Cleanup return_heap = [] { malloc_trim(0); };
-    auto plan = jobs::plan_sweep(request.sweep(), {parts_.places, parts_.check_threads, given_up});
+    const auto plan = jobs::plan_sweep(request.sweep(), {parts_.places, parts_.check_threads, given_up, executor});
     if (!plan.problems.empty()) throw RefusedCase(plan.problems, "sweep");
     const auto with_notes = [&](v1::Sweep answer) {
       *answer.mutable_notes() = plan.notes;
@@ -87,9 +88,8 @@ class SweepCalls {
       return answer;
     };
     if (request.validate_only()) return with_notes(request.sweep());
-    for (auto& made : plan.jobs) made.job.set_executor(executor);
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(plan.most_memory_bytes, [&] {
-      const v1::Case& largest = plan.jobs[plan.largest].job.case_();
+      const v1::Case largest = plan.jobs[plan.largest].job().case_();
       const jobs::MeshPlaces::Place mesh(parts_.places, translate::CaseChecker().elements_to_build(largest), given_up);
       return translate::predicted_memory(largest);
     });
@@ -274,7 +274,8 @@ void add_sweeps_methods(MethodTable& table, const ServiceParts& parts) {
   using access::Scope;
   const auto calls = std::make_shared<SweepCalls>(parts);
   table.unary("/cellcrush.v1.Sweeps/CreateSweep", Scope::submit, &parts.checks, calls, &SweepCalls::create_sweep,
-              [](const v1::CreateSweepRequest&) { return true; });
+              [](const v1::CreateSweepRequest&) { return true; },
+              [](const v1::CreateSweepRequest& request) { return kPointBytes * jobs::most_points(request.sweep()); });
   table.unary("/cellcrush.v1.Sweeps/GetSweep", Scope::read, &parts.calls, calls, &SweepCalls::get_sweep);
   table.unary("/cellcrush.v1.Sweeps/ListSweeps", Scope::read, &parts.calls, calls, &SweepCalls::list_sweeps);
   table.unary("/cellcrush.v1.Sweeps/UpdateSweep", Scope::submit, &parts.calls, calls, &SweepCalls::update_sweep);

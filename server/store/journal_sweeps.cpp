@@ -161,7 +161,7 @@ void Journal::insert_jobs(CreatedSweep& created, const std::vector<SweepJob>& jo
     point.mutable_values()->Add(made.values.begin(), made.values.end());
     entry.element_steps = made.element_steps;
     if (!created.jobs.empty()) entry.submission = created.jobs.front();
-    v1::Job job = made.job;
+    v1::Job job = made.job();
     job.set_sweep(sweep_name_of(created.sweep));
     created.jobs.push_back(inserter.insert(std::move(job), entry));
     join.bind(1, created.sweep).bind(2, position).bind(3, created.jobs.back());

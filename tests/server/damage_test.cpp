@@ -44,8 +44,11 @@ class DamageTest : public JournalTest {
     v1::Sweep sweep;
     *sweep.mutable_case_() = testing::small_case();
     const v1::Job job = reader_->find_job(1)->job;
-    v1::Job of_sweep;
-    *of_sweep.mutable_case_() = job.case_();
+    const auto of_sweep = [&job] {
+      v1::Job out;
+      *out.mutable_case_() = job.case_();
+      return out;
+    };
     journal_->create_sweep(sweep, {{of_sweep, {50.0}}, {of_sweep, {80.0}}}, "", "");
     const std::int64_t last = create();
     for (int i = 0; i < 30; ++i)

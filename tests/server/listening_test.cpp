@@ -118,6 +118,24 @@ TEST(ConnectionTable, TellsADescriptorThatIsUsedAgainFromTheConnectionThatHadIt)
   EXPECT_EQ(table.count(), 1U);
 }
 
+TEST(ConnectionTable, CutsAConnectionWithAllThatItHasSent) {
+  const net::ListeningPort port({ListenAddress::Kind::tcp, "127.0.0.1", 0}, "--listen");
+  const auto name = net::name_of(port.address());
+  const int client = socket(AF_INET, SOCK_STREAM, 0);
+  ASSERT_EQ(connect(client, reinterpret_cast<const sockaddr*>(&name.address), name.size), 0);
+  ASSERT_EQ(write(client, "much", 4), 4);
+  const int end = accept(port.descriptors().front(), nullptr, nullptr);
+  ConnectionTable table({1, 1});
+  ASSERT_EQ(table.admit(end, "a", "ipv4:a:1"), std::nullopt);
+  EXPECT_FALSE(table.cut("ipv4:a:2"));
+  EXPECT_TRUE(table.cut("ipv4:a:1"));
+  char byte = 0;
+  EXPECT_LT(recv(end, &byte, 1, MSG_DONTWAIT), 0) << "nothing of it is left to read";
+  EXPECT_LE(recv(client, &byte, 1, 0), 0);
+  close(client);
+  close(end);
+}
+
 TEST(PeerOf, IsTheAddressOfIpv4AndTheNetworkOfIpv6) {
   const auto ipv6 = [](const char* text) {
     sockaddr_storage out{};
@@ -130,6 +148,9 @@ TEST(PeerOf, IsTheAddressOfIpv4AndTheNetworkOfIpv6) {
   EXPECT_EQ(net::peer_of(ipv6("::ffff:192.0.2.7")), "192.0.2.7");
   EXPECT_EQ(net::peer_of(ipv6("::1")), "::1");
   EXPECT_EQ(net::peer_of({}), "unix");
+  for (const char* address : {"2001:db8:1:2:3:4:5:6", "::ffff:192.0.2.7", "::1"})
+    EXPECT_EQ(net::peer_of_name(net::name_of(ipv6(address))), net::peer_of(ipv6(address)));
+  EXPECT_EQ(net::peer_of_name("unix:/run/cellcrushd.sock"), "unix");
 }
 
 }  // namespace

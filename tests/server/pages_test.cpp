@@ -80,7 +80,7 @@ class PagesTest : public DaemonFixture {
       const auto sweep = sweep_of(small_case(), kSpeed, std::vector<double>(1, 50.0)).sweep();
       std::vector<store::SweepJob> jobs(static_cast<std::size_t>(count));
       for (std::size_t i = 0; i < jobs.size(); ++i) {
-        *jobs[i].job.mutable_case_() = small_case();
+        jobs[i].job = small_job;
         jobs[i].values = {50.0 + static_cast<double>(i)};
       }
       journal.create_sweep(sweep, jobs, "", "");

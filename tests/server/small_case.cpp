@@ -14,6 +14,12 @@ v1::Case small_case() {
     output { sample_count: 100 frame_count: 10 })");
 }
 
+v1::Job small_job() {
+  v1::Job out;
+  *out.mutable_case_() = small_case();
+  return out;
+}
+
 v1::Case tiny_case() {
   return with_text(small_case(), R"(
     lattice { hexagon { columns: 4 rows: 3 } } loading { end_strain: 0.3 }

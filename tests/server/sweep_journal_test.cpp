@@ -18,7 +18,7 @@ class SweepJournalTest : public JournalTest {
   static std::vector<SweepJob> three_jobs() {
     std::vector<SweepJob> out(3);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      *out[i].job.mutable_case_() = testing::small_case();
+      out[i].job = testing::small_job;
       out[i].values = {50.0 * static_cast<double>(i + 1)};
     }
     return out;

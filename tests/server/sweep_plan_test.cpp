@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <atomic>
 #include <limits>
@@ -202,7 +203,7 @@ v1::Sweep grid() {
 std::string text_of(const SweepPlan& plan) {
   std::string out = std::to_string(plan.most_memory_bytes) + " at " + std::to_string(plan.largest) + "\n";
   for (const auto& job : plan.jobs) {
-    out += job.job.DebugString() + std::to_string(job.element_steps) + "\n";
+    out += job.job().DebugString() + std::to_string(job.element_steps) + "\n";
     for (const double value : job.values) out += std::to_string(value) + "\n";
   }
   for (const auto& problem : plan.problems) out += problem.DebugString();
@@ -224,6 +225,20 @@ TEST(SweepPlan, IsTheSameWhateverTheNumberOfThreads) {
       EXPECT_EQ(text_of(plan_sweep(sweep, {places, threads, is_never_cancelled})), text_of(plan));
     }
   }
+}
+
+TEST(SweepPlan, KeepsNoJobs) {
+  MeshPlaces places;
+  const v1::Sweep sweep = testing::with_text(
+      grid(), "axes { field: 'lattice.hexagon.wall_thickness_mm' linear { first: 0.1 count: 20 last: 0.3 } }");
+  const std::size_t before = mallinfo2().uordblks;
+  const SweepPlan plan = plan_sweep(sweep, {places, 1, is_never_cancelled, "cluster"});
+  EXPECT_LT(mallinfo2().uordblks, before + 500 * plan.jobs.size());
+  EXPECT_EQ(most_points(sweep), 340);
+  const v1::Job last = plan.jobs.back().job();
+  EXPECT_EQ(last.case_().lattice().imperfection().seed(), 17U);
+  EXPECT_EQ(last.case_().lattice().hexagon().wall_thickness_mm(), 0.3);
+  EXPECT_EQ(last.executor(), "cluster");
 }
 
 // 38 bytes a point and 17 for the name of its job: 80,000 would not fit in a message of 4 MiB.

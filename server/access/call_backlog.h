@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "mutex.h"
+
+namespace cellcrush::access {
+
+/// The calls over gRPC that have come and not ended. gRPC 1.51 takes 12 to 20 kB for each, reads them faster than it
+/// begins and ends them, waits for a message without limit, and no longer counts those that their client has reset.
+/// Here the connections share the places: each may have as many as are left free, so that some are left for others.
+/// Thread-safe.
+class CallBacklog {
+ public:
+  /// Identifies a connection as long as it is open.
+  using Key = const void*;
+
+  explicit CallBacklog(std::size_t most) : most_(most) {}
+
+  /// Both are called from within `admit`, and are quick. REQUIRES: no call has come.
+  struct Alarms {
+    /// This connection, by gRPC's name, makes calls in spite of many refusals.
+    std::function<void(const std::string& connection)> flood;
+    /// Many calls have not begun: some may have ended before, unseen. Asks for `settle`.
+    std::function<void()> crowd;
+  };
+  void set_alarms(Alarms alarms) { alarms_ = std::move(alarms); }
+
+  /// A call has come. False if it is one too many of its connection.
+  [[nodiscard]] bool admit(Key connection);
+
+  /// An admitted call was read and queued; then it begins; then it ends.
+  void queue();
+  void begin(Key connection, const std::string& name);
+  void end(Key connection);
+
+  /// `streams`: those that are open in truth, by connection. Returns the connections with most calls that have not
+  /// begun, while all together have too many.
+  std::vector<std::string> settle(const std::map<std::string, std::size_t>& streams);
+
+ private:
+  struct Connection {
+    std::string name;        ///< empty until a call begins
+    std::size_t coming = 0;  ///< admitted and not begun, or ended before that since `settle`
+    std::size_t begun = 0;   ///< and not ended
+    std::size_t refusals = 0;  ///< since none was queued
+  };
+
+  /// So many calls that have not begun are suspicious: it takes a call a moment.
+  [[nodiscard]] std::size_t crowd() const { return most_ / 4; }
+
+  const std::size_t most_;
+  Alarms alarms_;
+  Mutex mutex_;
+  std::size_t queued_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::size_t coming_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< of all connections, the queued ones too
+  std::size_t begun_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::size_t refusals_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  bool is_settling_ CELLCRUSH_GUARDED_BY(mutex_) = false;  ///< `crowd` was called
+  std::chrono::steady_clock::time_point may_settle_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::unordered_map<Key, Connection> connections_ CELLCRUSH_GUARDED_BY(mutex_);
+};
+
+}  // namespace cellcrush::access
