@@ -1,7 +1,10 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
+#include "access/unix_user.h"
 #include "error_table.h"
 #include "http/browser_rules.h"
 #include "http/connection.h"
@@ -120,7 +123,7 @@ Connection::Permit Connection::permit_for(const Request& head, std::int64_t body
   if (out.is_stranger) {
     // The methods that are open to everybody need small requests.
     body_bytes = std::min<std::int64_t>(body_bytes, kLargestUnasked);
-    out.caller.name = local_caller_ ? local_caller_->name : address_of_client();
+    out.caller.name = user_ == geteuid() ? access::own_user() : address_of_client();
   } else {
     parts_.table.know(stream_.plain().socket().native_handle(), out.caller.name);
   }
