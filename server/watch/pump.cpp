@@ -13,8 +13,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kTick{1};
-constexpr std::chrono::microseconds kBeatOfATask{500};
-constexpr std::chrono::milliseconds kLongestBeat{100};
+constexpr std::chrono::milliseconds kBeatOfATask{1};
+constexpr std::chrono::milliseconds kLongestBeat{200};
 
 struct Work final : Pump::Task {
   explicit Work(std::function<void()> given) : Task("the daemon"), work(std::move(given)) {}

@@ -49,7 +49,7 @@ class Pump {
   void schedule(const std::shared_ptr<Task>& task);
 
   /// Something has changed that the task is to tell. As `schedule`, but only once in a beat: what changes meanwhile is
-  /// told together. The more tasks, the longer a beat, from half a millisecond to a tenth of a second. Quick; may be
+  /// told together. The more tasks, the longer a beat, from a millisecond to a fifth of a second. Quick; may be
   /// called under other locks.
   void wake(const std::shared_ptr<Task>& task);
 

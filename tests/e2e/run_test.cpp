@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// As the small case, of several seconds, so that two signals find it under way.
-std::string longer_case() {
+// As the small case, of a second or two, so that a signal finds it under way; two signals, at half that speed.
+std::string longer_case(const std::string& speed = "0.16") {
   std::string text = small_case();
-  text.replace(text.find("speed_m_per_s: 100"), 18, "speed_m_per_s: 0.08");
+  text.replace(text.find("speed_m_per_s: 100"), 18, "speed_m_per_s: " + speed);
   return text;
 }
 
@@ -84,7 +84,7 @@ TEST_F(Run, NamesAFileSystemWithoutLocks) {
 }
 
 TEST_F(Run, StoppedBySignalsItContinuesToTheSameBits) {
-  const std::string submitted = write_file("longer.txtpb", longer_case());
+  const std::string submitted = write_file("longer.txtpb", longer_case("0.08"));
   auto command = words(submitted, folder() / "out");
   const Outcome stopped = run_until(SIGINT, command);
   EXPECT_EQ(stopped.exit_code, 130) << stopped.all();
@@ -148,7 +148,7 @@ TEST_F(Run, WhoseDaemonDiesSaysHowToContinue) {
 
 TEST_F(Run, OneThatFailedIsNoFinishedRun) {
   auto command = words(write_file("longer.txtpb", longer_case()), folder() / "out");
-  command.insert(command.end(), {"--time-limit", "1s", "--resume"});
+  command.insert(command.end(), {"--time-limit", "0.3s", "--resume"});
   const Outcome failed = run(command, kCrushLimit);
   EXPECT_EQ(failed.exit_code, 1) << failed.all();
   EXPECT_FALSE(fs::exists(folder() / "out" / ".cellcrush"));

@@ -249,7 +249,7 @@ TEST_P(ConnectionFloodTest, FloodsLeaveEveryPortThreadsAndMemoryAsTheyWere) {
     auto request = named<v1::DownloadResultRequest>(job);
     for (std::size_t i = 0; i < 1100; ++i)
       readers.push_back(stubs[i % stubs.size()]->DownloadResult(&contexts.emplace_back(), request));
-    std::this_thread::sleep_for(seconds(2));
+    std::this_thread::sleep_for(milliseconds(rounds(500, 2000)));
     look();
     EXPECT_TRUE(check(channel()).ok());
     EXPECT_EQ(local.get(job).state(), v1::Job::SUCCEEDED);

@@ -100,13 +100,13 @@ TEST_F(FullDiskTest, WheneverItFillsNoJobFailsAndEachReachesItsEndWithTheSameBit
   const auto begin = std::chrono::steady_clock::now();
   const auto whole = undisturbed(client);
   const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
-  const int moments = rounds(4, 40);
+  const int moments = rounds(2, 40);
   for (int i = 0; i <= moments; ++i) {
     resize_the_disk(i);
     const std::string job = client.create(submitted());
     // The last moments are those at which the result is closed.
     std::this_thread::sleep_for(i * time / moments);
-    keep_the_disk_full(std::chrono::milliseconds(1200));
+    keep_the_disk_full(std::chrono::milliseconds(rounds(700, 1200)));
     expect_service(client);
     make_room();
     expect_the_same_end(client, job, whole);
@@ -144,7 +144,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
     resize_the_disk(i);
     const std::string cancelled = create_with_samples(client, endless_case(), 10);
     {
-      const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(1500)); });
+      const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(rounds(700, 1500))); });
       std::this_thread::sleep_for(std::chrono::milliseconds(37 * i));
       (void)client.cancel(cancelled);
     }
@@ -156,7 +156,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
 
     const std::string suspended = create_with_samples(client, submitted(), 10);
     {
-      const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(1500)); });
+      const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(rounds(700, 1500))); });
       std::this_thread::sleep_for(std::chrono::milliseconds(37 * i));
       (void)client.suspend(suspended);
     }
@@ -178,7 +178,7 @@ TEST_F(FullDiskTest, ADaemonStartsWithNextToNoRoomServesReadingAndRunsNothingUnt
     auto client = this->client();
     whole = undisturbed(client);
   }
-  const int step = rounds(36, 4);
+  const int step = rounds(72, 4);
   for (int kibibytes = 0; kibibytes <= 72; kibibytes += step) {
     resize_the_disk(kibibytes / step);
     std::string job;
@@ -197,10 +197,7 @@ TEST_F(FullDiskTest, ADaemonStartsWithNextToNoRoomServesReadingAndRunsNothingUnt
     ASSERT_NO_FATAL_FAILURE(start()) << kibibytes << " KiB";
     auto client = this->client();
     expect_service(client);
-    for (int i = 0; i < 20; ++i) {
-      fill_the_disk();
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+    keep_the_disk_full(std::chrono::milliseconds(rounds(500, 1000)));
     EXPECT_NE(client.get(job).state(), v1::Job::FAILED);
     expect_service(client);
     make_room();

@@ -73,14 +73,14 @@ class ShortageTest : public FaultFixture {
 };
 
 TEST_F(ShortageTest, WithoutDescriptorsTheQueueIsHeldAndNoJobFails) {
-  const int count = rounds(60, 500);
+  const int count = rounds(30, 500);
   fill_journal(data_folder(), count, tiny_case());
   start_daemon({"--workers", "2"});
   auto client = this->client();
   ASSERT_FALSE(all_jobs(client).empty()) << "The connection is there.";
   limit_descriptors(4);
   ASSERT_TRUE(wait_until_held_for(client, "descriptors"));
-  std::this_thread::sleep_for(std::chrono::seconds(2));
+  std::this_thread::sleep_for(std::chrono::milliseconds(rounds(500, 2000)));
   EXPECT_EQ(count_states(client)[v1::Job::FAILED], 0);
   EXPECT_GT(count_states(client)[v1::Job::PENDING], 0);
   EXPECT_FALSE(is_serving(client, "cellcrush.queue"));

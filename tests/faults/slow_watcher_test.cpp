@@ -44,7 +44,7 @@ TEST_F(SlowWatcherTest, CostsTheDaemonNoMemoryAndAnotherWatcherNoEvent) {
   });
   // The daemon's caches are filled first.
   wait_for_samples(client, job, 500);
-  std::this_thread::sleep_for(seconds(rounds(3, 20)));
+  std::this_thread::sleep_for(seconds(rounds(2, 20)));
 
   const std::size_t before = daemon_->resident_bytes();
   std::size_t most = before;
@@ -53,7 +53,7 @@ TEST_F(SlowWatcherTest, CostsTheDaemonNoMemoryAndAnotherWatcherNoEvent) {
   const auto reader = watch(slow_client, *context, job);
   WatchContract slow;
   v1::JobEvent event;
-  const int messages = rounds(8, 120);
+  const int messages = rounds(4, 120);
   for (int i = 0; i < messages; ++i) {
     ASSERT_TRUE(reader->Read(&event));
     slow.see(event);

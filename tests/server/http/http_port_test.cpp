@@ -119,11 +119,11 @@ TEST_F(HttpPortTest, AtTheLimitTheOldestStrangerIsClosed) {
   EXPECT_EQ(first.read_to_end(), "");
 }
 
-TEST_F(HttpPortTest, TenThousandConnectionsOfOneMachineHoldUpNoOther) {
-  constexpr int kConnections = 10'000;
+TEST_F(HttpPortTest, ThousandsOfConnectionsOfOneMachineHoldUpNoOther) {
+  constexpr int kConnections = 2'000;
   rlimit files{};
   getrlimit(RLIMIT_NOFILE, &files);
-  if (files.rlim_max < 12'000) GTEST_SKIP() << "A process may open " << files.rlim_max << " files only.";
+  if (files.rlim_max < 4'000) GTEST_SKIP() << "A process may open " << files.rlim_max << " files only.";
   start(http_options());  // raises the limit of this process
   std::vector<std::unique_ptr<HttpSocket>> idle;
   idle.reserve(kConnections);
