@@ -219,6 +219,7 @@ struct Daemon::Impl {
     parts.counted = [this](std::size_t open) {
       service.metrics.set_connections(open);
       heap.look();
+      gate.backlog().look();
     };
     acceptor.emplace(std::move(ports), options.connections, std::move(parts));
     service.methods.on_admitted = [this](const std::string& connection, const std::string& caller) {
@@ -273,7 +274,7 @@ struct Daemon::Impl {
     const auto& limits = options.connections;
     builder.SetMaxReceiveMessageSize(rpc::kLargestMessage);
     grpc::ResourceQuota quota("cellcrushd");
-    quota.Resize(static_cast<std::size_t>(limits.memory_bytes / 2));
+    quota.Resize(static_cast<std::size_t>(limits.memory_bytes));
     builder.SetResourceQuota(quota);
     // Drops connections that stay silent, and peers that vanished.
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, milliseconds(limits.handshake));

@@ -1,5 +1,6 @@
 // cellcrushd: parses flags, serves until a signal asks it to end. Exit codes: 0 ended in order, 1 could not start, 2
 // usage.
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -7,6 +8,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -22,6 +24,7 @@
 #include <vector>
 
 #include "access/token_file.h"
+#include "allotment.h"
 #include "cellcrush/simd.h"
 #include "command_line/daemon_flags.h"
 #include "command_line/store_commands.h"
@@ -219,6 +222,8 @@ int main(int argc, char** argv) {
   }
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   options.on_progress = [] { notify_manager("WATCHDOG=1"); };
+  // The C library would keep eight heaps for each core, each at the size of its largest flood.
+  mallopt(M_ARENA_MAX, std::max(2, cellcrush::usable_cores().count));
   const sigset_t signals = block_signals();
   return serve(options, signals, *log);
 }

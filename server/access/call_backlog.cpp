@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t kFlood = 200;  // refused calls
 constexpr std::chrono::seconds kBetweenCounts{1};
+constexpr std::chrono::milliseconds kSlow{250};  // for a message to come
 
 }  // namespace
 
@@ -26,17 +27,39 @@ bool CallBacklog::admit(Key connection) {
       ++refusals_;
       if (++of.refusals % kFlood == 0) flood = of.name;
     }
-    is_crowd = !is_settling_ && coming_ - queued_ >= crowd() && std::chrono::steady_clock::now() >= may_settle_;
-    is_settling_ = is_settling_ || is_crowd;
+    is_crowd = find_crowd();
   }
   if (!flood.empty() && alarms_.flood) alarms_.flood(flood);
   if (is_crowd && alarms_.crowd) alarms_.crowd();
   return has_place;
 }
 
+void CallBacklog::look() {
+  bool is_crowd = false;
+  {
+    const MutexLock lock(mutex_);
+    is_crowd = find_crowd();
+  }
+  if (is_crowd && alarms_.crowd) alarms_.crowd();
+}
+
+bool CallBacklog::find_crowd() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_look_ >= kSlow) {
+    slow_ = before_ - std::min(before_, queued_since_);
+    before_ = coming_ - queued_;
+    queued_since_ = 0;
+    last_look_ = now;
+  }
+  if (is_settling_ || now < may_settle_) return false;
+  is_settling_ = coming_ - queued_ >= crowd() || slow_ >= slow_crowd();
+  return is_settling_;
+}
+
 void CallBacklog::queue() {
   const MutexLock lock(mutex_);
   ++queued_;
+  ++queued_since_;
   coming_ = std::max(coming_, queued_);
 }
 
@@ -69,23 +92,31 @@ std::vector<std::string> CallBacklog::settle(const std::map<std::string, std::si
       found->second -= std::min(found->second, each.begun);
   }
   std::erase_if(connections_, [](const auto& each) { return each.second.begun == 0; });
-  std::vector<std::pair<std::size_t, std::string>> most_first;
   std::size_t all = 0;
+  std::vector<std::pair<std::size_t, std::string>> most_first;
   for (const auto& [name, count] : held) {
     all += count;
     most_first.emplace_back(count, name);
   }
+  auto most = crowd();
+  if (all < most && slow_ >= slow_crowd()) {
+    // A connection may have many calls for a moment: what counts is what it had before as well.
+    most = slow_crowd();
+    for (auto& [count, name] : most_first) count = std::min(count, held_[name]);
+  }
   std::sort(most_first.rbegin(), most_first.rend());
   std::vector<std::string> out;
   for (const auto& [count, name] : most_first) {
-    if (all < crowd()) break;
+    if (all < most || count == 0) break;
     if (!name.starts_with("ipv")) continue;  // one name for all connections of Unix sockets
     out.push_back(name);
     all -= count;
   }
+  held_ = std::move(held);
   coming_ = std::max(all, queued_);
   is_settling_ = false;
   if (all >= crowd()) may_settle_ = std::chrono::steady_clock::now() + kBetweenCounts;
+  if (all < crowd() && all >= slow_crowd()) may_settle_ = std::chrono::steady_clock::now() + kSlow;
   return out;
 }
 

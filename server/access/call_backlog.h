@@ -27,7 +27,7 @@ class CallBacklog {
   struct Alarms {
     /// This connection, by gRPC's name, makes calls in spite of many refusals.
     std::function<void(const std::string& connection)> flood;
-    /// Many calls have not begun: some may have ended before, unseen. Asks for `settle`.
+    /// Many calls have not begun, or some for long: they may have ended, unseen. Asks for `settle`.
     std::function<void()> crowd;
   };
   void set_alarms(Alarms alarms) { alarms_ = std::move(alarms); }
@@ -40,8 +40,11 @@ class CallBacklog {
   void begin(Key connection, const std::string& name);
   void end(Key connection);
 
+  /// Called about once a second: looks for calls whose messages do not end, which gRPC keeps, up to 4 MiB each.
+  void look();
+
   /// `streams`: those that are open in truth, by connection. Returns the connections with most calls that have not
-  /// begun, while all together have too many.
+  /// begun, while all together have too many. For calls that wait long, asks twice.
   std::vector<std::string> settle(const std::map<std::string, std::size_t>& streams);
 
  private:
@@ -54,6 +57,10 @@ class CallBacklog {
 
   /// So many calls that have not begun are suspicious: it takes a call a moment.
   [[nodiscard]] std::size_t crowd() const { return most_ / 4; }
+  /// So many whose messages take long hold too many bytes.
+  [[nodiscard]] std::size_t slow_crowd() const { return most_ / 100; }
+  /// Whether `crowd` is to be called.
+  bool find_crowd() CELLCRUSH_REQUIRES(mutex_);
 
   const std::size_t most_;
   Alarms alarms_;
@@ -63,6 +70,12 @@ class CallBacklog {
   std::size_t begun_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
   std::size_t refusals_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
   bool is_settling_ CELLCRUSH_GUARDED_BY(mutex_) = false;  ///< `crowd` was called
+  /// Calls that had come before the last look and were not queued since.
+  std::size_t slow_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::size_t before_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< calls that had come and were not queued, at the last look
+  std::size_t queued_since_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::chrono::steady_clock::time_point last_look_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::map<std::string, std::size_t> held_ CELLCRUSH_GUARDED_BY(mutex_);  ///< found by `settle`, for slow calls
   std::chrono::steady_clock::time_point may_settle_ CELLCRUSH_GUARDED_BY(mutex_);
   std::unordered_map<Key, Connection> connections_ CELLCRUSH_GUARDED_BY(mutex_);
 };

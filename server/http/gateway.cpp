@@ -27,6 +27,7 @@ namespace ssl = asio::ssl;
 using asio::ip::tcp;
 
 constexpr std::chrono::milliseconds kPause{100};  // without descriptors, new connections wait in the kernel
+constexpr int kAtOnce = 64;  // connections
 constexpr std::chrono::seconds kCallsMayEnd{1};
 /// Of TLS 1.2: those that gRPC takes. OpenSSL's own three of TLS 1.3 are gRPC's too.
 constexpr const char* kCiphers =
@@ -125,6 +126,7 @@ struct Gateway::Impl {
       getsockname(descriptor, reinterpret_cast<sockaddr*>(&name), &size);
       auto& acceptor = acceptors.emplace_back(io);
       acceptor.assign(name.ss_family == AF_INET6 ? tcp::v6() : tcp::v4(), dup(descriptor));
+      acceptor.non_blocking(true);
       asio::co_spawn(io, accept(acceptor), asio::detached);
     }
     thread = std::jthread([this] { io.run(); });
@@ -140,7 +142,19 @@ struct Gateway::Impl {
         co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, error));
       } else {
         take(std::move(socket));
+        take_waiting(acceptor);
       }
+    }
+  }
+
+  // Each turn of the loop serves all connections, so a flood of new ones must not need a turn each.
+  void take_waiting(tcp::acceptor& acceptor) {
+    for (int i = 0; i < kAtOnce && acceptor.is_open(); ++i) {
+      boost::system::error_code error;
+      tcp::socket socket(io);
+      acceptor.accept(socket, error);
+      if (error) return;
+      take(std::move(socket));
     }
   }
 

@@ -11,7 +11,7 @@ struct ConnectionLimits {
   int connections = 1000;                      ///< the daemon's own user has a separate limit on Unix sockets
   int connections_per_address = 500;           ///< from one remote machine, or of one other Unix user
   int streams = 2000;                          ///< open watches, downloads, frames and reflection
-  int streams_per_caller = 1000;               ///< of one token or certificate; without either, of all callers together
+  int streams_per_caller = 1000;               ///< of one Unix user, token or certificate; without any, of one address
   std::int64_t memory_bytes = 256 << 20;       ///< for connections and their messages
   int threads = 16;                            ///< for calls other than streams and checks
   std::chrono::milliseconds handshake{5'000};  ///< deadline for a new connection to complete its handshake
