@@ -12,6 +12,7 @@
 #include "server/small_case.h"
 #include "server/small_cluster.h"
 #include "server/sweep_requests.h"
+#include "store/sqlite.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -61,6 +62,18 @@ class MetricsTest : public DaemonFixture {
   static constexpr const char* kRequest = "GET /metrics HTTP/1.0\r\n\r\n";
   SmallCluster cluster_;
 };
+
+TEST_F(MetricsTest, AJournalThatLostItsChangesIsDamaged) {
+  client().create(tiny_case());
+  scrape_until("cellcrush_journal_damaged", 0.0);
+  daemon_.reset();
+  {
+    store::Database journal(data_folder() / "journal.sqlite");
+    journal.execute("DELETE FROM changes; DELETE FROM sqlite_sequence WHERE name = 'changes'");
+  }
+  start(measured(2));
+  scrape_until("cellcrush_journal_damaged", 1.0);
+}
 
 TEST_F(MetricsTest, TellJobsStepsAndTheTimeOfEachStage) {
   const std::string before = scrape();
