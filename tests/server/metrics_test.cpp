@@ -12,6 +12,7 @@
 #include "server/small_case.h"
 #include "server/small_cluster.h"
 #include "server/sweep_requests.h"
+#include "store/journal.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::testing {
@@ -64,13 +65,11 @@ class MetricsTest : public DaemonFixture {
 };
 
 TEST_F(MetricsTest, AJournalThatLostItsChangesIsDamaged) {
-  client().create(tiny_case());
   scrape_until("cellcrush_journal_damaged", 0.0);
   daemon_.reset();
-  {
-    store::Database journal(data_folder() / "journal.sqlite");
-    journal.execute("DELETE FROM changes; DELETE FROM sqlite_sequence WHERE name = 'changes'");
-  }
+  const auto path = data_folder() / "journal.sqlite";
+  store::Journal(path, [](std::int64_t) {}).create_job({}, "", "");
+  store::Database(path).execute("DELETE FROM changes; DELETE FROM sqlite_sequence WHERE name = 'changes'");
   start(measured(2));
   scrape_until("cellcrush_journal_damaged", 1.0);
 }
