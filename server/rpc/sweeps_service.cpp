@@ -176,7 +176,7 @@ class SweepCalls {
   }
 
   v1::SweepTable get_sweep_table(const Call&, const v1::GetSweepTableRequest& request) {
-    const auto found = find(request.name());
+    const auto found = find(request.name(), store::SweepReader::Jobs::left_out);
     if (request.mean_over_seeds()) return seed_means(found, request);
     const std::string question = "table of " + found.sweep.name();
     const auto page = read_full_page(request.page_size(), request.page_token(), question);
@@ -241,16 +241,16 @@ class SweepCalls {
   }
 
   /// Throws ServiceError: not_found if there is none, data_loss for a damaged one.
-  Found find(const std::string& name) {
-    auto found = find_any(name);
+  Found find(const std::string& name, store::SweepReader::Jobs jobs = store::SweepReader::Jobs::listed) {
+    auto found = find_any(name, jobs);
     if (!found.sweep.has_create_time()) throw store::unreadable_sweep(found.number);
     return found;
   }
 
-  Found find_any(const std::string& name) {
+  Found find_any(const std::string& name, store::SweepReader::Jobs jobs) {
     check_length("name", name, kLongestName);
     const auto number = store::sweep_number_of(name);
-    auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
+    auto sweep = number ? parts_.sweeps.find_sweep(*number, jobs) : std::nullopt;
     if (!sweep) {
       throw ServiceError(ServiceError::Kind::not_found,
                          "There is no sweep \"" + name + "\". Sweep names look like sweeps/12; ListSweeps lists them.");
@@ -260,7 +260,7 @@ class SweepCalls {
 
   /// Number of a sweep that the caller may change. Also throws ServiceError (permission_denied).
   std::int64_t find_own(const Call& call, const std::string& name) {
-    const auto found = find_any(name);
+    const auto found = find_any(name, store::SweepReader::Jobs::left_out);
     parts_.gate.require_own(call.caller(), found.sweep.owner(), found.sweep.name());
     return found.number;
   }

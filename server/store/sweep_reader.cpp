@@ -12,7 +12,7 @@ namespace cellcrush::store {
 
 SweepReader::SweepReader(const std::filesystem::path& path) : database_(path) {}
 
-std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
+std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep, Jobs jobs) {
   const MutexLock lock(mutex_);
   v1::Sweep out;
   Statement read(database_,
@@ -26,7 +26,7 @@ std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
       "WHERE sweep_jobs.sweep = ?1 ORDER BY sweep_jobs.position");
   members.bind(1, sweep).bind(2, v1::Job::FAILED);
   auto& counts = *out.mutable_state_counts();
-  while (members.step()) {
+  while (jobs == Jobs::listed && members.step()) {
     is_whole = is_whole && members.integer(2) != 0;
     out.add_jobs(name_of(members.integer(0)));
     ++counts[v1::Job::State_Name(static_cast<v1::Job::State>(members.integer(1)))];

@@ -26,9 +26,12 @@ class SweepReader {
   /// REQUIRES: a Journal was opened on the same path.
   explicit SweepReader(const std::filesystem::path& path);
 
+  /// A sweep of 100,000 jobs is found at once without them.
+  enum class Jobs : std::uint8_t { listed, left_out };
+
   /// The sweep with its name, its jobs in the order of the points, and the number in each state. Nothing for a hidden
   /// one; only the name, without a create_time, of a damaged one.
-  std::optional<v1::Sweep> find_sweep(std::int64_t sweep);
+  std::optional<v1::Sweep> find_sweep(std::int64_t sweep, Jobs jobs = Jobs::listed);
 
   /// Numbers below `before`, newest first.
   std::vector<std::int64_t> list_sweeps(std::int64_t before, int limit);

@@ -1,5 +1,7 @@
 // Measures the service under load, on this machine, while jobs run. Prints a figure a line; asserts nothing.
-#include <fmt/core.h>
+#include <absl/cleanup/cleanup.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -7,11 +9,13 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
-#include "faults/fault_fixture.h"
 #include "load/figures.h"
+#include "load/journal_load.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
 #include "server/small_case.h"
@@ -21,38 +25,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using testing::Client;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-// Submits jobs one after the other that wait behind all others; the times that the calls took.
-std::vector<double> submit(const std::string& address, int count, std::vector<std::string>* names = nullptr) {
-  Client client(address);
-  auto request = testing::job_of(testing::small_case());
-  request.set_priority(-100);
-  std::vector<double> out;
-  for (int i = 0; i < count; ++i) {
-    v1::Job job;
-    const auto start = Clock::now();
-    const auto status = client.jobs->CreateJob(testing::bounded_context().get(), request, &job);
-    out.push_back(seconds_since(start));
-    if (!status.ok()) fmt::print("a submit failed: {}\n", status.error_message());
-    if (names != nullptr) names->push_back(job.name());
-  }
-  return out;
-}
-
-void measure_submits(const std::string& address) {
-  const auto start = Clock::now();
-  fmt::print("durable submits of one client, {}\n", describe(submit(address, 1000)));
-  fmt::print("  that is {:.0f} a second\n", 1000.0 / seconds_since(start));
-  const auto together = Clock::now();
-  constexpr int kClients = 8;
-  std::vector<std::jthread> clients;
-  clients.reserve(kClients);
-  for (int i = 0; i < kClients; ++i) clients.emplace_back([&address] { submit(address, 250); });
-  clients.clear();
-  fmt::print("durable submits of eight clients: {:.0f} a second\n", 2000.0 / seconds_since(together));
-}
 
 // Two watchers on each of a hundred waiting jobs, which are then cancelled: from before the call to the watcher, with
 // the call, the change and its commit.
@@ -93,33 +65,6 @@ v1::Case framed_case(Client& client) {
   out.mutable_loading()->set_end_strain(0.3);
   out.mutable_output()->set_frame_count(60);
   return out;
-}
-
-// Lists with each kind of filter from a journal of 200000 jobs, of which few or none match, so that all are searched.
-void measure_lists(const std::filesystem::path& folder) {
-  constexpr int kJobs = 200'000;
-  testing::fill_journal(folder / "many", kJobs, testing::small_case());
-  const std::string address = "unix:" + (folder / "many-socket").string();
-  testing::DaemonProcess daemon({"--data", (folder / "many").string(), "--listen", address, "--workers", "1",
-                                 "--max-queued-jobs", "1000000", "--log-format", "json"});
-  if (daemon.wait_for_addresses(1).empty()) {
-    fmt::print("the daemon does not start on {} jobs\n", kJobs);
-    return;
-  }
-  Client client(address);
-  for (const char* filter :
-       {"", "state = RUNNING", "owner = nobody", "label.batch = none", "title : \"no such title\""}) {
-    std::vector<double> taken;
-    for (int i = 0; i < 20; ++i) {
-      v1::ListJobsRequest request;
-      request.set_filter(filter);
-      const auto start = Clock::now();
-      const auto status = client.try_to(request);
-      taken.push_back(seconds_since(start));
-      if (!status.ok()) fmt::print("a list failed: {}\n", status.error_message());
-    }
-    fmt::print("a list of 200000 jobs with the filter \"{}\", {}\n", filter, describe(std::move(taken)));
-  }
 }
 
 struct Run {
@@ -235,32 +180,49 @@ void measure_runs(const std::string& address, int daemon) {
              static_cast<double>(crowded.frames) / 200.0 / crowded.clock_seconds);
 }
 
-int measure(const std::filesystem::path& folder) {
+// A daemon whose only worker is busy.
+void measure_busy(const std::set<std::string>& parts, const std::filesystem::path& folder, Record& record) {
   const std::string address = "unix:" + (folder / "socket").string();
-  testing::DaemonProcess daemon(
-      {"--data", (folder / "data").string(), "--listen", address, "--workers", "1", "--log-format", "json"});
-  if (daemon.wait_for_addresses(1).empty()) {
-    fmt::print("the daemon does not start\n");
-    return 1;
-  }
-  measure_runs(address, daemon.number());
+  const testing::DaemonProcess daemon = start_daemon(folder / "data", address);
+  if (parts.contains("runs")) measure_runs(address, daemon.number());
   Client client(address);
   const std::string busy = client.create(testing::endless_case());
   client.wait_for_state(busy, v1::Job::RUNNING);
-  measure_submits(address);
-  measure_events(address);
+  if (parts.contains("submits")) measure_submits(address, daemon.number(), record);
+  if (parts.contains("events")) measure_events(address);
+  if (parts.contains("sweep")) measure_sweep(address, daemon.number(), record);
   fmt::print("the daemon's memory: {:.0f} MiB\n", memory_of(daemon.number()));
   client.cancel(busy);
-  measure_lists(folder);
+}
+
+int measure(std::vector<std::string> words) {
+  const std::set<std::string> known{"runs", "submits", "events", "sweep", "many"};
+  const bool is_recorded = std::erase(words, "--record") > 0;
+  std::set<std::string> parts(words.begin(), words.end());
+  if (!std::includes(known.begin(), known.end(), parts.begin(), parts.end())) {
+    fmt::print(stderr, "usage: service_load [--record] [{}]...\n", fmt::join(known, "|"));
+    return 2;
+  }
+  if (parts.empty()) parts = known;
+  const testing::TemporaryFolder folder;
+  Record record("service_load");
+  const absl::Cleanup end = [&folder] {
+    for (const char* data : {"data", "many"}) testing::kill_workers(folder.path() / data);
+  };
+  if (parts != std::set<std::string>{"many"}) measure_busy(parts, folder.path(), record);
+  if (parts.contains("many")) measure_many_jobs(folder.path(), record);
+  if (is_recorded) record.write(CELLCRUSH_LOAD_EVIDENCE);
   return 0;
 }
 
 }  // namespace
 }  // namespace cellcrush::load
 
-int main() {
-  const cellcrush::testing::TemporaryFolder folder;
-  const int result = cellcrush::load::measure(folder.path());
-  for (const char* data : {"data", "many"}) cellcrush::testing::kill_workers(folder.path() / data);
-  return result;
+int main(int count, char** words) {
+  try {
+    return cellcrush::load::measure({words + 1, words + count});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "service_load: {}\n", error.what());
+    return 1;
+  }
 }

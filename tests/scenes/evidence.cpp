@@ -92,9 +92,7 @@ void write(const Key& key, const std::string& text, const Keeps& keeps) {
   Evidence evidence = read_evidence(kEvidenceFile);
   std::string& value = evidence[key];
   if (value.empty() || !keeps(value)) value = text;
-  std::ofstream file(kEvidenceFile);
-  file << kEvidenceHeader << "\n";
-  for (const auto& [row, number] : evidence) file << row.first << "," << row.second << "," << number << "\n";
+  write_evidence(kEvidenceFile, evidence);
 }
 
 }  // namespace
@@ -112,6 +110,13 @@ Evidence read_evidence(const std::filesystem::path& path) {
       evidence[{line.substr(0, first), line.substr(first + 1, last - first - 1)}] = line.substr(last + 1);
   }
   return evidence;
+}
+
+void write_evidence(const std::filesystem::path& path, const Evidence& evidence) {
+  std::ofstream file(path);
+  file << kEvidenceHeader << "\n";
+  for (const auto& [row, number] : evidence) file << row.first << "," << row.second << "," << number << "\n";
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
 void record_figure(const std::string& quantity, double value, int digits, const Expected& expected) {

@@ -18,6 +18,9 @@ using Evidence = std::map<std::pair<std::string, std::string>, std::string>;
 /// Throws std::invalid_argument, with file and line, on a row that is not test,quantity,value.
 Evidence read_evidence(const std::filesystem::path& file);
 
+/// Throws std::runtime_error if the file cannot be written.
+void write_evidence(const std::filesystem::path& file, const Evidence& evidence);
+
 /// What a figure must be, whatever is recorded.
 struct Expected {
   double value = 0.0;

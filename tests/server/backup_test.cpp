@@ -23,6 +23,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
+using ::testing::UnorderedElementsAre;
 
 class BackupTest : public DaemonFixture {
  protected:
@@ -242,10 +243,12 @@ TEST_F(BackupTest, WhatIsWrongWithADataFolderIsNamedWithItsRemedyWhileTheDaemonR
     store::Statement(database, "UPDATE events SET payload = ?1 WHERE job = 3 AND sequence = 2")
         .bind_blob(1, std::string(40, '\xff'))
         .run();
+    // As of a flipped bit: the row can be read, but is not as it was.
+    database.execute("DROP TRIGGER seal_changed_jobs; UPDATE jobs SET priority = 1 WHERE number = 4");
   }
   const auto found = store::verify_folder(data_folder());
-  EXPECT_THAT(found.problems, ElementsAre(HasSubstr("Event 2 of jobs/3"), HasSubstr("jobs/1/result.h5 is damaged"),
-                                          HasSubstr("jobs/2/result.h5")));
+  EXPECT_THAT(found.problems, ElementsAre(HasSubstr("jobs/4"), HasSubstr("Event 2 of jobs/3"),
+                                          HasSubstr("jobs/1/result.h5 is damaged"), HasSubstr("jobs/2/result.h5")));
   for (const auto& problem : found.problems) EXPECT_THAT(problem, HasSubstr("Restore a backup"));
   EXPECT_THAT(found.notes, ElementsAre(HasSubstr("jobs/99")));
   std::filesystem::create_directory(data_folder() / "jobs/\x1b[31m\u202e");
@@ -255,8 +258,9 @@ TEST_F(BackupTest, WhatIsWrongWithADataFolderIsNamedWithItsRemedyWhileTheDaemonR
 
   // The rest of a damaged folder can be backed up, and the backup says what it lacks.
   const auto manifest = store::take_backup(data_folder(), backup());
-  EXPECT_THAT(manifest.lost, ElementsAre(HasSubstr("jobs/1"), HasSubstr("jobs/2"), HasSubstr("Event 2 of jobs/3")));
-  EXPECT_THAT(store::verify_folder(backup()).notes, SizeIs(3));
+  EXPECT_THAT(manifest.lost, UnorderedElementsAre(HasSubstr("jobs/1"), HasSubstr("jobs/2"),
+                                                  HasSubstr("Event 2 of jobs/3"), HasSubstr("jobs/4")));
+  EXPECT_THAT(store::verify_folder(backup()).notes, SizeIs(4));
   EXPECT_NO_THROW(store::restore_backup(backup(), restored()));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 
 #include "worker/claim.h"
@@ -35,7 +36,8 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments, int most
   std::vector<std::string> words;
   if (most_descriptors > 0)
     words = {"/bin/sh", "-c", "ulimit -n " + std::to_string(most_descriptors) + "; exec \"$0\" \"$@\""};
-  words.emplace_back(CELLCRUSHD_PROGRAM);
+  const char* other = std::getenv("CELLCRUSHD_PROGRAM");
+  words.emplace_back(other != nullptr ? other : CELLCRUSHD_PROGRAM);
   if (std::find(arguments.begin(), arguments.end(), "--http") == arguments.end())
     words.insert(words.end(), {"--http", "none"});
   words.insert(words.end(), arguments.begin(), arguments.end());

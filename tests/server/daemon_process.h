@@ -17,6 +17,7 @@ namespace cellcrush::testing {
 /// test that is aborted. Workers outlive it all the same.
 class DaemonProcess {
  public:
+  /// The daemon of this build; another one if the environment names it (CELLCRUSHD_PROGRAM), to compare the two.
   /// Without HTTP, unless the arguments name its port. Under a hard limit on file descriptors; 0: that of this process.
   explicit DaemonProcess(const std::vector<std::string>& arguments, int most_descriptors = 0);
 

@@ -12,6 +12,8 @@
 #include "server/small_case.h"
 #include "server/small_cluster.h"
 #include "server/sweep_requests.h"
+#include "store/journal.h"
+#include "store/sqlite.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -61,6 +63,16 @@ class MetricsTest : public DaemonFixture {
   static constexpr const char* kRequest = "GET /metrics HTTP/1.0\r\n\r\n";
   SmallCluster cluster_;
 };
+
+TEST_F(MetricsTest, AJournalThatLostItsChangesIsDamaged) {
+  scrape_until("cellcrush_journal_damaged", 0.0);
+  daemon_.reset();
+  const auto path = data_folder() / "journal.sqlite";
+  store::Journal(path, [](std::int64_t) {}).create_job({}, "", "");
+  store::Database(path).execute("DELETE FROM changes; DELETE FROM sqlite_sequence WHERE name = 'changes'");
+  start(measured(2));
+  scrape_until("cellcrush_journal_damaged", 1.0);
+}
 
 TEST_F(MetricsTest, TellJobsStepsAndTheTimeOfEachStage) {
   const std::string before = scrape();
