@@ -220,6 +220,33 @@ TEST(SessionsTest, ACallerHasAHundredSessionsAndTheOldestGivesWay) {
   EXPECT_TRUE(sessions.find(of_bob, 7));
 }
 
+TEST_F(LocalCallerTest, StreamsWithoutATokenCountForTheUserWhomTheKernelKnowsOrElseForTheAddress) {
+  DaemonOptions options = with_tokens(http_options());
+  options.connections.streams_per_caller = 1;
+  start(options);
+  // The first words of a watch of health.
+  const auto watch = [this](const HttpSocket& socket) {
+    const char* type = "Content-Type: application/connect+json\r\n";
+    socket.send(request("POST /grpc.health.v1.Health/Watch", type, envelope("{}")));
+    std::string out;
+    for (std::string more = "."; !more.empty() && out.find('{') == std::string::npos; out += more)
+      more = socket.read_some();
+    return out;
+  };
+  const HttpSocket own(port());
+  EXPECT_THAT(watch(own), HasSubstr("SERVING"));
+  const HttpSocket second(port());
+  EXPECT_THAT(watch(second), HasSubstr(access::own_user() + " has 1 streams open"));
+  as_user(kDaemon, [&] {
+    const HttpSocket other(port());
+    EXPECT_THAT(watch(other), HasSubstr("SERVING"));
+    const HttpSocket more(port());
+    EXPECT_THAT(watch(more), HasSubstr("127.0.0.1 has 1 streams open"));
+    const HttpSocket elsewhere(port(), 0, "127.0.0.2");
+    EXPECT_THAT(watch(elsewhere), HasSubstr("SERVING"));
+  });
+}
+
 }  // namespace
 }  // namespace cellcrush::testing
 
