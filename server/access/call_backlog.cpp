@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kFlood = 200;  // refused calls
 constexpr std::chrono::seconds kBetweenCounts{1};
-constexpr std::chrono::milliseconds kSlow{250};  // for a message to come
+constexpr std::chrono::milliseconds kSlow{100};  // for a message to come
 
 }  // namespace
 
