@@ -40,7 +40,7 @@ void CallPool::run(Task task) {
     if (line.waiting.size() < most_.waiting_per_caller) {
       line.waiting.push_back(std::move(task));
       ++waiting_;
-      // Otherwise a thread that answers this caller goes on with it.
+      // Otherwise a thread that answers this caller runs it next.
       if (line.running < most_.threads_per_caller) changed_.notify_one();
       return;
     }
@@ -111,7 +111,7 @@ void CallPool::end(const std::string& caller, bool is_large) {
   line->large_running -= is_large ? 1 : 0;
   large_running_ -= is_large ? 1 : 0;
   if (line->running == 0 && line->waiting.empty()) lines_.erase(line);
-  // This thread goes on with what may run now.
+  // This thread runs what may run now.
   if (ending_) changed_.notify_all();
 }
 
