@@ -65,15 +65,16 @@ def answer(connection, patience=120):
 
 
 def together(count, work, at_once=120):
-    """Runs work(i) on threads."""
+    """Runs work(i) on threads, for a minute at most: by then an attack has what it can get."""
     numbers = iter(range(count))
+    until = time.time() + 60
     lock = threading.Lock()
 
     def run():
         while True:
             with lock:
                 i = next(numbers, None)
-            if i is None:
+            if i is None or time.time() > until:
                 return
             try:
                 work(i)
@@ -84,7 +85,7 @@ def together(count, work, at_once=120):
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join(180)
+        thread.join(max(0, until - time.time()))
 
 
 # Each attack has the daemon and how many times its size.
