@@ -112,6 +112,13 @@ def unfinished_messages(daemon, times):
     time.sleep(3)
 
 
+def sweep(daemon, times):
+    """Its jobs are kept, so that it stays at its size."""
+    request = {"sweep": {"case": daemon.case, "axes": [
+        {"field": "loading.end_strain", "linear": {"first": 0.01, "last": 0.02, "count": 10_000 * times}}]}}
+    answer(post(daemon, "Sweeps/CreateSweep", json.dumps(request).encode(), daemon.token))
+
+
 def trailers(daemon, times):
     connection = post(daemon, "Jobs/GetJob", headers=("Transfer-Encoding: chunked",))
     try:
@@ -219,7 +226,7 @@ def large_checks(daemon, times):
     attack.join()
 
 
-ATTACKS = [empty_points_grpc, empty_points_http, unfinished_messages, trailers, unfinished_bodies,
+ATTACKS = [empty_points_grpc, empty_points_http, unfinished_messages, sweep, trailers, unfinished_bodies,
            unfinished_bodies_of_a_caller, reset_watches, unsent_messages, large_json, previews, exports,
            idle_connections, large_checks]
 
