@@ -27,7 +27,6 @@
 #include "net/acceptor.h"
 #include "net/connection_limits.h"
 #include "net/listening_port.h"
-#include "net/open_streams.h"
 #include "net/port_probe.h"
 #include "net/refusing_server.h"
 #include "rpc/method_table.h"
@@ -196,7 +195,7 @@ struct Daemon::Impl {
       plain.push_back(wanted[i].kind == ListenAddress::Kind::unix_socket || options.access.tls_certificate.empty());
     }
     service.register_with(builder);
-    rpc::count_calls(builder, open_calls, gate);
+    rpc::count_calls(builder, gate);
     server = builder.BuildAndStart();
     if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The gRPC server could not be started.");
     for (const auto& port : ports) addresses.push_back(port.address().text());
@@ -220,17 +219,13 @@ struct Daemon::Impl {
       service.metrics.set_connections(open);
       heap.look();
       gate.backlog().look();
+      service.methods.open_calls().look();
     };
     acceptor.emplace(std::move(ports), options.connections, std::move(parts));
     service.methods.on_admitted = [this](const std::string& connection, const std::string& caller) {
       acceptor->know(connection, caller);
     };
-    gate.backlog().set_alarms({[this](const std::string& connection) {
-                                 acceptor->cut([connection] { return std::vector{connection}; });
-                               },
-                               [this] {
-                                 acceptor->cut([this] { return gate.backlog().settle(net::count_open_streams()); });
-                               }});
+    gate.backlog().on_flood([this](const std::string& connection) { acceptor->cut(connection); });
     acceptor->start();
     const auto is_tcp = [](const ListenAddress& address) { return address.kind == ListenAddress::Kind::tcp; };
     const bool has_tcp = wanted_http || std::ranges::any_of(wanted, is_tcp);
@@ -287,6 +282,9 @@ struct Daemon::Impl {
     // A caller with too many streams is refused another, but can make other calls.
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams_per_caller + kCallsBesideStreams);
     builder.AddChannelArgument(GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, kMostReadAtOnce);
+    // It would raise the 64 kB that each call may send before its request is read.
+    builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+    builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, 0);
   }
 
   void serve_metrics() {
@@ -354,7 +352,7 @@ struct Daemon::Impl {
     introductions.join();
     if (gateway) gateway->stop();
     // Not left to gRPC: it would wait for idle connections too, whose clients do not read its request to close them.
-    open_calls.wait_until_none(kCallsMayLast);
+    service.methods.open_calls().wait_until_none(kCallsMayLast);
     if (!server) return;
     server->Shutdown(std::chrono::system_clock::now());
     server->Wait();
@@ -377,7 +375,6 @@ struct Daemon::Impl {
   std::vector<Door> doors;  ///< of the requested addresses
   LimitedLog refusals{"refused connections", 1};
   net::HeapTrim heap;
-  rpc::OpenCalls open_calls;
   std::unique_ptr<grpc::Server> server;
   std::optional<net::RefusingServer> refusing_server;
   boost::asio::thread_pool introductions{kIntroductions};  ///< of callers for whom the user database is asked

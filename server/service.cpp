@@ -113,10 +113,11 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
   });
 }
 
-// Before the methods whose sources the streams hold.
+// Before the methods, whose calls and sources they hold.
 Service::~Service() {
   http_pump.stop();
   checks.stop();
+  calls.stop();
 }
 
 void Service::register_with(grpc::ServerBuilder& builder) {

@@ -93,26 +93,24 @@ void Acceptor::look_after_connections() {
 
 void Acceptor::wake() const { eventfd_write(wake_, 1); }
 
-void Acceptor::cut(std::function<std::vector<std::string>()> choose) {
+void Acceptor::cut(const std::string& name) {
   {
     const MutexLock lock(cuts_mutex_);
-    cuts_.push_back(std::move(choose));
+    cuts_.push_back(name);
   }
   wake();
 }
 
 void Acceptor::cut_connections() {
-  std::vector<std::function<std::vector<std::string>()>> cuts;
+  std::vector<std::string> cuts;
   {
     const MutexLock lock(cuts_mutex_);
     cuts.swap(cuts_);
   }
-  for (const auto& choose : cuts) {
-    const auto names = choose();
-    const MutexLock lock(mutex_);
-    for (const auto& name : names) {
-      if (of_others_.cut(name)) parts_.refused("further calls of " + name + ", which has too many open");
-    }
+  if (cuts.empty()) return;
+  const MutexLock lock(mutex_);
+  for (const auto& name : cuts) {
+    if (of_others_.cut(name)) parts_.refused("further calls of " + name + ", which has too many open");
   }
 }
 

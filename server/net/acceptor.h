@@ -49,9 +49,8 @@ class Acceptor {
     of_others_.know(name, caller);
   }
 
-  /// Closes the connections of these names soon, and drops what they have sent. `choose` is called on the acceptor's
-  /// thread.
-  void cut(std::function<std::vector<std::string>()> choose);
+  /// Closes the connection of this name soon, and drops what it has sent.
+  void cut(const std::string& name);
 
   /// Closes the ports; connections handed over stay open.
   void stop();
@@ -86,7 +85,7 @@ class Acceptor {
   bool closed_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::chrono::steady_clock::time_point last_count_ CELLCRUSH_GUARDED_BY(mutex_);
   Mutex cuts_mutex_;  ///< held for a moment: gRPC may cut a connection while it is given another one
-  std::vector<std::function<std::vector<std::string>()>> cuts_ CELLCRUSH_GUARDED_BY(cuts_mutex_);
+  std::vector<std::string> cuts_ CELLCRUSH_GUARDED_BY(cuts_mutex_);
   const int wake_;  ///< eventfd
   std::jthread thread_;
 };

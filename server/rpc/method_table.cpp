@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "access/call_backlog.h"
 #include "error.h"
 #include "error_table.h"
 #include "net/connection_table.h"
@@ -11,6 +12,10 @@
 
 namespace cellcrush::rpc {
 namespace {
+
+// Calls of one caller that wait for their requests to be read.
+constexpr std::size_t kMostWaiting = 2'000;
+constexpr std::size_t kMostWaitingOfStrangers = 200;  // of an address
 
 // The error of a request that cannot be parsed, naming the method and the message type. `path` is as gRPC has it.
 InvalidField parse_error(std::string_view path) {
@@ -25,22 +30,29 @@ InvalidField parse_error(std::string_view path) {
 
 }  // namespace
 
-void MethodTable::UnaryReactor::finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge) {
-  if (charge) {
-    charge_ = std::move(charge);
-    alarm_.Set(std::chrono::system_clock::now() + patience, [self = self_](bool is_time) mutable {
-      const auto own = std::move(self);  // the alarm keeps this function
-      if (is_time) own->cut_.cancel(own->context_);
-    });
-  }
-  Finish(status);
+std::int64_t MethodTable::UnaryReactor::set_answer(const google::protobuf::Message& answer) {
+  answer_ = wire_of(answer);
+  return static_cast<std::int64_t>(answer_.Length());
 }
 
-void MethodTable::UnaryReactor::OnDone() {
-  cut_.end();
-  charge_.reset();
-  alarm_.Cancel();
-  const auto self = std::move(self_);
+void MethodTable::UnaryReactor::on_request(grpc::ByteBuffer& bytes, std::shared_ptr<Accounts::Charge> received) {
+  Arrived arrived;
+  arrived.incoming = incoming_of(bytes);
+  arrived.incoming.received = std::move(received);
+  arrived.is_small = arrived.incoming.bytes <= kLightRequest;
+  arrived.task.call = std::static_pointer_cast<UnaryReactor>(shared_from_this());
+  arrived.task.caller = caller_name();
+  arrived.task.finish = [this](const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge) {
+    finish(status, std::move(charge));
+  };
+  begin_(std::move(arrived), *this);
+}
+
+void MethodTable::UnaryReactor::finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge) {
+  charge_ = std::move(charge);
+  if (!status.ok()) return end(status);
+  limit_end(std::chrono::milliseconds(answer_.Length() / 100));
+  StartWriteAndFinish(&answer_, {}, status);
 }
 
 void MethodTable::UnaryCall::ask(Deliver deliver) {
@@ -95,11 +107,11 @@ ServiceError MethodTable::too_large(std::int64_t bytes, std::int64_t most) {
           "The request has " + std::to_string(bytes) + " bytes. Use at most " + std::to_string(most) + "."};
 }
 
-Incoming MethodTable::incoming_of(const grpc::ByteBuffer& bytes) {
+Incoming MethodTable::incoming_of(grpc::ByteBuffer& bytes) {
   Incoming out;
   out.bytes = static_cast<std::int64_t>(bytes.Length());
   const auto own = std::make_shared<grpc::ByteBuffer>();
-  const_cast<grpc::ByteBuffer&>(bytes).Swap(own.get());
+  bytes.Swap(own.get());
   out.decode = [own](google::protobuf::Message& request) {
     grpc::Slice whole;
     if (!own->DumpToSingleSlice(&whole).ok()) return false;
@@ -109,8 +121,8 @@ Incoming MethodTable::incoming_of(const grpc::ByteBuffer& bytes) {
   return out;
 }
 
-std::string MethodTable::name_of(const grpc::CallbackServerContext& context, bool is_open) const {
-  const std::string connection = context.peer();
+std::string MethodTable::name_of(const grpc::CallbackServerContext& context, const std::string& connection,
+                                 bool is_open) const {
   if (is_open) {
     const auto local = gate_.local_caller_of(*context.auth_context());
     return local ? local->name : net::peer_of_name(connection);
@@ -120,27 +132,28 @@ std::string MethodTable::name_of(const grpc::CallbackServerContext& context, boo
   return out;
 }
 
-std::optional<MethodTable::Arrived> MethodTable::arrive(grpc::CallbackServerContext& context,
-                                                        const grpc::ByteBuffer& bytes, bool is_open,
-                                                        UnaryReactor& reactor) {
-  Arrived out;
-  const auto status = answer([&] {
-    out.incoming = incoming_of(bytes);
-    out.is_small = out.incoming.bytes <= kLightRequest;
-    out.task.call = std::make_shared<GrpcCall>(gate_, context);
-    out.task.caller = name_of(context, is_open);
-    require_epoch(exchange_epochs(context));
-    out.incoming.received = received_.take(out.task.caller, out.incoming.bytes);
-    if (!out.incoming.received) throw too_many_bytes(out.task.caller);
-  });
-  if (!status.ok()) {
-    reactor.finish(status, nullptr);
-    return std::nullopt;
+grpc::ServerGenericBidiReactor* MethodTable::CreateReactor(grpc::GenericCallbackServerContext* context) {
+  using Refused = RefusedStream<grpc::ServerGenericBidiReactor>;
+  const std::string connection = context->peer();
+  const auto key = gate_.key_of(*context->auth_context());
+  gate_.backlog().begin(key, connection);
+  const Method* method = find(context->method());
+  if (method == nullptr)
+    return new Refused({grpc::StatusCode::UNIMPLEMENTED, "This server has no method " + context->method() + "."});
+  try {
+    const auto epoch = exchange_epochs(*context);
+    const bool is_small = method->is_open || method->descriptor->server_streaming();
+    const std::chrono::milliseconds more((is_small ? kLargestStreamRequest : kLargestMessage) / 100);
+    const auto reactor =
+        method->serve(*context, name_of(*context, connection, method->is_open), {patience_ + more, patience_});
+    require_epoch(epoch);
+    open_calls_.add(reactor, method->is_open ? kMostWaitingOfStrangers : kMostWaiting);
+    return reactor.get();
+  } catch (const std::exception& error) {
+    const auto status = status_of(error);
+    if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) gate_.backlog().refuse(key);
+    return new Refused(status);
   }
-  out.task.finish = [&reactor](const grpc::Status& end, std::shared_ptr<Accounts::Charge> charge) {
-    reactor.finish(end, std::move(charge));
-  };
-  return out;
 }
 
 void MethodTable::start(const CallPool* pool, CallPool::Task task, bool is_small) {

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <grpcpp/alarm.h>
+#include <grpcpp/generic/async_generic_service.h>
 #include <grpcpp/grpcpp.h>
-#include <grpcpp/impl/codegen/proto_utils.h>
-#include <grpcpp/impl/codegen/server_callback_handlers.h>
-#include <grpcpp/impl/codegen/service_type.h>
 
 #include <atomic>
 #include <functional>
@@ -18,7 +15,8 @@
 #include "access/gate.h"
 #include "rpc/accounts.h"
 #include "rpc/call_pool.h"
-#include "rpc/cut.h"
+#include "rpc/open_calls.h"
+#include "rpc/request_reactor.h"
 #include "rpc/request_weight.h"
 #include "rpc/source_stream.h"
 #include "rpc/stream_reactor.h"
@@ -47,17 +45,22 @@ struct Incoming {
 /// All methods of the API: what each needs, and who answers it. gRPC and the Connect protocol both call through this
 /// table. A call that names another epoch than the daemon's is refused with failed_precondition, so that no command
 /// reaches a job of the same name on another server. Thread-safe once it is complete.
-class MethodTable {
+class MethodTable final : public grpc::CallbackGenericService {
  public:
   struct Method {
     const google::protobuf::MethodDescriptor* descriptor = nullptr;
+    bool is_open = false;  ///< to everybody
     /// Begins to answer. Throws ServiceError, or InvalidField if the request cannot be parsed.
     std::function<std::shared_ptr<MessageStream>(const Incoming& incoming)> open;
+    /// Answers a call of gRPC once its request has come.
+    std::function<std::shared_ptr<RequestReactor>(const grpc::CallbackServerContext& context, const std::string& caller,
+                                                  RequestReactor::Patience patience)>
+        serve;
   };
 
   /// `http_pump` advances the streams that are not gRPC's; `calls` parses requests and answers most calls. A client of
-  /// gRPC that takes longer than `patience`, and a second for each 100 kB, to read an answer loses it. All of them
-  /// outlive the table.
+  /// gRPC that takes longer than `patience`, and a second for each 100 kB, to send a request or to read an answer loses
+  /// the call. All of them outlive the table.
   MethodTable(access::Gate& gate, watch::Pump& http_pump, CallPool& calls, Accounts& received, store::Epoch epoch,
               std::chrono::milliseconds patience = std::chrono::seconds(5))
       : gate_(gate),
@@ -65,7 +68,8 @@ class MethodTable {
         calls_(calls),
         received_(received),
         epoch_(std::move(epoch)),
-        patience_(patience) {}
+        patience_(patience),
+        open_calls_(received) {}
 
   // In both, `path` is a literal: "/cellcrush.v1.Jobs/GetJob". `scope`: what callers need; nothing: open to everybody.
   // Throws ServiceError (internal) if the .proto files have no such method.
@@ -100,21 +104,12 @@ class MethodTable {
       };
       start(pool, std::move(arrived.task), arrived.is_small);
     };
-    grpc_.add(path, grpc::internal::RpcMethod::NORMAL_RPC,
-              new grpc::internal::CallbackUnaryHandler<grpc::ByteBuffer, Response>(
-                  [this, begin, is_open = !scope](grpc::CallbackServerContext* context, const grpc::ByteBuffer* bytes,
-                                                  Response* response) {
-                    auto* reactor = UnaryReactor::make(*context, patience_);
-                    auto arrived = arrive(*context, *bytes, is_open, *reactor);
-                    if (!arrived) return reactor;
-                    begin(std::move(*arrived), [this, response, reactor](Response answer) {
-                      *response = std::move(answer);
-                      const auto size = static_cast<std::int64_t>(response->ByteSizeLong());
-                      reactor->patience = patience_ + std::chrono::milliseconds(size / 100);
-                      return 2 * size;  // and as bytes
-                    });
-                    return reactor;
-                  }));
+    const UnaryReactor::Begin begin_of_grpc = [begin](Arrived arrived, UnaryReactor& reactor) {
+      begin(std::move(arrived), [&reactor](const Response& response) { return reactor.set_answer(response); });
+    };
+    const auto serve = [this, begin_of_grpc](const auto& context, const std::string& caller, auto patience) {
+      return std::make_shared<UnaryReactor>(open_calls_, gate_, context, caller, patience, begin_of_grpc);
+    };
     const auto open = [begin](const Incoming& incoming) {
       return std::make_shared<UnaryCall>(incoming, [begin](Arrived arrived, std::string& to) {
         const auto encode = arrived.incoming.encode;
@@ -124,34 +119,30 @@ class MethodTable {
         });
       });
     };
-    add(path, scope, {describe(path, *Request::descriptor(), *Response::descriptor(), false), open});
+    add(path, scope, {describe(path, *Request::descriptor(), *Response::descriptor(), false), !scope, open, serve});
   }
 
-  /// `make`: opens the source of a stream; what it throws ends the stream. The pump of `parts` advances gRPC's streams.
-  /// They count for the caller, or for the peer's address if the method is open to everybody.
+  /// `handle`: opens the source of a stream; what it throws ends the stream. The pump of `parts` advances gRPC's
+  /// streams. They count for the caller, or for the peer's address if the method is open to everybody.
   template <class Service, class Source, class Request>
   void stream(const char* path, std::optional<access::Scope> scope, const StreamParts& parts,
-              const std::shared_ptr<Service>& service, std::unique_ptr<Source> (Service::*make)(const Request&)) {
-    grpc_.add(path, grpc::internal::RpcMethod::SERVER_STREAMING,
-              new grpc::internal::CallbackServerStreamingHandler<grpc::ByteBuffer, grpc::ByteBuffer>(
-                  [this, path, parts, service, make, is_open = !scope](grpc::CallbackServerContext* context,
-                                                                       const grpc::ByteBuffer* bytes) {
-                    const auto epoch = exchange_epochs(*context);
-                    return open_stream<Source>(
-                        parts, *context, [&] { return name_of(*context, is_open); },
-                        [&] {
-                          require_epoch(epoch);
-                          return (*service.*make)(*read<Request>(path, incoming_of(*bytes)));
-                        });
-                  }));
+              const std::shared_ptr<Service>& service, std::unique_ptr<Source> (Service::*handle)(const Request&)) {
+    const auto make = [path, service, handle](const Incoming& incoming) {
+      return (*service.*handle)(*read<Request>(path, incoming));
+    };
+    const auto serve = [this, parts, make](const auto& context, const std::string& caller, auto patience) {
+      return std::make_shared<StreamReactor<Source>>(
+          open_calls_, context, caller, patience, parts,
+          [make](grpc::ByteBuffer& request) { return make(incoming_of(request)); });
+    };
     const StreamParts http_parts{http_pump_, parts.checks, parts.metrics, parts.limits, parts.times};
-    const auto open = [path, http_parts, service, make](const Incoming& incoming) {
+    const auto open = [http_parts, make](const Incoming& incoming) {
       return std::make_shared<SourceStream<Source>>(
-          http_parts, incoming.caller.name, incoming.encode,
-          [service, make, path, incoming] { return (*service.*make)(*read<Request>(path, incoming)); },
+          http_parts, incoming.caller.name, incoming.encode, [make, incoming] { return make(incoming); },
           incoming.begin);
     };
-    add(path, scope, {describe(path, *Request::descriptor(), *Source::Message::descriptor(), true), open});
+    add(path, scope,
+        {describe(path, *Request::descriptor(), *Source::Message::descriptor(), true), !scope, open, serve});
   }
 
   /// Called for each call of gRPC that the gate has admitted, with gRPC's name of its connection. REQUIRES: no call has
@@ -165,31 +156,15 @@ class MethodTable {
   [[nodiscard]] const std::string& epoch() const { return epoch_.id; }
 
   /// Lets gRPC call the methods. The table outlives the server that is built.
-  void register_with(grpc::ServerBuilder& builder) { builder.RegisterService(&grpc_); }
+  void register_with(grpc::ServerBuilder& builder) { builder.RegisterCallbackGenericService(this); }
+
+  /// A call of gRPC, of any method of the table.
+  grpc::ServerGenericBidiReactor* CreateReactor(grpc::GenericCallbackServerContext* context) override;
+
+  /// Those of gRPC.
+  [[nodiscard]] OpenCalls& open_calls() { return open_calls_; }
 
  private:
-  class GrpcService final : public grpc::Service {
-   public:
-    void add(const char* path, grpc::internal::RpcMethod::RpcType type, grpc::internal::MethodHandler* handler) {
-      AddMethod(new grpc::internal::RpcServiceMethod(path, type, nullptr));
-      MarkMethodCallback(count_++, handler);
-    }
-
-   private:
-    int count_ = 0;
-  };
-
-  class GrpcCall final : public Call {
-   public:
-    GrpcCall(const access::Gate& gate, const grpc::CallbackServerContext& context) : gate_(gate), context_(context) {}
-    [[nodiscard]] access::Caller caller() const override { return gate_.caller_of(context_); }
-    [[nodiscard]] bool is_cancelled() const override { return context_.IsCancelled(); }
-
-   private:
-    const access::Gate& gate_;
-    const grpc::CallbackServerContext& context_;  ///< until the call is finished
-  };
-
   /// A unary call that has come, by whichever door.
   struct Arrived {
     CallPool::Task task;  ///< without its body
@@ -197,30 +172,29 @@ class MethodTable {
     bool is_small = false;  ///< so that the thread that brings the call may parse it
   };
 
-  /// Ends a unary call of gRPC, and holds the memory of its answer until the client has it, or has lost it for lack of
-  /// reading. It owns itself until gRPC is done with it.
-  class UnaryReactor final : public grpc::ServerUnaryReactor {
+  /// A unary call of gRPC. Holds the memory of its answer until the client has it, or has lost it for lack of reading.
+  class UnaryReactor final : public RequestReactor, public Call {
    public:
-    static UnaryReactor* make(const grpc::CallbackServerContext& context, std::chrono::milliseconds patience) {
-      const auto out = std::shared_ptr<UnaryReactor>(new UnaryReactor(context, patience));
-      out->self_ = out;
-      return out.get();
-    }
+    using Begin = std::function<void(Arrived arrived, UnaryReactor& reactor)>;
 
-    void finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge);
-    void OnDone() override;
+    UnaryReactor(OpenCalls& open, const access::Gate& gate, const grpc::CallbackServerContext& context,
+                 const std::string& caller, Patience patience, const Begin& begin)
+        : RequestReactor(open, context, caller, patience), gate_(gate), begin_(begin) {}
 
-    std::chrono::milliseconds patience;  ///< with the client once it is finished; set before
+    /// Returns its bytes.
+    std::int64_t set_answer(const google::protobuf::Message& answer);
+
+    [[nodiscard]] access::Caller caller() const override { return gate_.caller_of(context()); }
+    [[nodiscard]] bool is_cancelled() const override { return context().IsCancelled(); }
 
    private:
-    UnaryReactor(const grpc::CallbackServerContext& context, std::chrono::milliseconds given)
-        : patience(given), context_(context) {}
+    void on_request(grpc::ByteBuffer& bytes, std::shared_ptr<Accounts::Charge> received) override;
+    void finish(const grpc::Status& status, std::shared_ptr<Accounts::Charge> charge);
 
-    const grpc::CallbackServerContext& context_;  ///< valid until OnDone
-    std::shared_ptr<UnaryReactor> self_;
+    const access::Gate& gate_;
+    const Begin& begin_;  ///< of the method
+    grpc::ByteBuffer answer_;
     std::shared_ptr<Accounts::Charge> charge_;
-    Cut cut_;
-    grpc::Alarm alarm_;
   };
 
   /// A unary call that is not gRPC's: its own answer. It is asked for once.
@@ -257,12 +231,10 @@ class MethodTable {
   void require_epoch(const std::string& named) const;
   static ServiceError too_large(std::int64_t bytes, std::int64_t most);
   /// Takes the bytes of a request from gRPC, which would keep them until the call ends.
-  static Incoming incoming_of(const grpc::ByteBuffer& bytes);
-  /// For whom a call of gRPC counts. Throws ServiceError (unauthenticated).
-  [[nodiscard]] std::string name_of(const grpc::CallbackServerContext& context, bool is_open) const;
-  /// A unary call of gRPC; nothing if it is refused, and finished.
-  std::optional<Arrived> arrive(grpc::CallbackServerContext& context, const grpc::ByteBuffer& bytes, bool is_open,
-                                UnaryReactor& reactor);
+  static Incoming incoming_of(grpc::ByteBuffer& bytes);
+  /// For whom a call of gRPC counts, on the connection of this name. Throws ServiceError (unauthenticated).
+  [[nodiscard]] std::string name_of(const grpc::CallbackServerContext& context, const std::string& connection,
+                                    bool is_open) const;
   /// Has the call's request parsed.
   void start(const CallPool* pool, CallPool::Task task, bool is_small);
   static const google::protobuf::MethodDescriptor* describe(std::string_view path,
@@ -277,7 +249,7 @@ class MethodTable {
   Accounts& received_;
   const store::Epoch epoch_;
   const std::chrono::milliseconds patience_;
-  GrpcService grpc_;
+  OpenCalls open_calls_;
   std::map<std::string, Method, std::less<>> methods_;
 };
 

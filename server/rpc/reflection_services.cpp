@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "access/call_backlog.h"
 #include "error_table.h"
 #include "grpc/reflection/v1/reflection.grpc.pb.h"
 #include "grpc/reflection/v1alpha/reflection.grpc.pb.h"
@@ -147,6 +148,7 @@ class ReflectionService final : public Version::Service::CallbackService {
       : names_(std::move(names)), gate_(gate), limits_(limits) {}
 
   Reactor<Version>* ServerReflectionInfo(grpc::CallbackServerContext* context) override {
+    gate_.backlog().begin(gate_.key_of(*context->auth_context()), context->peer());
     try {
       return new ReflectionStream<Version>(names_, limits_.admit(gate_.caller_of(*context).name));
     } catch (const ServiceError& error) {

@@ -2,12 +2,14 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "mutex.h"
-#include "rpc/cut.h"
+#include "rpc/request_reactor.h"
 #include "rpc/stream_state.h"
 
 namespace cellcrush::rpc {
@@ -25,30 +27,17 @@ grpc::ByteBuffer wire_of(const watch::SentMessage& message);
 grpc::ByteBuffer wire_of(const google::protobuf::Message& message);
 
 /// One open stream over gRPC: sends the messages of its source (stream_state.h) one at a time, as fast as the client
-/// reads, and holds no thread. It owns itself until gRPC is done with it.
+/// reads, and holds no thread.
 template <class Source>
-class StreamReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>, public watch::Pump::Task {
+class StreamReactor final : public RequestReactor, public watch::Pump::Task {
  public:
-  /// Throws ServiceError (exhausted) if the caller, or all callers, have too many open streams.
-  static grpc::ServerWriteReactor<grpc::ByteBuffer>* start(const StreamParts& parts,
-                                                           grpc::CallbackServerContext& context,
-                                                           const std::string& caller, std::unique_ptr<Source> source) {
-    auto reactor = std::make_shared<StreamReactor>(parts, context, caller, std::move(source));
-    reactor->self_ = reactor;
-    {
-      // The pump may run the reactor while the source is being opened.
-      const MutexLock lock(reactor->mutex_);
-      reactor->state_.open([weak = std::weak_ptr<StreamReactor>(reactor)] {
-        if (auto alive = weak.lock()) alive->wake(alive);
-      });
-    }
-    parts.pump.add(reactor);
-    return reactor.get();
-  }
+  /// Returns the source that a request asks for. What it throws ends the stream.
+  using Make = std::function<std::unique_ptr<Source>(grpc::ByteBuffer& request)>;
 
-  StreamReactor(const StreamParts& parts, grpc::CallbackServerContext& context, const std::string& caller,
-                std::unique_ptr<Source> source)
-      : Task(caller), parts_(parts), context_(context), state_(parts, caller, std::move(source)) {}
+  /// The pump of `parts` advances it.
+  StreamReactor(OpenCalls& open, const grpc::CallbackServerContext& context, const std::string& caller,
+                Patience patience, const StreamParts& parts, Make make)
+      : RequestReactor(open, context, caller, patience), Task(caller), parts_(parts), make_(std::move(make)) {}
 
   void run() override {
     Action action = Action::none;
@@ -58,14 +47,14 @@ class StreamReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>, p
     {
       const MutexLock lock(mutex_);
       action = decide();
-      if (action == Action::write && std::exchange(begun_, true) && state_.source().has_more())
+      if (action == Action::write && std::exchange(begun_, true) && state_->source().has_more())
         options.set_buffer_hint();
     }
     switch (action) {
       case Action::none: return;
       case Action::write: this->StartWrite(&message_, options); return;
       case Action::finish: this->Finish(status_); return;
-      case Action::abandon: cut_.cancel(context_); return;
+      case Action::abandon: cut(); return;
     }
   }
 
@@ -75,50 +64,71 @@ class StreamReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>, p
       const MutexLock lock(mutex_);
       writing_ = false;
       if (!ok) cancelled_ = true;
-      at_once = state_.source().has_more();
-      if (!at_once && !cancelled_ && !finished_ && state_.is_quiet()) return;
+      at_once = state_->source().has_more();
+      if (!at_once && !cancelled_ && !finished_ && state_->is_quiet()) return;
     }
     // The pump's threads read the disk, not gRPC's.
-    at_once ? run() : parts_.pump.schedule(self_);
+    at_once ? run() : parts_.pump.schedule(self());
   }
 
   void OnCancel() override {
+    RequestReactor::OnCancel();
     {
       const MutexLock lock(mutex_);
       cancelled_ = true;
+      if (!state_) return;
     }
-    parts_.pump.schedule(self_);
+    parts_.pump.schedule(self());
   }
 
   void OnDone() override {
-    cut_.end();
     {
       // The pump may still run the reactor for a moment, but the objects of the call are gone.
       const MutexLock lock(mutex_);
       done_ = true;
-      state_.close();
+      if (state_) state_->close();
     }
-    // The last reference is `self`, or the pump's if it still holds one.
-    const auto self = std::move(self_);
+    RequestReactor::OnDone();
   }
 
  private:
+  void on_request(grpc::ByteBuffer& bytes, std::shared_ptr<Accounts::Charge>) override {
+    try {
+      auto source = make_(bytes);
+      // The pump may run the reactor while the source is being opened.
+      const MutexLock lock(mutex_);
+      state_.emplace(parts_, caller_name(), std::move(source));
+      state_->open([weak = std::weak_ptr<StreamReactor>(self())] {
+        if (auto alive = weak.lock()) alive->wake(alive);
+      });
+    } catch (const std::exception& error) {
+      {
+        const MutexLock lock(mutex_);
+        if (std::exchange(finished_, true)) return;
+      }
+      return end(status_of(error));
+    }
+    parts_.pump.add(self());
+  }
+
+  std::shared_ptr<StreamReactor> self() { return std::static_pointer_cast<StreamReactor>(shared_from_this()); }
+
   /// The next action. Decided under the lock and performed without it, because gRPC may call back at once.
   enum class Action { none, write, finish, abandon };
 
   Action decide() CELLCRUSH_REQUIRES(mutex_) {
     if (done_) return Action::none;
     // If the client has not read the status either, everything kept for it is dropped, and it sees CANCELLED.
-    if (finished_) return writing_ && state_.is_to_be_abandoned() ? Action::abandon : Action::none;
+    if (finished_) return writing_ && state_->is_to_be_abandoned() ? Action::abandon : Action::none;
     // The status waits behind the unread message, for a client that soon resumes reading.
-    if (writing_) return state_.is_stuck() ? close(state_.status_of_stuck()) : Action::none;
+    if (writing_) return state_->is_stuck() ? close(state_->status_of_stuck()) : Action::none;
     if (cancelled_) return close({grpc::StatusCode::CANCELLED, "The client cancelled the stream."});
-    auto next = state_.next();
-    if (!next && !state_.status()) return Action::none;
-    if (!next) return close(*state_.status());
+    auto next = state_->next();
+    if (!next && !state_->status()) return Action::none;
+    if (!next) return close(*state_->status());
     message_ = wire_of(*next);
-    if (!state_.begin_write(message_.Length())) return close(*state_.status());
-    state_.count_skipped(*next);
+    if (!state_->begin_write(message_.Length())) return close(*state_->status());
+    state_->count_skipped(*next);
     delay_.end(parts_.metrics);
     writing_ = true;
     return Action::write;
@@ -137,13 +147,11 @@ class StreamReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>, p
   }
 
   StreamParts parts_;
-  grpc::CallbackServerContext& context_;  ///< valid until OnDone
-  std::shared_ptr<StreamReactor> self_;
+  Make make_;
   EventDelay delay_;
-  Cut cut_;
 
   Mutex mutex_;
-  StreamState<Source> state_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::optional<StreamState<Source>> state_ CELLCRUSH_GUARDED_BY(mutex_);  ///< once the request has come
   grpc::ByteBuffer message_;                         ///< built under the mutex; owned by gRPC while writing_
   grpc::Status status_;                              ///< likewise while finished_
   bool begun_ CELLCRUSH_GUARDED_BY(mutex_) = false;  ///< the first message was written
@@ -152,18 +160,5 @@ class StreamReactor final : public grpc::ServerWriteReactor<grpc::ByteBuffer>, p
   bool cancelled_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   bool done_ CELLCRUSH_GUARDED_BY(mutex_) = false;
 };
-
-/// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns. If either throws, the
-/// stream ends with its error.
-template <class Source, class NameCaller, class Make>
-grpc::ServerWriteReactor<grpc::ByteBuffer>* open_stream(const StreamParts& parts,
-                                                        grpc::CallbackServerContext& context,
-                                                        const NameCaller& name_caller, const Make& make) {
-  try {
-    return StreamReactor<Source>::start(parts, context, name_caller(), make());
-  } catch (const std::exception& error) {
-    return new RefusedStream<grpc::ServerWriteReactor<grpc::ByteBuffer>>(status_of(error));
-  }
-}
 
 }  // namespace cellcrush::rpc

@@ -65,15 +65,16 @@ def answer(connection, patience=120):
 
 
 def together(count, work, at_once=120):
-    """Runs work(i) on threads."""
+    """Runs work(i) on threads, for a minute at most: by then an attack has what it can get."""
     numbers = iter(range(count))
+    until = time.time() + 60
     lock = threading.Lock()
 
     def run():
         while True:
             with lock:
                 i = next(numbers, None)
-            if i is None:
+            if i is None or time.time() > until:
                 return
             try:
                 work(i)
@@ -84,7 +85,7 @@ def together(count, work, at_once=120):
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join(180)
+        thread.join(max(0, until - time.time()))
 
 
 # Each attack has the daemon and how many times its size.
@@ -109,6 +110,13 @@ def unfinished_messages(daemon, times):
         connection.send(connection.begin("/cellcrush.v1.Sweeps/CreateSweep"), part, last=False)
     together(50 * times, send, 250)
     time.sleep(3)
+
+
+def sweep(daemon, times):
+    """Its jobs are kept, so that it stays at its size."""
+    request = {"sweep": {"case": daemon.case, "axes": [
+        {"field": "loading.end_strain", "linear": {"first": 0.01, "last": 0.02, "count": 10_000 * times}}]}}
+    answer(post(daemon, "Sweeps/CreateSweep", json.dumps(request).encode(), daemon.token))
 
 
 def trailers(daemon, times):
@@ -218,7 +226,7 @@ def large_checks(daemon, times):
     attack.join()
 
 
-ATTACKS = [empty_points_grpc, empty_points_http, unfinished_messages, trailers, unfinished_bodies,
+ATTACKS = [empty_points_grpc, empty_points_http, unfinished_messages, sweep, trailers, unfinished_bodies,
            unfinished_bodies_of_a_caller, reset_watches, unsent_messages, large_json, previews, exports,
            idle_connections, large_checks]
 

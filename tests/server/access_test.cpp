@@ -55,26 +55,31 @@ TEST_F(CallBacklogTest, AConnectionHasAsManyCallsAsAreLeftAndAnotherOneStillFind
   EXPECT_GT(flood(one_), 0);
 }
 
-TEST_F(CallBacklogTest, CallsThatNeverBegunAreCountedAndTheConnectionWithMostIsNamed) {
-  int asked = 0;
-  backlog_.set_alarms({nullptr, [&asked] { ++asked; }});
+TEST_F(CallBacklogTest, CallsThatNeverBeganAreForgottenOnceNoneIsQueued) {
   for (int i = 0; i < 15; ++i) ASSERT_TRUE(backlog_.admit(one_));
-  EXPECT_EQ(asked, 1);
-  EXPECT_THAT(backlog_.settle({{"ipv4:a:1", 2}, {"ipv4:a:2", 8}, {"unix:", 3}}), ElementsAre("ipv4:a:2"));
-  EXPECT_EQ(flood(two_), 18) << "5 are still open and have not begun";
-  EXPECT_TRUE(backlog_.settle({}).empty()) << "the others were reset";
-  EXPECT_EQ(flood(one_), 11);
+  ASSERT_TRUE(backlog_.admit(two_));
+  backlog_.queue();
+  backlog_.begin(two_, "two");
+  EXPECT_EQ(flood(one_), 20) << "one call is open, none comes";
 }
 
 TEST_F(CallBacklogTest, AConnectionThatGoesOnInSpiteOfRefusalsIsNamed) {
   std::vector<std::string> named;
-  backlog_.set_alarms({[&named](const std::string& name) { named.push_back(name); }, nullptr});
+  backlog_.on_flood([&named](const std::string& name) { named.push_back(name); });
   EXPECT_EQ(flood(one_), 20);
   backlog_.begin(one_, "ipv4:192.0.2.7:1");
-  EXPECT_EQ(flood(one_), 0);
+  backlog_.look();
+  for (int i = 0; i < 99; ++i) backlog_.refuse(one_);
   EXPECT_TRUE(named.empty());
   EXPECT_EQ(flood(one_), 0);
-  EXPECT_EQ(named, std::vector<std::string>{"ipv4:192.0.2.7:1"});
+  EXPECT_EQ(named, std::vector<std::string>{"ipv4:192.0.2.7:1"}) << "once";
+  EXPECT_EQ(flood(two_), 10);
+}
+
+TEST_F(CallBacklogTest, AConnectionHasOneCallHoweverManyOthersHave) {
+  std::vector<int> keys(10);
+  for (const int& key : keys) EXPECT_GE(flood(&key), 1);
+  EXPECT_EQ(flood(two_), 1);
 }
 
 class TokenFileTest : public ::testing::Test {
