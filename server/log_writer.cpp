@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1024 * 1024;
 constexpr std::size_t kMostAtOnce = 64 * 1024;       // bytes
-constexpr std::chrono::milliseconds kGathering{10};  // lines that come meanwhile are written together
+constexpr std::chrono::milliseconds kGathering{30};  // lines that come meanwhile are written together
 constexpr const char* kPlain = "\033[m";
 constexpr const char* kName = "cellcrushd";
 

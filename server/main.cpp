@@ -222,8 +222,9 @@ int main(int argc, char** argv) {
   }
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   options.on_progress = [] { notify_manager("WATCHDOG=1"); };
-  // The C library would keep eight heaps for each core, each at the size of its largest flood.
-  mallopt(M_ARENA_MAX, std::max(2, cellcrush::usable_cores().count));
+  // The C library would keep eight heaps for each core, each at the size of its largest flood. With fewer
+  // than two, the threads of calls wait for each other.
+  mallopt(M_ARENA_MAX, 2 * std::max(2, cellcrush::usable_cores().count));
   const sigset_t signals = block_signals();
   return serve(options, signals, *log);
 }

@@ -20,24 +20,32 @@ constexpr std::size_t kMostMeshes = 64;
 struct SpecChecker::KnownMesh {
   SceneSpec part;
   MeshMeasures measures;
+  /// The last spec with this mesh whose memory was predicted: a specimen costs as much as a small mesh.
+  SceneSpec predicted = {};
+  std::int64_t most_memory_bytes = 0;
 };
 
 SpecChecker::SpecChecker() = default;
 SpecChecker::~SpecChecker() = default;
 
-SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
+SpecChecker::Verdict SpecChecker::check(const SceneSpec& given, const BeforeMesh& before_mesh) {
   const SceneSpec spec = fill_in_fidelity(given);
   Verdict verdict;
   verdict.problems = check_spec(spec);
   if (prevents_meshing(verdict.problems)) {
     return verdict;
   }
-  const MeshMeasures& mesh = mesh_of(mesh_part_of(spec)).measures;
+  KnownMesh& known = mesh_of(spec, before_mesh);
+  const MeshMeasures& mesh = known.measures;
   const RunPlan plan = plan_run(spec, mesh, verdict.problems);
   if (verdict.problems.empty()) {
     verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
     verdict.step_count = plan.schedule.step_count;
-    verdict.most_memory_bytes = most_memory_of_run(spec, verdict.element_count);
+    if (known.most_memory_bytes == 0 || known.predicted != spec) {
+      known.most_memory_bytes = most_memory_of_run(spec, verdict.element_count);
+      known.predicted = spec;
+    }
+    verdict.most_memory_bytes = known.most_memory_bytes;
   }
   return verdict;
 }
@@ -55,15 +63,19 @@ std::int64_t SpecChecker::elements_to_build(const SceneSpec& given) const {
   return static_cast<std::int64_t>(count_elements(spec));
 }
 
-const SpecChecker::KnownMesh* SpecChecker::find_known(const SceneSpec& part) const {
+SpecChecker::KnownMesh* SpecChecker::find_known(const SceneSpec& part) const {
   const auto found =
       std::find_if(known_.begin(), known_.end(), [&part](const auto& known) { return known->part == part; });
   return found == known_.end() ? nullptr : found->get();
 }
 
-const SpecChecker::KnownMesh& SpecChecker::mesh_of(SceneSpec part) {
-  if (const KnownMesh* found = find_known(part)) {
+SpecChecker::KnownMesh& SpecChecker::mesh_of(const SceneSpec& spec, const BeforeMesh& before_mesh) {
+  SceneSpec part = mesh_part_of(spec);
+  if (KnownMesh* found = find_known(part)) {
     return *found;
+  }
+  if (before_mesh) {
+    before_mesh(static_cast<std::int64_t>(count_elements(spec)));
   }
   const MeshMeasures measures = measure_mesh(part, *build_mesh(part));
   keep(std::make_unique<KnownMesh>(KnownMesh{std::move(part), measures}));

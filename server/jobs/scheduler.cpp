@@ -81,6 +81,7 @@ void Scheduler::enqueue(const std::vector<store::QueuedJob>& jobs) {
     const MutexLock lock(mutex_);
     for (const auto& job : jobs) waiting_.add(job);
     tell_metrics();
+    if (free_cores_ <= 0) return;  // the next run that ends looks
   }
   wake();
 }

@@ -213,9 +213,10 @@ class PointChecker {
     try {
       const v1::Case made = maker_.case_at(point);
       // Large lattices of a sweep are built one after another; the sweep waits for places as long as its caller does.
-      const MeshPlaces::Place mesh(checking_.places, checker.elements_to_build(made), checking_.given_up,
-                                   std::chrono::hours(24));
-      out.verdict = checker.check(made);
+      std::optional<MeshPlaces::Place> mesh;
+      out.verdict = checker.check(made, [&](std::int64_t elements) {
+        mesh.emplace(checking_.places, elements, checking_.given_up, std::chrono::hours(24));
+      });
     } catch (const InvalidField& refused) {
       out.verdict.problems.push_back(invalid_problem(refused.field(), refused.message(), refused.remedy()));
     }

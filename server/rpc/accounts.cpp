@@ -16,22 +16,26 @@ std::shared_ptr<Accounts::Charge> Accounts::take(const std::string& caller, std:
   const MutexLock lock(mutex_);
   const auto found = callers_.find(caller);
   if (found != callers_.end() &&
-      (found->second + bytes > most_.per_caller || (bytes > kSmall && in_all_ + bytes > most_.in_all)))
+      (found->second + bytes > most_.per_caller || (bytes > kSmall && in_all_ + bytes > most_.in_all))) {
+    is_awaited_ = true;
     return nullptr;
+  }
   if (bytes != 0) callers_[caller] += bytes;
   in_all_ += bytes;
   return std::make_shared<Charge>(*this, caller, bytes);
 }
 
 void Accounts::change(const std::string& caller, std::int64_t by) {
+  bool is_awaited = false;
   {
     const MutexLock lock(mutex_);
     in_all_ += by;
     auto& held = callers_[caller];
     held += by;
     if (held == 0) callers_.erase(caller);
+    if (by < 0) is_awaited = std::exchange(is_awaited_, false);
   }
-  if (by < 0) {
+  if (is_awaited) {
     for (const auto& call : on_release_) call();
   }
 }

@@ -45,7 +45,8 @@ class Accounts {
   /// is.
   std::shared_ptr<Charge> take(const std::string& caller, std::int64_t bytes);
 
-  /// `call`: called whenever memory was released; quick. REQUIRES: no charge was taken yet.
+  /// `call`: called when memory was released, if `take` has returned null since the last time; quick. REQUIRES: no
+  /// charge was taken yet.
   void on_release(std::function<void()> call) { on_release_.push_back(std::move(call)); }
 
  private:
@@ -56,6 +57,7 @@ class Accounts {
   Mutex mutex_;
   std::map<std::string, std::int64_t> callers_ CELLCRUSH_GUARDED_BY(mutex_);  ///< bytes by caller
   std::int64_t in_all_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  bool is_awaited_ CELLCRUSH_GUARDED_BY(mutex_) = false;
 };
 
 /// The error of a request whose bytes have no room.

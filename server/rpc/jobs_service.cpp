@@ -32,10 +32,11 @@ class JobCalls {
     check_note("note", request.note());
     const std::string executor = parts_.queues.executor_for(request.executor(), "executor");
     check_size("case", request.case_().ByteSizeLong(), kLargestCase);
-    translate::CaseChecker checker;
     std::optional<jobs::MeshPlaces::Place> mesh;
-    mesh.emplace(parts_.places, checker.elements_to_build(request.case_()), [&call] { return call.is_cancelled(); });
-    const auto verdict = checker.check(request.case_());
+    const auto take_place = [&](std::int64_t elements) {
+      if (!mesh) mesh.emplace(parts_.places, elements, [&call] { return call.is_cancelled(); });
+    };
+    const auto verdict = checkers_.check(request.case_(), take_place);
     if (!verdict.problems.empty()) throw RefusedCase({verdict.problems.begin(), verdict.problems.end()});
     v1::Job job;
     *job.mutable_case_() = request.case_();
@@ -51,8 +52,10 @@ class JobCalls {
     };
     if (request.validate_only()) return with_notes(std::move(job));
     const std::string hash = payload_hash(request, job.owner());
-    const std::int64_t memory_bytes = parts_.admission.memory_of_job(
-        verdict.most_memory_bytes, [&] { return translate::predicted_memory(request.case_()); });
+    const std::int64_t memory_bytes = parts_.admission.memory_of_job(verdict.most_memory_bytes, [&] {
+      take_place(translate::CaseChecker().elements_to_build(request.case_()));
+      return translate::predicted_memory(request.case_());
+    });
     mesh.reset();
     const std::string owner = job.owner();
     std::optional<jobs::Admission::Place> place;
@@ -222,6 +225,7 @@ class JobCalls {
   }
 
   const ServiceParts& parts_;
+  translate::SharedCheckers checkers_;
 };
 
 }  // namespace

@@ -63,6 +63,11 @@ bool is_of_schema(std::string_view reason) {
   throw ServiceError(ServiceError::Kind::internal, message);
 }
 
+// Otherwise every connection takes 90 kB at once for its first pages.
+void allocate_pages_singly() {
+  [[maybe_unused]] static const int code = sqlite3_config(SQLITE_CONFIG_PAGECACHE, nullptr, 0, 0);
+}
+
 }  // namespace
 
 Database::Database(const std::filesystem::path& path, Access access) {
@@ -74,6 +79,7 @@ Database::Database(const std::filesystem::path& path, Access access) {
     if (found && !S_ISREG(found->st_mode))
       throw_file_error(file, "used", S_ISLNK(found->st_mode) ? ELOOP : kNotRegular);
   }
+  allocate_pages_singly();
   sqlite3* handle = nullptr;
   const int mode = access == Access::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   const int code = sqlite3_open_v2(path.c_str(), &handle, mode | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW, nullptr);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "cellcrush/v1/case.pb.h"
 #include "cellcrush/v1/problem.pb.h"
+#include "mutex.h"
 
 namespace cellcrush {
 class SpecChecker;
@@ -30,13 +32,26 @@ class CaseChecker {
     /// The prediction of check_case, or slightly more (cellcrush/spec_checker.h); 0 if there are problems.
     std::int64_t most_memory_bytes = 0;
   };
-  Verdict check(const v1::Case& submitted);
+  /// `before_mesh`: called with the approximate number of elements of the mesh, if one is to be built.
+  using BeforeMesh = std::function<void(std::int64_t elements)>;
+  Verdict check(const v1::Case& submitted, const BeforeMesh& before_mesh = {});
 
   /// Approximate number of elements in the mesh that check(submitted) would build; 0 if it would build none.
   [[nodiscard]] std::int64_t elements_to_build(const v1::Case& submitted) const;
 
  private:
   std::unique_ptr<SpecChecker> specs_;
+};
+
+/// Checkers for calls that come one after the other: they know the meshes of earlier calls. Thread-safe.
+class SharedCheckers {
+ public:
+  /// As CaseChecker.
+  CaseChecker::Verdict check(const v1::Case& submitted, const CaseChecker::BeforeMesh& before_mesh);
+
+ private:
+  Mutex mutex_;
+  std::vector<std::unique_ptr<CaseChecker>> idle_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
 }  // namespace cellcrush::translate

@@ -9,6 +9,7 @@
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
 #include "server/small_case.h"
+#include "translate/case_checker.h"
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
 #include "translate/measured_errors.h"
@@ -343,6 +344,24 @@ TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
   EXPECT_EQ(out.stage_times().evaluate_contact_forces_s(), 4.0);
   EXPECT_EQ(out.stage_times().evaluate_plate_forces_s(), 5.0);
   EXPECT_EQ(out.stage_times().evaluate_loads_s(), 6.0);
+}
+
+TEST(SharedCheckers, KnowTheMeshesOfSmallCasesAndForgetThoseOfLargeOnes) {
+  translate::SharedCheckers checkers;
+  int built = 0;
+  const auto count = [&built](std::int64_t) { ++built; };
+  const v1::Case small = testing::small_case();
+  const auto first = checkers.check(small, count);
+  const auto second = checkers.check(small, count);
+  EXPECT_EQ(built, 1);
+  EXPECT_GT(first.element_steps, 0);
+  EXPECT_EQ(second.element_steps, first.element_steps);
+  EXPECT_EQ(second.most_memory_bytes, first.most_memory_bytes);
+  v1::Case large = small;
+  large.set_title(std::string(5000, 'x'));
+  checkers.check(large, count);
+  checkers.check(small, count);
+  EXPECT_EQ(built, 2);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 
 #include "cellcrush/scene.h"
@@ -26,7 +27,9 @@ class SpecChecker {
     std::int64_t step_count = 0;         ///< 0 if there are problems
     std::int64_t most_memory_bytes = 0;  ///< most_memory_of_run; 0 if there are problems
   };
-  Verdict check(const SceneSpec& given);
+  /// `before_mesh`: called with the approximate number of elements of the mesh, if one is to be built.
+  using BeforeMesh = std::function<void(std::int64_t elements)>;
+  Verdict check(const SceneSpec& given, const BeforeMesh& before_mesh = {});
 
   /// Adds the mesh from which `scene` was built to the known meshes.
   void know(const SceneSpec& given, const Scene& scene);
@@ -37,8 +40,8 @@ class SpecChecker {
 
  private:
   struct KnownMesh;
-  [[nodiscard]] const KnownMesh* find_known(const SceneSpec& part) const;
-  const KnownMesh& mesh_of(SceneSpec part);
+  [[nodiscard]] KnownMesh* find_known(const SceneSpec& part) const;
+  KnownMesh& mesh_of(const SceneSpec& spec, const BeforeMesh& before_mesh);
   void keep(std::unique_ptr<KnownMesh> mesh);
 
   std::deque<std::unique_ptr<KnownMesh>> known_;  ///< newest first

@@ -181,10 +181,19 @@ TEST(SpecChecker, BuildsOneMeshForAllSpecsThatShareIt) {
   SpecChecker checker;
   SceneSpec spec = scenes::hexagon_specimen(8, 6);
   spec.imperfection = {0.1, 1};
-  EXPECT_GT(checker.elements_to_build(spec), 0);
-  checker.check(spec);
+  const std::int64_t elements = checker.elements_to_build(spec);
+  EXPECT_GT(elements, 0);
+  std::int64_t told = 0;
+  const auto before_mesh = [&told](std::int64_t count) { told += count; };
+  checker.check(spec, before_mesh);
   spec.loading.speed_m_per_s = 77.0;
   EXPECT_EQ(checker.elements_to_build(spec), 0);
+  for (const double end_strain : {0.2, 0.8, 0.8}) {
+    spec.loading.end_strain = end_strain;
+    const auto verdict = checker.check(spec, before_mesh);
+    EXPECT_EQ(verdict.most_memory_bytes, most_memory_of_run(spec, verdict.element_count));
+  }
+  EXPECT_EQ(told, elements);
   spec.imperfection.seed = 2;
   EXPECT_GT(checker.elements_to_build(spec), 0);
   checker.check(spec);
