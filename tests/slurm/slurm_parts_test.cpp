@@ -91,14 +91,17 @@ TEST(Packing, PacksAnAttemptWithoutAPredictedTime) {
 }
 
 TEST(Packing, AsksForMoreThanIsPredicted) {
-  EXPECT_EQ(need_of(2, 100 << 20, 5.0).memory_mib, 256);
+  EXPECT_EQ(need_of(2, 100 << 20, 1.0, 5.0).memory_mib, 256);
+  EXPECT_EQ(need_of(2, 100 << 20, 1.5, 5.0).memory_mib, 384);
   // At first, after one and after two attempts that ran out of memory, and with a limit of the daemon.
   const auto asked = [](double factor, std::int64_t most) {
-    return need_of(1, translate::memory_limit(400 << 20, 1, factor, most), 5.0).memory_mib;
+    const auto limit = [most](double of) { return translate::memory_limit(400 << 20, 1, of, most); };
+    const double raised = static_cast<double>(limit(factor)) / static_cast<double>(limit(1.0));
+    return need_of(1, limit(1.0), raised, 5.0).memory_mib;
   };
   EXPECT_EQ(asked(1.0, 0), 640);
   EXPECT_EQ(asked(1.5, 0), 1024);
-  EXPECT_EQ(asked(2.25, 0), 1408);
+  EXPECT_EQ(asked(2.25, 0), 1536);
   EXPECT_EQ(asked(2.25, 800 << 20), 896);
   EXPECT_EQ(asked(1.0, 450 << 20), 640);
   EXPECT_EQ(time_limit_minutes(60.0, seconds(0)), 13);
