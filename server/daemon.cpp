@@ -19,9 +19,9 @@
 #include "access/gate.h"
 #include "access/local_doors.h"
 #include "access/unix_user.h"
-#include "cellcrush/simulation.h"
 #include "error.h"
 #include "http/gateway.h"
+#include "jobs/queue_forecast.h"
 #include "limited_log.h"
 #include "listen_address.h"
 #include "net/acceptor.h"
@@ -33,8 +33,6 @@
 #include "rpc/open_calls.h"
 #include "rpc/request_fields.h"
 #include "service.h"
-#include "translate/presets.h"
-#include "worker/stage_timer.h"
 
 namespace cellcrush {
 namespace {
@@ -47,30 +45,6 @@ constexpr int kMostReadAtOnce = 32 * 1024;      // bytes; gRPC opens all calls i
 /// Services with a status in grpc.health.v1; "" is the whole daemon.
 constexpr std::array kServices = {"", "cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
                                   "cellcrush.v1.Admin"};
-
-constexpr double kLongestMeasurement = 0.05;  // seconds
-// Fallback if the measurement fails: the cost on a core of 2022.
-constexpr double kUnmeasured = 1e-7;
-
-/// Seconds of one core per step and element, measured by a short run of a small preset: about 0.05 s. For predictions
-/// only: the actual cost varies with section points, contacts and load.
-double measure_step_cost() {
-  const translate::Preset* preset = translate::find_preset("hexagon-small");
-  if (preset == nullptr) return kUnmeasured;
-  // About the first third of its crush, with contacts. In a smaller lattice the outer walls, which fill no vectors, and
-  // the plates would dominate.
-  const auto built = build_scene(preset->spec);
-  if (!built.scene) return kUnmeasured;
-  const auto facts = facts_of(*built.scene);
-  Simulation simulation(built.scene);
-  const double start = worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID);
-  while (simulation.step() < facts.step_count &&
-         worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start < kLongestMeasurement)
-    simulation.advance(32);
-  const double seconds = worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
-  const auto element_steps = static_cast<double>(simulation.step()) * static_cast<double>(facts.element_count);
-  return element_steps > 0.0 ? seconds / element_steps : kUnmeasured;
-}
 
 ListenAddress metrics_address(const std::string& text) {
   ListenAddress out = parse_listen_address(text);
@@ -155,7 +129,7 @@ struct Daemon::Impl {
         gate(options.access),
         credentials(credentials_for(gate, wanted)),
         wanted_http(http_address(gate, options)),
-        service(options, gate, measure_step_cost(), [this] { drain(); }) {
+        service(options, gate, jobs::measure_step_cost(), [this] { drain(); }) {
     try {
       serve();
     } catch (...) {

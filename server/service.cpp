@@ -36,8 +36,8 @@ rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
 
 // An export that nobody reads keeps others out, as an answer does.
 watch::WatchTimes times_of_exports(watch::WatchTimes times) {
-  times.patience = std::min<std::chrono::milliseconds>(times.patience, std::chrono::seconds(5));
-  times.grace = std::min<std::chrono::milliseconds>(times.grace, std::chrono::seconds(2));
+  times.patience = std::min(times.patience, times.patience_when_short);
+  times.grace = std::min(times.grace, times.grace_when_short);
   return times;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case_file/typed_number.h"
+#include "columns/swept_fields.h"
 #include "command_error.h"
 #include "help/case_manual.h"
 #include "results/field_value.h"
@@ -84,17 +85,6 @@ class AxisText {
 
   const std::string& text_;
 };
-
-int count_values(const v1::SweepAxis& axis) {
-  switch (axis.values_case()) {
-    case v1::SweepAxis::kList: return axis.list().values_size();
-    case v1::SweepAxis::kLinear: return axis.linear().count();
-    case v1::SweepAxis::kLogarithmic: return axis.logarithmic().count();
-    case v1::SweepAxis::kSeedCount: return axis.seed_count();
-    case v1::SweepAxis::VALUES_NOT_SET: break;
-  }
-  return 0;
-}
 
 }  // namespace
 

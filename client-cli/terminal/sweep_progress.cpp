@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <sstream>
 
+#include "columns/swept_fields.h"
 #include "command_error.h"
 #include "results/field_value.h"
 #include "terminal/number_text.h"
@@ -27,17 +27,6 @@ std::optional<double> plateau_of(const v1::Job& job) {
   if (job.summary().has_plateau_stress_impact_mpa()) return job.summary().plateau_stress_impact_mpa();
   if (job.progress().has_plateau_so_far_mpa()) return job.progress().plateau_so_far_mpa();
   return std::nullopt;
-}
-
-std::vector<std::string> varied_fields(const v1::Sweep& sweep) {
-  std::vector<std::string> fields;
-  for (const v1::SweepAxis& axis : sweep.axes()) fields.push_back(axis.field());
-  std::set<std::string> of_points;
-  for (const v1::SweepPoint& point : sweep.points()) {
-    for (const auto& [field, value] : point.fields()) of_points.insert(field);
-  }
-  fields.insert(fields.end(), of_points.begin(), of_points.end());
-  return fields;
 }
 
 // Jobs to show in `room` rows: all, or the running ones first, in the order of the sweep.
@@ -78,7 +67,7 @@ std::string bar_line(const SweepView& view, int width, const Terminal& terminal)
 }
 
 std::vector<std::string> job_rows(const SweepView& view, const std::vector<const Entry*>& shown, int width) {
-  const auto fields = varied_fields(view.sweep());
+  const auto fields = swept_fields(view.sweep());
   std::vector<Align> columns(fields.size(), Align::right);
   columns.insert(columns.end(), {Align::left, Align::right, Align::right, Align::right, Align::left});
   Table table(columns);
@@ -147,7 +136,7 @@ std::string sweep_progress_line(const SweepView& view) {
   if (const std::string left = left_text(view); !left.empty()) line += ", " + left;
   constexpr int kShown = 4;
   int shown = 0;
-  const auto fields = varied_fields(view.sweep());
+  const auto fields = swept_fields(view.sweep());
   for (const Entry& entry : view.jobs()) {
     if (entry.state() != v1::Job::RUNNING || shown == kShown) continue;
     ++shown;

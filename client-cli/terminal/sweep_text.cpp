@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "columns/swept_fields.h"
 #include "results/field_value.h"
 #include "terminal/case_text.h"
 #include "terminal/job_text.h"
@@ -62,9 +63,8 @@ std::string span_text(const v1::SweepAxis& axis) {
 
 // "speed 25 to 100 m/s, wall thickness 0.3 to 0.4 mm".
 std::string varied_text(const v1::Sweep& sweep) {
-  std::vector<std::string> fields;
-  for (const v1::SweepAxis& axis : sweep.axes()) fields.push_back(axis.field());
-  if (fields.empty()) return sweep.points_size() > 0 ? "a list of points" : "";
+  if (sweep.axes().empty()) return sweep.points_size() > 0 ? "a list of points" : "";
+  const std::vector<std::string> fields = swept_fields(sweep);
   std::vector<std::string> texts;
   for (const v1::SweepAxis& axis : sweep.axes()) {
     const FieldWords words = words_among(axis.field(), fields);

@@ -1,5 +1,3 @@
-#include "access/socket_table.h"
-
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -9,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+
+#include "access/unix_user.h"
 
 namespace cellcrush::access {
 namespace {

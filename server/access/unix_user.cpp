@@ -16,7 +16,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "access/socket_table.h"
 #include "access/token_file.h"
 
 namespace cellcrush::access {

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "cellcrush/convergence.h"
+#include "columns/swept_fields.h"
 #include "error.h"
 #include "jobs/seed_means.h"
-#include "jobs/sweep_points.h"
 
 namespace cellcrush::jobs {
 namespace {

@@ -3,14 +3,21 @@
 #include <algorithm>
 #include <queue>
 
+#include "cellcrush/simulation.h"
 #include "jobs/waiting_jobs.h"
 #include "store/resource_name.h"
+#include "translate/presets.h"
+#include "worker/stage_timer.h"
 
 namespace cellcrush::jobs {
 namespace {
 
 // What one more core is worth: two take .72 to .9 of the time of one, by the size of the lattice (README.md).
 constexpr double kWorthOfAnotherCore = 0.25;
+
+constexpr double kLongestMeasurement = 0.05;  // seconds
+// Fallback if the measurement fails: the cost on a core of 2022.
+constexpr double kUnmeasured = 1e-7;
 
 std::string before_it(int count, const char* joint) {
   if (count == 0) return ".";
@@ -120,6 +127,24 @@ class Play {
 };
 
 }  // namespace
+
+double measure_step_cost() {
+  const translate::Preset* preset = translate::find_preset("hexagon-small");
+  if (preset == nullptr) return kUnmeasured;
+  // About the first third of its crush, with contacts. In a smaller lattice the outer walls, which fill no vectors, and
+  // the plates would dominate.
+  const auto built = build_scene(preset->spec);
+  if (!built.scene) return kUnmeasured;
+  const auto facts = facts_of(*built.scene);
+  Simulation simulation(built.scene);
+  const double start = worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID);
+  while (simulation.step() < facts.step_count &&
+         worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start < kLongestMeasurement)
+    simulation.advance(32);
+  const double seconds = worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+  const auto element_steps = static_cast<double>(simulation.step()) * static_cast<double>(facts.element_count);
+  return element_steps > 0.0 ? seconds / element_steps : kUnmeasured;
+}
 
 double predicted_seconds(const store::QueuedJob& job, const JobFacts& facts, int cores, double step_cost) {
   const std::int64_t left = std::max<std::int64_t>(job.element_steps - facts.element_steps_done, 0);

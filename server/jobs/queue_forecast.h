@@ -38,6 +38,10 @@ struct WorkerFacts {
 /// Maximum number of jobs that a queue lists.
 inline constexpr int kMostEntries = 1000;
 
+/// Seconds of one core per step and element, measured by a short run of a small preset: about 0.05 s. For predictions
+/// only: the actual cost varies with section points, contacts and load.
+double measure_step_cost();
+
 /// Remaining seconds of a job on this many cores.
 double predicted_seconds(const store::QueuedJob& job, const JobFacts& facts, int cores, double step_cost);
 

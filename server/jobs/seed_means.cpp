@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cellcrush/convergence.h"
-#include "jobs/sweep_points.h"
+#include "columns/swept_fields.h"
 
 namespace cellcrush::jobs {
 namespace {

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "columns/swept_fields.h"
 #include "error.h"
 #include "jobs/case_field.h"
 #include "jobs/seed_means.h"
@@ -172,24 +173,13 @@ std::vector<std::vector<double>> listed(const v1::Sweep& sweep, const std::vecto
   return out;
 }
 
-std::int64_t count_of(const v1::SweepAxis& axis) {
-  switch (axis.values_case()) {
-    case v1::SweepAxis::kList: return axis.list().values_size();
-    case v1::SweepAxis::kLinear: return axis.linear().count();
-    case v1::SweepAxis::kLogarithmic: return axis.logarithmic().count();
-    case v1::SweepAxis::kSeedCount: return axis.seed_count();
-    case v1::SweepAxis::VALUES_NOT_SET: break;
-  }
-  return 0;
-}
-
 }  // namespace
 
 std::int64_t most_points(const v1::Sweep& sweep) {
   constexpr auto kMost = static_cast<std::int64_t>(kMostPoints);
   std::int64_t out = std::clamp<std::int64_t>(sweep.points_size(), 1, kMost);
   for (const auto& axis : sweep.axes()) {
-    if (!axis.with_previous()) out = std::min(out * std::clamp<std::int64_t>(count_of(axis), 1, kMost), kMost);
+    if (!axis.with_previous()) out = std::min(out * std::clamp<std::int64_t>(count_values(axis), 1, kMost), kMost);
   }
   return out;
 }
@@ -210,16 +200,6 @@ RepeatedPoints find_repeated(const std::vector<std::vector<double>>& points) {
       out.first = order[original];
       out.second = order[i];
     }
-  }
-  return out;
-}
-
-std::vector<std::string> swept_fields(const v1::Sweep& sweep) {
-  std::vector<std::string> out;
-  for (const auto& axis : sweep.axes()) out.push_back(axis.field());
-  if (sweep.axes().empty() && !sweep.points().empty()) {
-    for (const auto& [field, value] : sweep.points(0).fields()) out.push_back(field);
-    std::sort(out.begin(), out.end());
   }
   return out;
 }

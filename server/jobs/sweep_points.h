@@ -29,9 +29,6 @@ RepeatedPoints find_repeated(const std::vector<std::vector<double>>& points);
 /// At least as many points as the sweep has, and at most kMostPoints, without making them.
 std::int64_t most_points(const v1::Sweep& sweep);
 
-/// The fields that a sweep varies: those of its axes in order, or those of its points by name.
-std::vector<std::string> swept_fields(const v1::Sweep& sweep);
-
 /// All points of a sweep: either every combination of its axes' values, the last axis varying fastest, where axes that
 /// advance together count as one, or its explicit points. Throws InvalidField if axes or points are invalid, or exceed
 /// kMostPoints.

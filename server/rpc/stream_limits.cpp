@@ -70,4 +70,9 @@ std::size_t StreamLimits::count() const {
   return static_cast<std::size_t>(all_.count);
 }
 
+bool StreamLimits::is_short() const {
+  const MutexLock lock(mutex_);
+  return all_.count >= most_.in_all - most_.in_all / 8 || all_.bytes >= most_.bytes - most_.bytes / 8;
+}
+
 }  // namespace cellcrush::rpc

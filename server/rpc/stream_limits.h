@@ -37,6 +37,7 @@ class StreamLimits {
     /// Sets the bytes that the stream holds. Throws ServiceError (exhausted) if the streams of the caller, or of all
     /// callers, would hold too many; it then holds none.
     void hold(std::size_t bytes);
+    [[nodiscard]] std::int64_t bytes() const { return bytes_; }
 
    private:
     StreamLimits* limits_ = nullptr;
@@ -50,6 +51,9 @@ class StreamLimits {
   Permit admit(const std::string& caller);
 
   [[nodiscard]] std::size_t count() const;
+
+  /// Whether others may soon be refused: seven eighths of the places or bytes are taken.
+  [[nodiscard]] bool is_short() const;
 
  private:
   struct Held {

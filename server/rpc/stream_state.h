@@ -2,6 +2,7 @@
 
 #include <grpcpp/support/status.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -193,14 +194,16 @@ class StreamState {
   /// They were sent.
   void end_write() { permit_.hold(0); }
 
-  /// Whether the client has left a message unread for too long: longer than patience, and `more`.
-  [[nodiscard]] bool is_stuck(std::chrono::milliseconds more = {}) const {
-    return Clock::now() - last_write_ > parts_.times.patience + more;
+  /// Whether the client has left a message unread for too long.
+  [[nodiscard]] bool is_stuck() const { return Clock::now() - last_write_ > patience(); }
+  [[nodiscard]] bool is_to_be_abandoned() const {
+    const auto& times = parts_.times;
+    const auto grace = parts_.limits.is_short() ? std::min(times.grace, times.grace_when_short) : times.grace;
+    return Clock::now() - last_write_ > patience() + grace;
   }
-  [[nodiscard]] bool is_to_be_abandoned() const { return is_stuck(parts_.times.grace); }
 
   [[nodiscard]] grpc::Status status_of_stuck() const {
-    const auto seconds = std::chrono::duration<double>(parts_.times.patience).count();
+    const auto seconds = std::chrono::duration<double>(patience()).count();
     return {grpc::StatusCode::RESOURCE_EXHAUSTED, "The client read nothing from this stream for " +
                                                       jobs::text_of(seconds) +
                                                       " s, so the stream was closed. Ask again " +
@@ -213,6 +216,13 @@ class StreamState {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  // With an unread message; less while it may keep others out.
+  [[nodiscard]] std::chrono::milliseconds patience() const {
+    const auto& times = parts_.times;
+    if (!parts_.limits.is_short()) return times.patience;
+    return std::min(times.patience, times.patience_when_short + std::chrono::milliseconds(permit_.bytes() / 100));
+  }
 
   StreamParts parts_;
   StreamLimits::Permit permit_;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "columns/swept_fields.h"
 #include "error_table.h"
 #include "jobs/convergence.h"
 #include "jobs/seed_means.h"
@@ -182,7 +183,7 @@ class SweepCalls {
     const auto page = read_full_page(request.page_size(), request.page_token(), question);
     v1::SweepTable out;
     if (page.after == 0) {
-      for (auto& field : jobs::swept_fields(found.sweep)) out.add_fields(std::move(field));
+      for (auto& field : swept_fields(found.sweep)) out.add_fields(std::move(field));
     }
     auto stored = parts_.sweeps.rows(found.number, page.after, page.room());
     for (auto& row : stored.rows) *out.add_rows() = std::move(row);
@@ -218,7 +219,7 @@ class SweepCalls {
     const auto page = read_full_page(request.page_size(), request.page_token(), question);
     v1::SweepTable out;
     if (page.after == 0) {
-      for (auto& field : jobs::swept_fields(found.sweep)) out.add_fields(std::move(field));
+      for (auto& field : swept_fields(found.sweep)) out.add_fields(std::move(field));
     }
     jobs::SeedMeans means(found.sweep);
     if (!means.varies_seed()) return out;

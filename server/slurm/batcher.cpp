@@ -59,9 +59,11 @@ std::string comment_of(const Batch& batch) {
 
 }  // namespace
 
-Need need_of(int threads, std::int64_t memory_bytes, double seconds) {
-  const std::int64_t mib = memory_bytes / kMebibyte + kMemoryBeside;
-  return {threads, (mib + kMemoryStep - 1) / kMemoryStep * kMemoryStep, seconds};
+// NOLINTNEXTLINE(bugprone-easily-swappable-parameters)
+Need need_of(int threads, std::int64_t first_bytes, double raised, double seconds) {
+  const auto in_steps = [](std::int64_t mib) { return (mib + kMemoryStep - 1) / kMemoryStep * kMemoryStep; };
+  const std::int64_t first = in_steps(first_bytes / kMebibyte + kMemoryBeside);
+  return {threads, in_steps(std::llround(raised * static_cast<double>(first))), seconds};
 }
 
 std::vector<Pack> pack(const std::vector<Need>& attempts, std::chrono::duration<double> task_length,

@@ -29,9 +29,10 @@ struct Need {
   bool operator==(const Need&) const = default;
 };
 
-/// What sbatch asks for on behalf of an attempt whose worker may use this much memory (translate/worker_memory.h).
-/// Memory in steps, so that attempts of one sweep share an array.
-Need need_of(int threads, std::int64_t memory_bytes, double seconds);
+/// What sbatch asks for on behalf of an attempt whose worker may use `raised` times the memory of a first attempt
+/// (translate/worker_memory.h). Memory in steps, so that attempts of one sweep share an array; the first request is
+/// rounded before it is raised, so that the next one is larger.
+Need need_of(int threads, std::int64_t first_bytes, double raised, double seconds);
 
 /// Attempts, by index, that one task computes one after the other.
 using Share = std::vector<std::size_t>;

@@ -121,9 +121,12 @@ Need SlurmExecutor::predict(const worker::Order& order, Attempt& attempt) {
   attempt.set_most_bytes(most_bytes_of(order.case_(), verdict));
   store::QueuedJob job;
   job.element_steps = verdict.element_steps;
-  return need_of(order.threads(),
-                 translate::memory_limit(verdict.most_memory_bytes, order.threads(),
-                                         std::max(order.memory_factor(), 1.0), order.most_memory_bytes()),
+  const auto limit = [&](double factor) {
+    return translate::memory_limit(verdict.most_memory_bytes, order.threads(), factor, order.most_memory_bytes());
+  };
+  const auto first = limit(1.0);
+  return need_of(order.threads(), first,
+                 static_cast<double>(limit(std::max(order.memory_factor(), 1.0))) / static_cast<double>(first),
                  jobs::predicted_seconds(job, {order.threads(), 0}, order.threads(), step_cost_));
 }
 

@@ -1,4 +1,4 @@
-// tests/core/README.md has the numbers that the tests record, and tests/load/README.md those of service_load.
+// tests/core/README.md has the numbers that the tests record, and tests/load/README.md those of its programs.
 // CELLCRUSH_WRITE_PAGES=1 writes them into the pages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -115,10 +115,10 @@ EvidencePage make_evidence_page(const std::string& text, const scenes::Evidence&
 
 const fs::path kTests = fs::path(CELLCRUSH_SOURCE_ROOT) / "tests";
 
-/// Suite.Name of all tests, and the program that measures the service.
+/// Suite.Name of all tests, and the programs that measure the service.
 std::set<std::string> find_tests() {
   static const std::regex kTest(R"(\nTEST(?:_[FP])?\((\w+),\s*(\w+)\))");
-  std::set<std::string> tests{"service_load"};
+  std::set<std::string> tests{"service_load", "forecasts"};
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kTests)) {
     if (entry.path().extension() != ".cpp") continue;
     const std::string text = read_text(entry.path());

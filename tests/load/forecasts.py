@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Predicted memory and disk space of jobs (cellcrush check) against what their workers use; a row of CSV each.
 
-usage: forecasts.py BIN [LARGEST]   BIN has cellcrushd and cellcrush; LARGEST: most elements, default 2,000,000
+--record replaces these rows in forecasts.csv, and the figures of the table of README.md in evidence.csv.
 """
+import argparse
+import csv
+import itertools
 import json
 import os
 import subprocess
-import sys
 import tempfile
 import time
 
@@ -18,31 +20,34 @@ LAWS = {
     "paper": ["section.formulation=DISPLACEMENT_BASED", "section.depth_rule=LOBATTO",
               "section.area_rule=CONSTANT_AREA"],
 }
-SIZES = [1_000, 10_000, 100_000, 500_000, 1_990_000]
+# Of so many elements: the strain to crush to, and seconds between checkpoints, so that a run writes several.
+SIZES = {1_000: (0.8, 0.05), 10_000: (0.5, 0.05), 100_000: (0.05, 0.5), 500_000: (0.05, 5), 2_000_000: (0.02, 20)}
 ELEMENTS_PER_WALL = 4
 COMMON = """
 depth_mm: 4 elements_per_wall: 4 material { youngs_modulus_mpa: 69000 yield_stress_mpa: 76 density_kg_per_m3: 2700 }
 loading { speed_m_per_s: 200 end_strain: %g } output { sample_count: 100 frame_count: 10 }"""
+COLUMNS = ["lattice", "law", "size", "elements", "memory_predicted_mb", "memory_mb", "disk_predicted_mb", "disk_mb",
+           "data_mb", "result_predicted_mb", "result_mb"]
+HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def case_of(lattice, elements):
+def case_of(lattice, size):
     """Few columns, which are crushed in few steps; the more elements, the less far."""
-    columns = 10 if elements < 100_000 else 40
-    rows = max(2, round(elements / (LATTICES[lattice] * ELEMENTS_PER_WALL * columns)))
-    strain = {1_000: 0.8, 10_000: 0.5, 100_000: 0.05, 500_000: 0.01}.get(elements, 0.003)
+    columns = 10 if size < 100_000 else 40
+    rows = max(2, round(0.995 * size / (LATTICES[lattice] * ELEMENTS_PER_WALL * columns)))
     return (
         f"lattice {{ {lattice} {{ columns: {columns} rows: {rows} side_mm: 4 wall_thickness_mm: 0.3 }} }}"
-        + COMMON % strain
+        + COMMON % SIZES[size][0]
     )
 
 
 class Daemon:
-    def __init__(self, programs, folder):
+    def __init__(self, programs, folder, size):
         self.data = os.path.join(folder, "data")
         self.client = [os.path.join(programs, "cellcrush"), "--server", "unix:" + os.path.join(folder, "socket")]
         self.process = subprocess.Popen(
             [os.path.join(programs, "cellcrushd"), "--data", self.data, "--listen", self.client[2], "--http", "none"]
-            + ["--workers", "1", "--checkpoint-interval", "0.05"],
+            + ["--workers", "1", "--checkpoint-interval", str(SIZES[size][1])],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.process.stdout.readline()
 
@@ -66,7 +71,7 @@ class Daemon:
                 memory = max(memory, 1024 * int(fields["VmHWM"][0]))
                 data = max(data, 1024 * int(fields["VmData"][0]))
             except (OSError, KeyError, IndexError):
-                if memory and self.call("show", job)["state"] not in ("PENDING", "RUNNING"):
+                if self.call("show", job)["state"] not in ("PENDING", "RUNNING"):
                     break
             try:
                 for entry in os.scandir(folder):
@@ -76,39 +81,84 @@ class Daemon:
             time.sleep(0.003)
         shown = self.call("show", job)
         if shown["state"] != "SUCCEEDED":
-            print(f"# {shown['state']}: {shown.get('cause_message')}", flush=True)
+            raise RuntimeError(f"{shown['state']}: {shown.get('cause_message')}")
+        result = os.path.getsize(os.path.join(folder, "result.h5"))
         self.call("delete", job)
-        # At a checkpoint near the end all files are there at once, the result under its first name.
-        result = max(largest.pop("result.h5", 0), largest["result.h5.partial"])
-        return memory, sum(largest.values()), data, result
+        checkpoints = [size for name, size in largest.items() if name.startswith("checkpoint")]
+        if len(checkpoints) < 2:
+            raise RuntimeError("too few checkpoints were written")
+        # At one near the end all files are there at once. A short run has the partial one too briefly to be seen.
+        others = sum(size for name, size in largest.items() if not name.startswith(("checkpoint", "result")))
+        return memory, others + 3 * max(checkpoints) + result, data, result
+
+
+def measure(daemon, path, lattice, law, size):
+    with open(path, "w", encoding="ascii") as file:
+        file.write(case_of(lattice, size))
+    case = [path] + [word for change in LAWS[law] for word in ("--set", change)]
+    check = daemon.call("check", *case)
+    memory, disk, data, result = daemon.run(*case)
+    numbers = [int(check["predicted_memory_bytes"]), memory, int(check["predicted_disk_bytes"]), disk, data,
+               int(check["predicted_bytes"]), result]
+    values = [lattice, law, size, check["element_count"]] + [f"{number / 1e6:.2f}" for number in numbers]
+    return dict(zip(COLUMNS, map(str, values)))
+
+
+def record(measured):
+    """Replaces rows of the record, and the extremes of each size in the record of the page."""
+    path = os.path.join(HERE, "forecasts.csv")
+    rows = {}
+    if os.path.exists(path):
+        with open(path, encoding="ascii", newline="") as file:
+            rows = {(int(row["size"]), row["lattice"], row["law"]): row for row in csv.DictReader(file)}
+    rows.update({(int(row["size"]), row["lattice"], row["law"]): row for row in measured})
+    with open(path, "w", encoding="ascii", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows[key] for key in sorted(rows))
+    figures = []
+    for size in sorted({key[0] for key in rows}):
+        of_size = [row for key, row in sorted(rows.items()) if key[0] == size]
+        figures.append((f"cases of {size} elements", len(of_size)))
+        used = [float(row["memory_mb"]) for row in of_size]
+        figures += [(f"least MB of {size} elements", f"{min(used):.0f}"),
+                    (f"most MB of {size} elements", f"{max(used):.0f}")]
+        for name in ("memory", "disk", "result"):
+            ratios = [float(row[name + "_predicted_mb"]) / float(row[name + "_mb"]) for row in of_size]
+            figures += [(f"least ratio of {name} of {size} elements", f"{min(ratios):.2f}"),
+                        (f"most ratio of {name} of {size} elements", f"{max(ratios):.2f}")]
+    path = os.path.join(HERE, "evidence.csv")
+    with open(path, encoding="ascii") as file:
+        header, *lines = file.read().splitlines()
+    lines = [line for line in lines if not line.startswith("forecasts,")]
+    lines += [f"forecasts,{name},{value}" for name, value in figures]
+    with open(path, "w", encoding="ascii") as file:
+        file.write("\n".join([header] + sorted(lines)) + "\n")
 
 
 def main():
-    largest = int(sys.argv[2]) if len(sys.argv) > 2 else SIZES[-1]
-    print("lattice,law,elements,memory_predicted_mb,memory_mb,memory_ratio,disk_predicted_mb,disk_mb,disk_ratio,"
-          "data_mb,result_predicted_mb,result_mb")
-    with tempfile.TemporaryDirectory() as folder:
-        daemon = Daemon(sys.argv[1], folder)
-        path = os.path.join(folder, "case.txtpb")
-        try:
-            for size in (size for size in SIZES if size <= largest):
-                for lattice in LATTICES:
-                    for law in LAWS:
-                        with open(path, "w", encoding="ascii") as file:
-                            file.write(case_of(lattice, size))
-                        case = [path] + [word for change in LAWS[law] for word in ("--set", change)]
-                        check = {name: float(value) for name, value in daemon.call("check", *case).items()
-                                 if name.startswith("predicted") or name == "element_count"}
-                        memory, disk, data, result = daemon.run(*case)
-                        row = [check["predicted_memory_bytes"], memory, check.get("predicted_disk_bytes", 0), disk,
-                               data, check["predicted_bytes"], result]
-                        mb = [number / 1e6 for number in row]
-                        print(f"{lattice},{law},{check['element_count']:.0f},{mb[0]:.1f},{mb[1]:.1f},"
-                              f"{mb[0] / mb[1]:.3f},{mb[2]:.1f},{mb[3]:.1f},{mb[2] / mb[3]:.3f},{mb[4]:.1f},"
-                              f"{mb[5]:.2f},{mb[6]:.2f}", flush=True)
-        finally:
-            daemon.process.terminate()
-            daemon.process.wait()
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("programs", metavar="BIN", help="folder of cellcrushd and cellcrush")
+    parser.add_argument("--sizes", nargs="+", type=int, choices=SIZES, default=list(SIZES), metavar="ELEMENTS")
+    parser.add_argument("--lattices", nargs="+", choices=LATTICES, default=list(LATTICES))
+    parser.add_argument("--laws", nargs="+", choices=LAWS, default=list(LAWS))
+    parser.add_argument("--record", action="store_true")
+    wanted = parser.parse_args()
+    measured = []
+    print(",".join(COLUMNS))
+    for size in wanted.sizes:
+        with tempfile.TemporaryDirectory() as folder:
+            daemon = Daemon(wanted.programs, folder, size)
+            try:
+                for lattice, law in itertools.product(wanted.lattices, wanted.laws):
+                    row = measure(daemon, os.path.join(folder, "case.txtpb"), lattice, law, size)
+                    print(",".join(row.values()), flush=True)
+                    measured.append(row)
+            finally:
+                daemon.process.terminate()
+                daemon.process.wait()
+    if wanted.record:
+        record(measured)
 
 
 main()

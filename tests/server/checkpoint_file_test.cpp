@@ -9,6 +9,8 @@
 #include <string>
 
 #include "programs/temporary_folder.h"
+#include "server/small_case.h"
+#include "store/case_hash.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -121,6 +123,14 @@ TEST_F(CheckpointFileTest, OneOfAnotherSolverOrProcessorOrCaseIsRefused) {
   auto other = origin();
   other.set_case_hash("abd");
   EXPECT_FALSE(find_checkpoint(job_, other).checkpoint);
+}
+
+TEST(CaseHash, IsThatOfTheContent) {
+  v1::Case one = testing::small_case();
+  const auto hash = store::hash_of(one);
+  EXPECT_EQ(store::hash_of(testing::small_case()), hash);
+  one.set_depth_mm(4.5);
+  EXPECT_NE(store::hash_of(one), hash);
 }
 
 }  // namespace

@@ -92,11 +92,12 @@ TEST_F(ConnectionLimitsTest, StreamsBeyondACallersLimitAreRefusedUntilOneEnds) {
   two->TryCancel();
 }
 
+// Long before its time, while it keeps others out; but not one that has nothing to read.
 TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
   auto options = default_options();
-  options.connections.streams = 1;
-  options.watch_times.patience = milliseconds(300);
-  options.watch_times.grace = milliseconds(300);
+  options.connections.streams = 2;
+  options.watch_times.patience_when_short = milliseconds(300);
+  options.watch_times.grace_when_short = milliseconds(300);
   start(options);
   grpc::ChannelArguments small_window;
   small_window.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
@@ -105,6 +106,13 @@ TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
   auto with_frames = small_case();
   with_frames.mutable_output()->set_frame_count(200);
   const std::string job = client.create(with_frames, v1::Job::SUCCEEDED);
+  const std::string waiting = client.create(endless_case(), v1::Job::RUNNING);
+  ASSERT_TRUE(client.suspend(waiting).ok());
+  const auto idle_context = bounded_context();
+  Client other(daemon_->addresses().front());
+  const auto idle = other.jobs->WatchJob(idle_context.get(), named<v1::WatchJobRequest>(waiting));
+  v1::JobEvent event;
+  ASSERT_TRUE(idle->Read(&event));
   const auto context = bounded_context();
   const auto unread = client.jobs->DownloadResult(context.get(), named<v1::DownloadResultRequest>(job));
   unread->WaitForInitialMetadata();
@@ -112,7 +120,7 @@ TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
   grpc::Status status(grpc::StatusCode::UNKNOWN, "");
   std::string result;
   EXPECT_TRUE(wait_until([&] {
-    result = Client(daemon_->addresses().front()).download(job, 0, status);
+    result = other.download(job, 0, status);
     EXPECT_TRUE(status.ok() || status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
     return status.ok();
   }));
@@ -120,6 +128,10 @@ TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
   v1::DownloadResultResponse part;
   while (unread->Read(&part)) continue;
   EXPECT_FALSE(unread->Finish().ok());
+  ASSERT_TRUE(client.cancel(waiting).ok());
+  while (idle->Read(&event)) continue;
+  const auto end_of_idle = idle->Finish();
+  EXPECT_TRUE(end_of_idle.ok()) << end_of_idle.error_message();
 }
 
 TEST_F(ConnectionLimitsTest, AnAnswerThatNobodyReadsIsCut) {

@@ -15,7 +15,6 @@
 #include <thread>
 
 #include "access/sessions.h"
-#include "access/socket_table.h"
 #include "access/unix_user.h"
 #include "net/listening_port.h"
 #include "open_file.h"

@@ -386,25 +386,13 @@ TEST_F(ChangedResultTest, AnAttributeOfManyTextsIsNotReadAsOne) {
   EXPECT_THROW(static_cast<void>(ResultReader(path_).text_attribute("case")), ServiceError);
 }
 
-TEST(ResultReader, AFileThatIsNoResultIsRefused) {
-  const testing::TemporaryFolder folder;
-  EXPECT_THROW(ResultReader(folder.path() / "absent.h5"), ServiceError);
-}
-
-TEST(ResultReader, OneOfAnEarlierVersionIsNotReadAndSaysWhatCanBeDone) {
+TEST(ResultReader, AnAbsentFileIsRefusedAndOneOfAnEarlierVersionSaysWhatCanBeDone) {
   const testing::TemporaryFolder folder;
   const auto path = folder.path() / "result.h5";
+  EXPECT_THROW(ResultReader{path}, ServiceError);
   Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "making").close("closing");
   EXPECT_THAT([&] { const ResultReader reader(path); },
               testing::Refuses(ServiceError::Kind::failed_precondition, "Download the file"));
-}
-
-TEST(CaseHash, IsThatOfTheContent) {
-  v1::Case one = testing::small_case();
-  const auto hash = hash_of(one);
-  EXPECT_EQ(hash_of(testing::small_case()), hash);
-  one.set_depth_mm(4.5);
-  EXPECT_NE(hash_of(one), hash);
 }
 
 }  // namespace
