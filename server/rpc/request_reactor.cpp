@@ -30,7 +30,7 @@ void RequestReactor::end_late() {
   Stage reading = Stage::reading;
   if (open_.withdraw(*this) || stage_.compare_exchange_strong(reading, Stage::moved_on)) {
     end({grpc::StatusCode::DEADLINE_EXCEEDED,
-         fmt::format("The call's request did not come within {} s. Send it without delay, and fewer large ones at "
+         fmt::format("The call's request did not come within {:.2g} s. Send it without delay, and fewer large ones at "
                      "once.",
                      std::chrono::duration<double>(patience_.request).count())});
   } else if (stage_ == Stage::moved_on) {
