@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <variant>
 
 #include "cellcrush/scene.h"
@@ -64,10 +66,7 @@ struct Share {
   double touches = 0.0;  ///< at the end of the run
 };
 
-Share share_of_element(const SceneSpec& spec, double growth) {
-  const SceneResult specimen = build_scene(specimen_of(spec));
-  // A lattice may be sound only as it is: with its imperfection.
-  const auto scene = specimen.scene ? specimen.scene : build_scene(spec).scene;
+Share share_of_element(const SceneSpec& spec, const std::shared_ptr<const Scene>& scene, double growth) {
   const auto elements = static_cast<double>(scene->element_count());
   Share out;
   const auto bytes = [&](const auto& array) { return static_cast<double>(array.size() * sizeof(array[0])) / elements; };
@@ -80,9 +79,16 @@ Share share_of_element(const SceneSpec& spec, double growth) {
   return out;
 }
 
+Share share_of_element(const SceneSpec& spec, double growth) {
+  const SceneResult specimen = build_scene(specimen_of(spec));
+  // A lattice may be sound only as it is: with its imperfection.
+  return share_of_element(spec, specimen.scene ? specimen.scene : build_scene(spec).scene, growth);
+}
+
+double bytes_of_element(const Share& share) { return share.scene + share.state + kOfSamples + share.touches; }
+
 double bytes_of_run(const SceneSpec& spec, double elements, double growth) {
-  const Share share = share_of_element(spec, growth);
-  return (share.scene + share.state + kOfSamples + share.touches) * elements + kOfRun;
+  return bytes_of_element(share_of_element(spec, growth)) * elements + kOfRun;
 }
 
 /// As the scene was built after all.
@@ -111,6 +117,19 @@ std::int64_t checkpoint_of_run(const SceneSpec& spec, const Scene& scene) {
 std::int64_t most_memory_of_run(const SceneSpec& spec, std::int64_t elements) {
   // The arrays are those of the search by faces, which has more of them; the lists are those of the buckets.
   return std::llround(bytes_of_run(spec, static_cast<double>(elements), kGrowth.by_buckets));
+}
+
+std::int64_t MemoryForecast::most_of_run(const SceneSpec& spec, std::int64_t elements) {
+  SceneSpec specimen = specimen_of(spec);
+  if (bytes_of_element_ == 0.0 || specimen != specimen_) {
+    const auto scene = build_scene(specimen).scene;
+    if (!scene) {
+      return most_memory_of_run(spec, elements);
+    }
+    bytes_of_element_ = bytes_of_element(share_of_element(specimen, scene, kGrowth.by_buckets));
+    specimen_ = std::move(specimen);
+  }
+  return std::llround(bytes_of_element_ * static_cast<double>(elements) + kOfRun);
 }
 
 }  // namespace cellcrush

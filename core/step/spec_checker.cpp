@@ -20,9 +20,6 @@ constexpr std::size_t kMostMeshes = 64;
 struct SpecChecker::KnownMesh {
   SceneSpec part;
   MeshMeasures measures;
-  /// The last spec with this mesh whose memory was predicted: a specimen costs as much as a small mesh.
-  SceneSpec predicted = {};
-  std::int64_t most_memory_bytes = 0;
 };
 
 SpecChecker::SpecChecker() = default;
@@ -35,17 +32,12 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given, const BeforeMesh
   if (prevents_meshing(verdict.problems)) {
     return verdict;
   }
-  KnownMesh& known = mesh_of(spec, before_mesh);
-  const MeshMeasures& mesh = known.measures;
+  const MeshMeasures& mesh = mesh_of(spec, before_mesh).measures;
   const RunPlan plan = plan_run(spec, mesh, verdict.problems);
   if (verdict.problems.empty()) {
     verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
     verdict.step_count = plan.schedule.step_count;
-    if (known.most_memory_bytes == 0 || known.predicted != spec) {
-      known.most_memory_bytes = most_memory_of_run(spec, verdict.element_count);
-      known.predicted = spec;
-    }
-    verdict.most_memory_bytes = known.most_memory_bytes;
+    verdict.most_memory_bytes = memory_.most_of_run(spec, verdict.element_count);
   }
   return verdict;
 }
@@ -63,15 +55,15 @@ std::int64_t SpecChecker::elements_to_build(const SceneSpec& given) const {
   return static_cast<std::int64_t>(count_elements(spec));
 }
 
-SpecChecker::KnownMesh* SpecChecker::find_known(const SceneSpec& part) const {
+const SpecChecker::KnownMesh* SpecChecker::find_known(const SceneSpec& part) const {
   const auto found =
       std::find_if(known_.begin(), known_.end(), [&part](const auto& known) { return known->part == part; });
   return found == known_.end() ? nullptr : found->get();
 }
 
-SpecChecker::KnownMesh& SpecChecker::mesh_of(const SceneSpec& spec, const BeforeMesh& before_mesh) {
+const SpecChecker::KnownMesh& SpecChecker::mesh_of(const SceneSpec& spec, const BeforeMesh& before_mesh) {
   SceneSpec part = mesh_part_of(spec);
-  if (KnownMesh* found = find_known(part)) {
+  if (const KnownMesh* found = find_known(part)) {
     return *found;
   }
   if (before_mesh) {

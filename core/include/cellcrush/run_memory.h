@@ -28,4 +28,15 @@ std::int64_t checkpoint_of_run(const SceneSpec& spec, const Scene& scene);
 /// is cut into bands needs less. REQUIRES: a spec without problems, and the number of its elements.
 std::int64_t most_memory_of_run(const SceneSpec& spec, std::int64_t elements);
 
+/// The same for many specs: those of one lattice share a specimen, whatever their imperfections and numbers of cells
+/// above eight at one strain rate. Not thread-safe.
+class MemoryForecast {
+ public:
+  std::int64_t most_of_run(const SceneSpec& spec, std::int64_t elements);
+
+ private:
+  SceneSpec specimen_;             ///< the last one
+  double bytes_of_element_ = 0.0;  ///< 0: there is none
+};
+
 }  // namespace cellcrush

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "cellcrush/run_memory.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
 
@@ -40,11 +41,12 @@ class SpecChecker {
 
  private:
   struct KnownMesh;
-  [[nodiscard]] KnownMesh* find_known(const SceneSpec& part) const;
-  KnownMesh& mesh_of(const SceneSpec& spec, const BeforeMesh& before_mesh);
+  [[nodiscard]] const KnownMesh* find_known(const SceneSpec& part) const;
+  const KnownMesh& mesh_of(const SceneSpec& spec, const BeforeMesh& before_mesh);
   void keep(std::unique_ptr<KnownMesh> mesh);
 
   std::deque<std::unique_ptr<KnownMesh>> known_;  ///< newest first
+  MemoryForecast memory_;
 };
 
 /// Reports values of a valid spec that are probably mistakes: another unit, walls too thick for beams, a speed near
