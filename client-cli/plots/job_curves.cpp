@@ -279,6 +279,9 @@ Chart build_job_chart(const JobHistory& history) {
       if (plate.has_plateau) chart.curves.push_back(level_curve(plate.plateau, low, high, {kInk, 1.8, {}}, ""));
     }
   }
+  if (const double end = last_strain(smooth); summary.has_valid_to_strain() && end > summary.valid_to_strain()) {
+    chart.bands.push_back({summary.valid_to_strain(), end, "closed"});
+  }
   if (summary.theory().shock_mpa() > 0.0) {
     const auto add_theory = [&](const char* name, double stress, std::vector<double> dashes) {
       chart.curves.push_back(level_curve(stress, 0.0, chart.x.high, {kMutedInk, 1.4, std::move(dashes)},

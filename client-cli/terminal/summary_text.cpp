@@ -62,6 +62,9 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   if (summary.has_solid_fraction_at_densification()) {
     table.add({"solid fraction at densification", number_text(summary.solid_fraction_at_densification())});
   }
+  if (summary.has_valid_to_strain()) {
+    table.add({"valid to strain", number_text(summary.valid_to_strain()), "", "the lattice is closed from there on"});
+  }
   // For a run that ended earlier, this is the total work of its plate.
   const bool whole = summary.absorbed_energy_mj() > (1.0 - 1e-9) * summary.ledger().work_external_mj();
   table.add({whole && summary.has_ledger() ? "energy absorbed to the end" : "energy absorbed to 50 % strain",

@@ -13,8 +13,8 @@
 #include "energy/ledger.h"
 #include "measure/crush_mode.h"
 #include "measure/layers.h"
-#include "measure/theory.h"
 #include "measure/warnings.h"
+#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
@@ -137,7 +137,7 @@ void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sam
 }
 
 void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& sample) {
-  sample.solid_fraction = relative_density_of(scene) / (1.0 - sample.strain);
+  sample.solid_fraction = solid_fraction_at(scene, sample.strain);
   if (cells_.faces.count() == 0) {
     return;
   }
@@ -167,6 +167,10 @@ void Sampler::find_warnings(const Scene& scene, const State& state, Sample& samp
   if (!has_warned_of_density_ && sample.densest_layer.solid_fraction > kSolid) {
     sample.warnings.push_back(warn_of_density(state, sample));
     has_warned_of_density_ = true;
+  }
+  if (!has_warned_of_closing_ && scene.plates.present && is_past_closing(scene, sample.strain)) {
+    sample.warnings.push_back(warn_of_closing(scene, state, sample.strain));
+    has_warned_of_closing_ = true;
   }
   if (has_warned_of_necks_) {
     return;

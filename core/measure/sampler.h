@@ -33,6 +33,7 @@ class Sampler {
     visitor(has_warned_of_search_);
     visitor(has_warned_of_necks_);
     visitor(has_warned_of_density_);
+    visitor(has_warned_of_closing_);
     visitor(next_check_);
     visitor(next_layer_strain_);
     visitor(densest_layer_);
@@ -57,6 +58,7 @@ class Sampler {
   bool has_warned_of_search_ = false;
   bool has_warned_of_necks_ = false;
   bool has_warned_of_density_ = false;
+  bool has_warned_of_closing_ = false;
   double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
   double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated

@@ -8,6 +8,7 @@
 #include "contact/thickening.h"
 #include "contact/touch/force_laws.h"
 #include "scene/check_spec.h"
+#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
@@ -116,6 +117,17 @@ Warning warn_of_density(const State& state, const Sample& sample) {
           "Take the stresses of solid metal from here on as a lower bound, or give a smaller loading.end_strain."};
 }
 
+Warning warn_of_closing(const Scene& scene, const State& state, double strain) {
+  return {
+      Warning::Kind::closed, state.step, strain,
+      "From strain " + to_text(std::round(1e3 * *closing_strain_of(scene)) / 1e3) +
+          " on the lattice is closed: walls fill " + percent_of(kClosed) +
+          " of the volume between the plates. From there on stress and work depend on the mesh and on the stiffness "
+          "of contacts, not on the metal.",
+      "Take results up to that strain; plateau, energy and densification are those before it. Leave out "
+      "loading.end_strain to end the run there."};
+}
+
 std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, double strain) {
   std::size_t count = 0;
   int most = 0;
@@ -189,8 +201,8 @@ std::string moment_of(std::int64_t step, double time) {
 }
 
 std::string place_of(const Scene& scene, std::size_t particle) {
-  return "particle " + std::to_string(particle) + ", at (" + in_six_digits(scene.position[particle].x()) +
-         ", " + in_six_digits(scene.position[particle].y()) + ") mm before loading";
+  return "particle " + std::to_string(particle) + ", at (" + in_six_digits(scene.position[particle].x()) + ", " +
+         in_six_digits(scene.position[particle].y()) + ") mm before loading";
 }
 
 std::string percent_of(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }

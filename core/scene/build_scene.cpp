@@ -9,6 +9,7 @@
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
+#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
@@ -94,6 +95,10 @@ SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
   complete.section.axial_points = spec.section.axial_count();
   complete.section.depth_points = spec.section.depth_count();
   complete.numerics.time_step_s = scene.schedule.time_step;
+  if (!spec.loading.end_strain && scene.plates.present) {
+    complete.loading.end_strain =
+        scene.schedule.end == RunEnd::closed ? *closing_strain_of(scene) : LoadingSpec::kDefaultEndStrain;
+  }
   return complete;
 }
 

@@ -10,6 +10,7 @@
 #include "scene/check_spec.h"
 #include "scene/frame.h"
 #include "scene/mesh.h"
+#include "scene/solid_area.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
 
@@ -122,6 +123,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
   lump_masses(*scene);
   lump_rigid_bodies(*scene);
   link_elements(*scene);
+  scene->solid_area = solid_area_of(*scene);
   scene->stable_step = steps_of(*scene).stable;
   return scene;
 }
@@ -145,6 +147,7 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures;
   measures.element_count = scene.element_count();
   measures.length = extent_of(part, scene);
+  measures.closing_strain = closing_strain_of(scene);
   measures.steps = steps_of(scene);
   measures.lightest_mass = std::ranges::min(scene.mass);
   measures.shortest_element = std::ranges::min(scene.walls.undeformed_length);

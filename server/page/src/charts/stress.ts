@@ -78,6 +78,9 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
   const columns = curves.map((column) => places.map((place) => column[place]));
   const peak = kept.reduce((most, s) => Math.max(most, s.stressImpactMpa, s.stressSupportMpa), 0);
   const bands: Band[] = [{ from: 0.2, to: 0.4, label: "plateau window" }];
+  const valid = summary?.validToStrain ?? Infinity;
+  const last = smooth.strain[smooth.strain.length - 1] ?? 0;
+  if (last > valid) bands.push({ from: valid, to: last, label: "closed" });
   const beyond = peak > 1.001 * top
     ? `; single samples reach ${number(peak * unit.factor, 2)} ${unit.name}, off the chart` : "";
   return {

@@ -28,6 +28,9 @@ export function resultsList(s: Summary, note: string): HTMLElement {
     add("Densification strain", "densification_strain", strainText(s.densificationStrain),
         s.densificationStrain === undefined ? "no lasting rise of the stress" : "");
   }
+  if (s.validToStrain !== undefined) {
+    add("Valid to strain", "valid_to_strain", strainText(s.validToStrain), "the lattice is closed from there on");
+  }
   if (s.plateauStressToDensificationMpa !== undefined) {
     add("Mean stress to densification", "plateau_stress_to_densification_mpa",
         quantity(s.plateauStressToDensificationMpa, "MPa"));
