@@ -42,6 +42,7 @@ class Sampler {
  private:
   void measure_watched(const Scene& scene, const State& state, Sample& sample);
   void measure_rigid_walls(const Scene& scene, const State& state, Sample& sample);
+  void measure_closing(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_collapse(const Scene& scene, const State& state, Sample& sample);
   void find_warnings(const Scene& scene, const State& state, Sample& sample);
@@ -61,6 +62,7 @@ class Sampler {
   bool has_warned_of_closing_ = false;
   double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
+  bool can_close_between_walls_ = false;  ///< rigid walls face each other, with gaps between them before loading
   double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 

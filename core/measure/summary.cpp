@@ -180,7 +180,7 @@ std::optional<double> Summary::front_shock_error() const {
 Summary summarize(const Scene& scene, std::span<const Sample> all) {
   Summary summary;
   summary.theory = theory_of(scene);
-  if (scene.plates.present) summary.valid_to_strain = closing_strain_of(scene);
+  summary.valid_to_strain = closing_strain_of(scene);
   if (all.empty()) {
     return summary;
   }
@@ -190,6 +190,10 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
   summary.energy_error_relative = energy_error_of(all);
   summary.warnings = collect_warnings(all);
   if (!scene.plates.present) {
+    const auto closed = std::ranges::find(summary.warnings, Warning::Kind::closed, &Warning::kind);
+    if (closed != summary.warnings.end()) {
+      summary.valid_to_time = static_cast<double>(closed->step) * scene.schedule.time_step;
+    }
     return summary;
   }
   const std::span<const Sample> samples = before_closing(scene, all);

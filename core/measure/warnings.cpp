@@ -118,14 +118,19 @@ Warning warn_of_density(const State& state, const Sample& sample) {
 }
 
 Warning warn_of_closing(const Scene& scene, const State& state, double strain) {
-  return {
-      Warning::Kind::closed, state.step, strain,
-      "From strain " + to_text(std::round(1e3 * *closing_strain_of(scene)) / 1e3) +
-          " on the lattice is closed: walls fill " + percent_of(kClosed) +
-          " of the volume between the plates. From there on stress and work depend on the mesh and on the stiffness "
-          "of contacts, not on the metal.",
-      "Take results up to that strain; plateau, energy and densification are those before it. Leave out "
-      "loading.end_strain to end the run there."};
+  constexpr double kDense = 0.5;  // solid fraction before loading
+  const std::optional<double> closed = closing_strain_of(scene);
+  const std::string where = closed ? "strain " + to_text(std::round(1e3 * *closed) / 1e3) : moment_of(state.step, state.time);
+  return {Warning::Kind::closed, state.step, strain,
+          "From " + where + " on " + (closed ? "the lattice" : "the frame") + " is closed: walls fill " +
+              percent_of(kClosed) + " of the volume between the " + (closed ? "plates" : "rigid walls") +
+              ". From there on stress and work depend on the mesh and on the stiffness of contacts, not on the metal." +
+              (closed && solid_fraction_at(scene, 0.0) > kDense
+                   ? " Of so dense a lattice the bound is cautious: meshes agree for a while past it."
+                   : ""),
+          closed ? "Take results up to that strain; plateau, energy and densification are those before it. Leave out "
+                   "loading.end_strain to end the run there."
+                 : "Take results up to that time, or give it as loading.end_time_s."};
 }
 
 std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, double strain) {

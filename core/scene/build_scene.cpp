@@ -26,6 +26,8 @@ void put_plates(Scene& scene) {
     }
     scene.length = (most - least)[axis];
     scene.width = (most - least)[1 - axis];
+    // A column, say: nothing in it can close.
+    if (scene.solid_area >= kClosed * scene.length * scene.width) scene.solid_area = 0.0;
   }
   double low = scene.position.front()[axis];
   double high = low;

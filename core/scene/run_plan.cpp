@@ -39,7 +39,7 @@ struct End {
 /// depend on the mesh. Of a lattice that is all but closed before loading the whole run is computed.
 std::pair<double, RunEnd> end_strain_of(const SceneSpec& spec, const MeshMeasures& mesh) {
   const double by_default = LoadingSpec::kDefaultEndStrain;
-  const double closed = mesh.closing_strain.value_or(by_default);
+  const double closed = mesh.closing_strain;
   const bool ends_there =
       !spec.loading.end_strain && closed < by_default && closed > spec.loading.ramp_strain + kWorthRunning;
   return ends_there ? std::pair(closed, RunEnd::closed)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -15,11 +16,11 @@ namespace {
 struct WallEnd {
   double angle = 0.0;
   double thickness = 0.0;
-  double length = 0.0;  ///< of the element
+  double length = 0.0;  ///< of the wall
 };
 
 /// What two neighbouring walls of a joint count twice, mm^2. The kite between their axes and the corner of their faces
-/// is counted by both; a kite longer than an element is cut at its end.
+/// is counted by both; a kite longer than a wall is cut at its end.
 double overlap_of(const WallEnd& a, const WallEnd& b, double angle) {
   if (angle <= 0.0 || angle >= std::numbers::pi) return 0.0;
   const double along_a = 0.5 * (b.thickness + a.thickness * std::cos(angle)) / std::sin(angle);
@@ -27,13 +28,28 @@ double overlap_of(const WallEnd& a, const WallEnd& b, double angle) {
   return 0.25 * (a.thickness * std::clamp(along_a, 0.0, a.length) + b.thickness * std::clamp(along_b, 0.0, b.length));
 }
 
-double overlap_at(const Scene& scene, int joint, std::vector<WallEnd>& ends) {
+/// Lengths of the walls that elements belong to, mm.
+std::vector<double> wall_lengths_of(const Scene& scene) {
+  std::vector<double> lengths;
+  for (const Element& element : scene.elements) {
+    lengths.push_back((scene.position[element.end] - scene.position[element.start]).norm());
+  }
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (int k = 0; k < block.walls * block.elements; ++k) {
+      lengths[block.first_element + k] *= block.elements;
+    }
+  }
+  return lengths;
+}
+
+double overlap_at(const Scene& scene, const std::vector<double>& lengths, int joint, std::vector<WallEnd>& ends) {
   ends.clear();
   for (int k = scene.incidence_offset[joint]; k < scene.incidence_offset[joint + 1]; ++k) {
     const Element& element = scene.elements[scene.incidence[k]];
+    const double length = lengths[scene.incidence[k]];
     const int other = element.start == joint ? element.end : element.start;
     const Vector2 away = scene.position[other] - scene.position[joint];
-    ends.push_back({std::atan2(away.y(), away.x()), element.thickness, away.norm()});
+    ends.push_back({std::atan2(away.y(), away.x()), element.thickness, length});
   }
   if (ends.size() < 2) return 0.0;
   std::ranges::sort(ends, {}, &WallEnd::angle);
@@ -84,9 +100,10 @@ double solid_area_of(const Scene& scene) {
   for (const Element& element : scene.elements) {
     area += element.thickness * (scene.position[element.end] - scene.position[element.start]).norm();
   }
+  const std::vector<double> lengths = wall_lengths_of(scene);
   std::vector<WallEnd> ends;
   for (int joint = 0; joint < scene.joint_count; ++joint) {
-    area -= overlap_at(scene, joint, ends);
+    area -= overlap_at(scene, lengths, joint, ends);
   }
   return area;
 }
@@ -95,14 +112,47 @@ double solid_fraction_at(const Scene& scene, double strain) {
   return scene.solid_area / (scene.length * scene.width * (1.0 - strain));
 }
 
+double closing_strain_of(double solid_area, double envelope) {
+  return std::max(0.0, 1.0 - solid_area / (kClosed * envelope));
+}
+
 std::optional<double> closing_strain_of(const Scene& scene) {
-  const double envelope = scene.length * scene.width;
-  if (envelope <= 0.0) return std::nullopt;
-  return 1.0 - scene.solid_area / (kClosed * envelope);
+  if (!scene.plates.present || scene.solid_area <= 0.0) return std::nullopt;
+  return closing_strain_of(scene.solid_area, scene.length * scene.width);
 }
 
 bool is_past_closing(const Scene& scene, double strain) {
-  return strain > *closing_strain_of(scene) + scene.plates.speed * scene.schedule.time_step / scene.length;
+  const std::optional<double> closed = closing_strain_of(scene);
+  return closed && strain > *closed + scene.plates.speed * scene.schedule.time_step / scene.length;
+}
+
+double solid_fraction_between_walls(const Scene& scene, std::span<const Vector2> position,
+                                    std::span<const RigidWallMotion> motions) {
+  constexpr double kFacing = -0.999;  // cosine between their normals
+  const auto extent_along = [&](const Vector2& axis) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      low = std::min(low, axis.dot(position[i]) - scene.radius[i]);
+      high = std::max(high, axis.dot(position[i]) + scene.radius[i]);
+    }
+    return high - low;
+  };
+  const auto face_of = [&](std::size_t wall) -> Vector2 {
+    const RigidWall& of = scene.rigid_walls[wall];
+    return of.point + (motions.empty() ? 0.0 : motions[wall].travel) * of.normal;
+  };
+  double fraction = 0.0;
+  for (std::size_t a = 0; a < scene.rigid_walls.size(); ++a) {
+    const Vector2& normal = scene.rigid_walls[a].normal;
+    for (std::size_t b = a + 1; b < scene.rigid_walls.size(); ++b) {
+      const double gap = normal.dot(face_of(b) - face_of(a));
+      if (gap <= 0.0 || normal.dot(scene.rigid_walls[b].normal) > kFacing) continue;
+      const double depth = std::min(gap, extent_along(normal));
+      fraction = std::max(fraction, scene.solid_area / (depth * extent_along(scene.rigid_walls[a].tangent())));
+    }
+  }
+  return fraction;
 }
 
 }  // namespace cellcrush

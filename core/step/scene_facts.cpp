@@ -131,7 +131,7 @@ SceneFacts facts_of(const Scene& scene) {
   facts.relative_density = relative_density_of(scene);
   facts.length = scene.length;
   facts.width = scene.width;
-  if (scene.plates.present) facts.valid_to_strain = closing_strain_of(scene);
+  facts.valid_to_strain = closing_strain_of(scene);
   facts.end = scene.schedule.end;
   facts.stable_step = scene.stable_step;
   facts.time_step = scene.schedule.time_step;

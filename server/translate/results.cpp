@@ -188,6 +188,7 @@ v1::Summary::End to_proto(RunEnd end) {
 v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& time) {
   v1::Summary out;
   if (summary.valid_to_strain) out.set_valid_to_strain(*summary.valid_to_strain);
+  if (summary.valid_to_time) out.set_valid_to_time_s(*summary.valid_to_time);
   out.set_end(to_proto(summary.end));
   if (summary.plateau_stress_impact) out.set_plateau_stress_impact_mpa(*summary.plateau_stress_impact);
   if (summary.plateau_stress_support) out.set_plateau_stress_support_mpa(*summary.plateau_stress_support);

@@ -70,7 +70,7 @@ struct Warning {
     borders_near,
     walls_neck,         ///< more than 1 % of the walls were stretched by more than their thickness
     denser_than_solid,  ///< walls filled a layer by more than its volume
-    closed              ///< the lattice was closed: from there on its stress depends on the mesh
+    closed              ///< lattice or frame was closed: from there on its stress depends on the mesh
   };
   Kind kind = Kind::deep_penetration;
   std::int64_t step = 0;
@@ -93,7 +93,8 @@ struct Sample {
   /// Greatest of wall contacts since the start, divided by the thickness of the thinner wall.
   double deepest_penetration = 0.0;
   std::int64_t contact_count = 0;  ///< wall contacts closed now
-  /// Between the plates: walls before loading, joints counted once, over the volume left (scene/solid_area.h).
+  /// Between plates, or rigid walls that face each other: walls before loading, joints counted once, over the volume
+  /// left (scene/solid_area.h). 0 without either.
   double solid_fraction = 0.0;
   double collapsed_fraction = 0.0;  ///< fraction of the cells that have collapsed (measure/crush_mode.h)
   /// Of the cells that have collapsed by now, in samples in which it was evaluated.
@@ -198,6 +199,7 @@ struct Summary {
   /// Nominal strain from which the lattice is closed, so that stress and work depend on mesh and contact stiffness
   /// (scene/solid_area.h); absent without plates.
   std::optional<double> valid_to_strain;
+  std::optional<double> valid_to_time;  ///< s, the same of a frame between rigid walls, if it has closed
   RunEnd end = RunEnd::time;
   std::optional<double> plateau_stress_impact;  ///< MPa; absent if the run ended before the end of the range
   std::optional<double> plateau_stress_support;

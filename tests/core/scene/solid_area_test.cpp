@@ -12,6 +12,7 @@
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
+#include "scenes/rigid_walls.h"
 
 namespace cellcrush {
 namespace {
@@ -75,6 +76,14 @@ TEST(SolidArea, IsThatWhichTheWallsCover) {
   }
 }
 
+TEST(SolidArea, IsThatOfAnyMesh) {
+  SceneSpec spec = specimen_of(scenes::triangles(4, 4, 4.0, 0.8));
+  spec.imperfection = {};
+  const double area = scenes::build(spec)->solid_area;
+  spec.elements_per_wall = 16;  // shorter than the walls overlap at joints
+  EXPECT_NEAR(scenes::build(spec)->solid_area / area, 1.0, 1e-9);
+}
+
 TEST(SolidArea, CellsOfRigidBodiesAreSolid) {
   SceneSpec spec = scenes::hexagon_specimen(6, 5);
   spec.inclusions.rows = {2};
@@ -127,6 +136,22 @@ TEST(Closing, OfARunThatGoesOnIsAWarningAndResultsAreThoseBefore) {
   const Summary of_beyond = summarize(*longer, scenes::run_to_end(beyond));
   EXPECT_EQ(of_beyond.end, RunEnd::strain);
   EXPECT_EQ(std::ranges::count(of_beyond.warnings, Warning::Kind::closed, &Warning::kind), 1);
+}
+
+TEST(Closing, OfAFrameBetweenRigidWallsIsAWarningWithItsTime) {
+  SceneSpec spec = scenes::struck_hexagons(1e6, 100.0);
+  spec.loads.rigid_walls.push_back({0.0, -0.5001 * *scenes::cells_of(spec).wall_thickness_mm, 0.0, 1.0});
+  spec.loading.end_time_s = 1.85e-4;
+  const auto scene = scenes::build(spec);
+  Simulation simulation(scene);
+  const std::vector<Sample> samples = scenes::run_to_end(simulation);
+  const Summary summary = summarize(*scene, samples);
+  EXPECT_NEAR(samples.front().solid_fraction, scene->solid_area / (scene->length * scene->width), 0.1);
+  EXPECT_GT(samples.back().solid_fraction, kClosed);
+  ASSERT_TRUE(summary.valid_to_time);
+  const auto closed = std::ranges::find_if(samples, [](const Sample& now) { return now.solid_fraction > kClosed; });
+  EXPECT_NEAR(*summary.valid_to_time, closed->time, 1e-12);
+  EXPECT_FALSE(summary.valid_to_strain);
 }
 
 }  // namespace
