@@ -23,6 +23,13 @@ std::string theory_text(const char* theory, bool known, double error) {
   return fmt::format("{}, {} {}", theory, percent_text(std::abs(error)), error < 0.0 ? "lower" : "higher");
 }
 
+// Whether the run went on to where the lattice is closed.
+bool has_closed(const v1::Summary& summary) {
+  return summary.end() == v1::Summary::END_CLOSED || std::ranges::any_of(summary.warnings(), [](const auto& warning) {
+           return warning.kind() == v1::Warning::CLOSED;
+         });
+}
+
 void add_plateau_rows(Table& table, const v1::Summary& summary) {
   const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
   const ShownUnit unit =
@@ -55,7 +62,9 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   // A file of an earlier version lacks it.
   const bool of_theory = theory && summary.theory().densification_strain() > 0.0;
   table.add({"densification strain",
-             summary.has_densification_strain() ? number_text(summary.densification_strain()) : "not reached",
+             summary.has_densification_strain() ? number_text(summary.densification_strain())
+             : has_closed(summary)              ? "closed before"
+                                                : "not reached",
              of_theory ? number_text(summary.theory().densification_strain()) : "",
              of_theory ? "1 - 1.4 relative density" : ""});
   if (summary.has_plateau_stress_to_densification_mpa()) {
@@ -71,7 +80,7 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   const bool whole = summary.absorbed_energy_mj() > (1.0 - 1e-9) * summary.ledger().work_external_mj();
   const double to = std::min(0.5, summary.has_valid_to_strain() ? summary.valid_to_strain() : 0.5);
   table.add({whole && summary.has_ledger() ? "energy absorbed to the end"
-                                           : fmt::format("energy absorbed to {} % strain", number_text(100 * to)),
+                                           : fmt::format("energy absorbed to {:.3g} % strain", 100 * to),
              quantity_text(summary.absorbed_energy_mj(), "mJ")});
 }
 

@@ -211,9 +211,9 @@ TEST(JobChart, TheStressAxisFollowsThePlateauAndAnArrowSaysHowHighTheFirstWaveGo
   EXPECT_EQ(chart.marks[0].text, "densification 0.62");
   EXPECT_EQ(chart.marks[1].text, "in doubt: walls neck");
   ASSERT_FALSE(chart.bands.empty());
-  EXPECT_EQ(chart.bands.back().label, "closed");
-  EXPECT_NEAR(chart.bands.back().low, 0.72, 1e-12);
-  EXPECT_NEAR(chart.bands.back().high, 0.8, 1e-12);
+  EXPECT_EQ(chart.bands.back().text, "closed");
+  EXPECT_NEAR(chart.bands.back().from, 0.72, 1e-12);
+  EXPECT_NEAR(chart.bands.back().to, 0.8, 1e-12);
   EXPECT_THAT(chart.note, HasSubstr("Eq. 52: no front"));
   EXPECT_GT(chart.y.high, 3.4);
   EXPECT_LT(chart.y.high, 8.0);

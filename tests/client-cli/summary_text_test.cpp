@@ -61,7 +61,7 @@ TEST(SummaryText, SaysWhereTheLatticeIsClosedAndWhatIsTakenBefore) {
   const std::string text = summary_text(job, 120);
   EXPECT_THAT(text, ContainsRegex("at the impact plate +closed before"));
   EXPECT_THAT(text, ContainsRegex("valid to strain +0.310 +the lattice is closed from there on"));
-  EXPECT_THAT(text, HasSubstr("energy absorbed to 31.0 % strain"));
+  EXPECT_THAT(text, HasSubstr("energy absorbed to 31 % strain"));
   EXPECT_THAT(text, Not(HasSubstr("ended by itself")));
   summary.set_end(v1::Summary::END_CLOSED);
   summary.set_end_words("at strain 0.310, where the lattice is closed");
