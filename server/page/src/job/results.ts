@@ -21,12 +21,14 @@ export function resultsList(s: Summary, note: string): HTMLElement {
   const impact = s.plateauStressImpactMpa;
   if (impact !== undefined || theory?.gibsonAshbyMpa) {
     add("Plateau stress, impact plate", "plateau_stress_impact_mpa", quantity(impact, "MPa"),
-        impact === undefined ? (s.validToStrain ?? 1) < 0.4 ? "the lattice closed before strain 0.40" : "the run ended before strain 0.40"
+        impact === undefined
+          ? `the ${(s.validToStrain ?? 1) < 0.4 ? "lattice closed" : "run ended"} before strain 0.40`
           : compared(impact, theory?.shockMpa, "shock theory (Eq. 51)"));
     add("Plateau stress, support plate", "plateau_stress_support_mpa", quantity(s.plateauStressSupportMpa, "MPa"),
         compared(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby"));
     add("Densification strain", "densification_strain", strainText(s.densificationStrain),
-        s.densificationStrain === undefined ? "no lasting rise of the stress" : "");
+        s.densificationStrain === undefined ? "no lasting rise of the stress before the lattice closed or the run ended"
+          : "");
   }
   if (s.validToStrain !== undefined) {
     add("Valid to strain", "valid_to_strain", strainText(s.validToStrain),
