@@ -165,7 +165,8 @@ std::string summary_text(const v1::Job& job, int width) {
     add_quasi_static_rows(table, summary);
   }
   if (summary.has_valid_to_time_s()) {
-    table.add({"valid to time", quantity_text(summary.valid_to_time_s(), "s"), "", "the frame is closed from there on"});
+    table.add({"valid to time", quantity_text(summary.valid_to_time_s(), "s"), "",
+               "the frame is closed from there on"});
   }
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});

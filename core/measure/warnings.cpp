@@ -120,7 +120,8 @@ Warning warn_of_density(const State& state, const Sample& sample) {
 Warning warn_of_closing(const Scene& scene, const State& state, double strain) {
   constexpr double kDense = 0.5;  // solid fraction before loading
   const std::optional<double> closed = closing_strain_of(scene);
-  const std::string where = closed ? "strain " + to_text(std::round(1e3 * *closed) / 1e3) : moment_of(state.step, state.time);
+  const std::string where =
+      closed ? "strain " + to_text(std::round(1e3 * *closed) / 1e3) : moment_of(state.step, state.time);
   return {Warning::Kind::closed, state.step, strain,
           "From " + where + " on " + (closed ? "the lattice" : "the frame") + " is closed: walls fill " +
               percent_of(kClosed) + " of the volume between the " + (closed ? "plates" : "rigid walls") +

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "measure/crush_mode.h"
+#include "contact/topology/face_loops.h"
 
 namespace cellcrush {
 namespace {
@@ -74,12 +74,11 @@ bool is_rigid(const RigidBodies& rigid, std::span<const int> corners) {
 /// corners.
 double rigid_voids_of(const Scene& scene) {
   if (scene.rigid.particle_count() == 0) return 0.0;
-  const Faces cells = trace_faces(scene.position, scene.elements);
   const double thickness = scene.elements[scene.rigid.first_element].thickness;
   double voids = 0.0;
-  for (std::size_t cell = 0; cell < cells.count(); ++cell) {
-    const std::span<const int> corners = cells.particles_of(cell);
-    if (!is_rigid(scene.rigid, corners)) continue;
+  for (const FaceLoop& cell : trace_loops(scene.position, scene.elements)) {
+    const std::vector<int>& corners = cell.particle;
+    if (cell.area <= 0.0 || !is_rigid(scene.rigid, corners)) continue;
     double covered = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto place = [&](std::size_t corner) { return scene.position[corners[corner % corners.size()]]; };
@@ -88,7 +87,7 @@ double rigid_voids_of(const Scene& scene) {
       const double turn = std::atan2(cross(wall, next), wall.dot(next));  // the cell is on the left
       covered += 0.5 * thickness * wall.norm() - 0.25 * thickness * thickness * std::max(0.0, std::tan(0.5 * turn));
     }
-    voids += std::max(0.0, cells.area[cell] - covered);
+    voids += std::max(0.0, cell.area - covered);
   }
   return voids;
 }

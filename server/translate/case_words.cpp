@@ -158,7 +158,7 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   if (loading.has_speed_m_per_s()) {
     text += fmt::format("{}crushed along {} at {} m/s", text.empty() ? "" : ", ",
                         loading.direction() == v1::Loading::Y ? 'Y' : 'X', loading.speed_m_per_s());
-    if (loading.has_end_strain()) text += fmt::format(" to strain {:.6g}", loading.end_strain());
+    if (loading.has_end_strain()) text += fmt::format(" to strain {:.4g}", loading.end_strain());
   }
   if (loading.end_at_rest() > 0.0) {
     add_fact(words, "end at rest", fmt::format("at {} of the greatest kinetic energy", loading.end_at_rest()));
