@@ -59,7 +59,8 @@ double last_strain(const PlateCurves& curves) { return curves.strain.empty() ? 0
 double find_top(const JobHistory& history, const PlateCurves& smooth) {
   constexpr double kFirstWave = 0.1;
   const v1::Summary& summary = history.job.summary();
-  const double solid = summary.has_densification_strain() ? summary.densification_strain() : 0.65;
+  const double solid = std::min(summary.has_densification_strain() ? summary.densification_strain() : 0.65,
+                                summary.has_valid_to_strain() ? summary.valid_to_strain() : 1.0);
   std::vector<double> crushing;
   for (std::size_t i = 0; i < smooth.strain.size(); ++i) {
     const bool first_wave = smooth.strain[i] < kFirstWave && last_strain(smooth) > 2.0 * kFirstWave;
@@ -84,6 +85,12 @@ void show_stress(Chart& chart) {
   scale_y(chart, unit.factor);
 }
 
+// Where the result depends on the mesh.
+void add_closed_band(Chart& chart, const v1::Summary& summary, double end) {
+  if (summary.has_valid_to_strain() && end > summary.valid_to_strain())
+    chart.bands.push_back({summary.valid_to_strain(), end, "closed"});
+}
+
 // Densification, and the first of each kind of warning that puts the result in doubt.
 void add_marks(Chart& chart, const v1::Summary& summary, const Colour& colour) {
   if (summary.has_densification_strain()) {
@@ -91,7 +98,9 @@ void add_marks(Chart& chart, const v1::Summary& summary, const Colour& colour) {
     chart.marks.push_back({strain, "densification " + number_text(strain, 2), colour});
   }
   for (const v1::Warning& warning : summary.warnings()) {
-    if (warning.kind() == v1::Warning::BORDERS_NEAR || warning.strain() <= 0.0) continue;  // costs time only
+    // Borders cost time only; a chart of one job has a band where it is closed.
+    if (warning.kind() == v1::Warning::BORDERS_NEAR || warning.kind() == v1::Warning::CLOSED) continue;
+    if (warning.strain() <= 0.0) continue;
     std::string kind = v1::Warning::Kind_Name(warning.kind());
     std::ranges::transform(kind, kind.begin(), [](unsigned char letter) {
       return letter == '_' ? ' ' : static_cast<char>(std::tolower(letter));
@@ -235,6 +244,7 @@ Chart build_energy_chart(const JobHistory& history) {
   const ShownUnit unit = unit_by_size("mJ", high);
   chart.y = {low < 0.0 ? low - room : 0.0, high + room, fmt::format("energy ({})", unit.name)};
   scale_y(chart, unit.factor);
+  add_closed_band(chart, history.job.summary(), strain);
   chart.note = "totals since the start; the work equals the sum of the other curves";
   return chart;
 }
@@ -279,6 +289,7 @@ Chart build_job_chart(const JobHistory& history) {
       if (plate.has_plateau) chart.curves.push_back(level_curve(plate.plateau, low, high, {kInk, 1.8, {}}, ""));
     }
   }
+  add_closed_band(chart, summary, last_strain(smooth));
   if (summary.theory().shock_mpa() > 0.0) {
     const auto add_theory = [&](const char* name, double stress, std::vector<double> dashes) {
       chart.curves.push_back(level_curve(stress, 0.0, chart.x.high, {kMutedInk, 1.4, std::move(dashes)},
@@ -330,6 +341,8 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
       chart.curves[2 * i].name += ": plateau " + stress_text(chart, summary.plateau_stress_impact_mpa());
     }
     add_marks(chart, summary, kSeriesColours[i % kSeriesColours.size()]);
+    if (summary.has_valid_to_strain() && summary.valid_to_strain() < last_strain(curves_of(histories[i])))
+      chart.marks.push_back({summary.valid_to_strain(), "closed", kSeriesColours[i % kSeriesColours.size()]});
   }
   show_stress(chart);
   return chart;
@@ -356,6 +369,8 @@ Chart build_node_chart(const JobHistory& history) {
     return chart;
   }
   fit_axes(chart);
+  if (const v1::Summary& summary = history.job.summary(); summary.has_valid_to_time_s())
+    chart.bands.push_back({1e3 * summary.valid_to_time_s(), chart.x.high, "closed"});
   return chart;
 }
 

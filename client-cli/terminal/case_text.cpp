@@ -75,6 +75,8 @@ void add_crush_rows(Table& table, const v1::CheckCaseResponse& check) {
   table.add({"length (crush direction)", number_text(check.length_mm(), 4), "mm"});
   table.add({"width (transverse)", number_text(check.width_mm(), 4), "mm"});
   table.add({"relative density", number_text(100 * check.relative_density()), "%"});
+  if (check.has_valid_to_strain())
+    table.add({"valid to strain", number_text(check.valid_to_strain()), "closed from there on"});
 }
 
 }  // namespace

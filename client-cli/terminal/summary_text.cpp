@@ -23,6 +23,13 @@ std::string theory_text(const char* theory, bool known, double error) {
   return fmt::format("{}, {} {}", theory, percent_text(std::abs(error)), error < 0.0 ? "lower" : "higher");
 }
 
+// Whether the run went on to where the lattice is closed.
+bool has_closed(const v1::Summary& summary) {
+  return summary.end() == v1::Summary::END_CLOSED || std::ranges::any_of(summary.warnings(), [](const auto& warning) {
+           return warning.kind() == v1::Warning::CLOSED;
+         });
+}
+
 void add_plateau_rows(Table& table, const v1::Summary& summary) {
   const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
   const ShownUnit unit =
@@ -31,7 +38,9 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   const auto stress_text = [&](double stress) { return number_text(unit.factor * stress) + " " + unit.name; };
   const auto stress_row = [&](const char* plate, bool known, double stress, double expected,
                               const std::string& source) {
-    table.add({fmt::format("  at the {} plate", plate), known ? stress_text(stress) : "not reached",
+    const bool closed = summary.has_valid_to_strain() && summary.valid_to_strain() < summary.plateau_window_high();
+    table.add({fmt::format("  at the {} plate", plate),
+               known ? stress_text(stress) : closed ? "closed before" : "not reached",
                theory ? stress_text(expected) : "", theory ? source : ""});
   };
   table.add({fmt::format("plateau stress, {:.0f}-{:.0f} % strain", 100 * summary.plateau_window_low(),
@@ -53,7 +62,9 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   // A file of an earlier version lacks it.
   const bool of_theory = theory && summary.theory().densification_strain() > 0.0;
   table.add({"densification strain",
-             summary.has_densification_strain() ? number_text(summary.densification_strain()) : "not reached",
+             summary.has_densification_strain() ? number_text(summary.densification_strain())
+             : has_closed(summary)              ? "closed before"
+                                                : "not reached",
              of_theory ? number_text(summary.theory().densification_strain()) : "",
              of_theory ? "1 - 1.4 relative density" : ""});
   if (summary.has_plateau_stress_to_densification_mpa()) {
@@ -62,13 +73,23 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   if (summary.has_solid_fraction_at_densification()) {
     table.add({"solid fraction at densification", number_text(summary.solid_fraction_at_densification())});
   }
+  if (summary.has_valid_to_strain()) {
+    table.add({"valid to strain", number_text(summary.valid_to_strain()), "", "the lattice is closed from there on"});
+  }
   // For a run that ended earlier, this is the total work of its plate.
   const bool whole = summary.absorbed_energy_mj() > (1.0 - 1e-9) * summary.ledger().work_external_mj();
-  table.add({whole && summary.has_ledger() ? "energy absorbed to the end" : "energy absorbed to 50 % strain",
+  const double to = std::min(0.5, summary.has_valid_to_strain() ? summary.valid_to_strain() : 0.5);
+  table.add({whole && summary.has_ledger() ? "energy absorbed to the end"
+                                           : fmt::format("energy absorbed to {:.3g} % strain", 100 * to),
              quantity_text(summary.absorbed_energy_mj(), "mJ")});
 }
 
-// On a line of its own: words in a column of numbers would widen it.
+// On lines of their own: words in a column of numbers would widen it.
+std::string end_text(const v1::Summary& summary, int width) {
+  if (summary.end() != v1::Summary::END_CLOSED) return {};
+  return wrapped("ended by itself: " + printable(summary.end_words()), width, "  ", "    ");
+}
+
 std::string mode_text(const v1::Summary& summary, int width) {
   const std::string mode = printable(summary.crush_mode_words());
   if (mode.empty()) return {};
@@ -143,10 +164,14 @@ std::string summary_text(const v1::Job& job, int width) {
     add_plateau_rows(table, summary);
     add_quasi_static_rows(table, summary);
   }
+  if (summary.has_valid_to_time_s()) {
+    table.add({"valid to time", quantity_text(summary.valid_to_time_s(), "s"), "",
+               "the frame is closed from there on"});
+  }
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});
   std::string text = table.text(2, width);
-  if (plates) text += mode_text(summary, width);
+  if (plates) text += end_text(summary, width) + mode_text(summary, width);
   const std::string& note = job.words().theory_note();
   if (!note.empty() && summary.theory().shock_mpa() > 0)
     text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");

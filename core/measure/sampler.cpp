@@ -13,8 +13,8 @@
 #include "energy/ledger.h"
 #include "measure/crush_mode.h"
 #include "measure/layers.h"
-#include "measure/theory.h"
 #include "measure/warnings.h"
+#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
@@ -88,6 +88,9 @@ Sampler::Sampler(const Scene& scene)
       next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
+  } else {
+    const double fraction = solid_fraction_between_walls(scene, scene.position, {});
+    can_close_between_walls_ = fraction > 0.0 && fraction < kClosed;  // a column fills them from the first
   }
   if (cells_.faces.count() > 0) {
     columns_ = divide_into_columns(scene, cells_.field.pitch);
@@ -136,8 +139,22 @@ void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sam
   last_support_impulse_ = state.support_impulse;
 }
 
+void Sampler::measure_closing(const Scene& scene, const State& state, Sample& sample) {
+  bool is_closed = false;
+  if (scene.plates.present) {
+    sample.solid_fraction = solid_fraction_at(scene, sample.strain);
+    is_closed = is_past_closing(scene, sample.strain);
+  } else if (can_close_between_walls_) {
+    sample.solid_fraction = solid_fraction_between_walls(scene, state.position, state.rigid_wall_motion);
+    is_closed = sample.solid_fraction > kClosed;
+  }
+  if (is_closed && !has_warned_of_closing_) {
+    sample.warnings.push_back(warn_of_closing(scene, state, sample.strain));
+    has_warned_of_closing_ = true;
+  }
+}
+
 void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& sample) {
-  sample.solid_fraction = relative_density_of(scene) / (1.0 - sample.strain);
   if (cells_.faces.count() == 0) {
     return;
   }
@@ -187,6 +204,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
     measure_stress(scene, state, sample);
     measure_collapse(scene, state, sample);
   }
+  measure_closing(scene, state, sample);
   sample.energies = evaluate_energies(scene, state);
   sample.energy_contact_stored = state.contact_totals.stored;
   sample.deepest_penetration = state.contact_totals.deepest_penetration;

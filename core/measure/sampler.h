@@ -33,6 +33,7 @@ class Sampler {
     visitor(has_warned_of_search_);
     visitor(has_warned_of_necks_);
     visitor(has_warned_of_density_);
+    visitor(has_warned_of_closing_);
     visitor(next_check_);
     visitor(next_layer_strain_);
     visitor(densest_layer_);
@@ -41,6 +42,7 @@ class Sampler {
  private:
   void measure_watched(const Scene& scene, const State& state, Sample& sample);
   void measure_rigid_walls(const Scene& scene, const State& state, Sample& sample);
+  void measure_closing(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_collapse(const Scene& scene, const State& state, Sample& sample);
   void find_warnings(const Scene& scene, const State& state, Sample& sample);
@@ -57,8 +59,10 @@ class Sampler {
   bool has_warned_of_search_ = false;
   bool has_warned_of_necks_ = false;
   bool has_warned_of_density_ = false;
+  bool has_warned_of_closing_ = false;
   double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
+  bool can_close_between_walls_ = false;  ///< rigid walls face each other, with gaps between them before loading
   double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 

@@ -6,6 +6,7 @@
 #include "measure/curve.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
+#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
@@ -102,6 +103,13 @@ std::optional<QuasiStatic> find_quasi_static(std::span<const Sample> samples, co
   return found;
 }
 
+/// The samples until the lattice is closed.
+std::span<const Sample> before_closing(const Scene& scene, std::span<const Sample> samples) {
+  const auto past = [&scene](const Sample& sample) { return is_past_closing(scene, sample.strain); };
+  const auto end = std::ranges::find_if(samples, past);
+  return samples.first(static_cast<std::size_t>(end - samples.begin()));
+}
+
 std::optional<double> relative_error(double theory, const std::optional<double>& measured) {
   return measured && *measured > 0.0 ? std::optional(theory / *measured - 1.0) : std::nullopt;
 }
@@ -169,17 +177,27 @@ std::optional<double> Summary::front_shock_error() const {
   return front ? relative_error(front->shock, plateau_stress_impact) : std::nullopt;
 }
 
-Summary summarize(const Scene& scene, std::span<const Sample> samples) {
+Summary summarize(const Scene& scene, std::span<const Sample> all) {
   Summary summary;
   summary.theory = theory_of(scene);
-  if (samples.empty()) {
+  summary.valid_to_strain = closing_strain_of(scene);
+  if (all.empty()) {
     return summary;
   }
-  summary.step_count = samples.back().step;
-  summary.deepest_penetration = samples.back().deepest_penetration;
-  summary.energy_error_relative = energy_error_of(samples);
-  summary.warnings = collect_warnings(samples);
+  summary.step_count = all.back().step;
+  summary.end = all.back().step < scene.schedule.step_count ? RunEnd::at_rest : scene.schedule.end;
+  summary.deepest_penetration = all.back().deepest_penetration;
+  summary.energy_error_relative = energy_error_of(all);
+  summary.warnings = collect_warnings(all);
   if (!scene.plates.present) {
+    const auto closed = std::ranges::find(summary.warnings, Warning::Kind::closed, &Warning::kind);
+    if (closed != summary.warnings.end()) {
+      summary.valid_to_time = static_cast<double>(closed->step) * scene.schedule.time_step;
+    }
+    return summary;
+  }
+  const std::span<const Sample> samples = before_closing(scene, all);
+  if (samples.empty()) {
     return summary;
   }
   const Curve impact(samples, &Sample::stress_impact);
@@ -192,7 +210,7 @@ Summary summarize(const Scene& scene, std::span<const Sample> samples) {
   summary.densification_strain = find_densification(curve_of_both_plates(samples));
   if (summary.densification_strain) {
     summary.plateau_stress_to_densification = impact.mean(0.0, *summary.densification_strain);
-    summary.solid_fraction_at_densification = relative_density_of(scene) / (1.0 - *summary.densification_strain);
+    summary.solid_fraction_at_densification = solid_fraction_at(scene, *summary.densification_strain);
   }
   set_crush_mode(samples, summary);
   summary.quasi_static = find_quasi_static(samples, impact, support);

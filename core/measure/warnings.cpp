@@ -8,6 +8,7 @@
 #include "contact/thickening.h"
 #include "contact/touch/force_laws.h"
 #include "scene/check_spec.h"
+#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
@@ -116,6 +117,23 @@ Warning warn_of_density(const State& state, const Sample& sample) {
           "Take the stresses of solid metal from here on as a lower bound, or give a smaller loading.end_strain."};
 }
 
+Warning warn_of_closing(const Scene& scene, const State& state, double strain) {
+  constexpr double kDense = 0.5;  // solid fraction before loading
+  const std::optional<double> closed = closing_strain_of(scene);
+  const std::string where =
+      closed ? "strain " + to_text(std::round(1e3 * *closed) / 1e3) : moment_of(state.step, state.time);
+  return {Warning::Kind::closed, state.step, strain,
+          "From " + where + " on " + (closed ? "the lattice" : "the frame") + " is closed: walls fill " +
+              percent_of(kClosed) + " of the volume between the " + (closed ? "plates" : "rigid walls") +
+              ". From there on stress and work depend on the mesh and on the stiffness of contacts, not on the metal." +
+              (closed && solid_fraction_at(scene, 0.0) > kDense
+                   ? " Of so dense a lattice the bound is cautious: meshes agree for a while past it."
+                   : ""),
+          closed ? "Take results up to that strain; plateau, energy and densification are those before it. Leave out "
+                   "loading.end_strain to end the run there."
+                 : "Take results up to that time, or give it as loading.end_time_s."};
+}
+
 std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, double strain) {
   std::size_t count = 0;
   int most = 0;
@@ -189,8 +207,8 @@ std::string moment_of(std::int64_t step, double time) {
 }
 
 std::string place_of(const Scene& scene, std::size_t particle) {
-  return "particle " + std::to_string(particle) + ", at (" + in_six_digits(scene.position[particle].x()) +
-         ", " + in_six_digits(scene.position[particle].y()) + ") mm before loading";
+  return "particle " + std::to_string(particle) + ", at (" + in_six_digits(scene.position[particle].x()) + ", " +
+         in_six_digits(scene.position[particle].y()) + ") mm before loading";
 }
 
 std::string percent_of(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }

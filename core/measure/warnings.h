@@ -30,6 +30,8 @@ inline constexpr double kEnergyDrift = 0.01;
 Warning warn_of_depth(const Scene& scene, const State& state, double strain);
 /// Warns of a layer that walls fill by more than its volume: denser than solid metal.
 Warning warn_of_density(const State& state, const Sample& sample);
+/// Warns that a lattice between plates, or a frame between rigid walls, is closed (scene/solid_area.h).
+Warning warn_of_closing(const Scene& scene, const State& state, double strain);
 /// Warns that distant parts of the border, which bands do not test against each other, came near
 /// (contact/contact_search.h). This costs time but no accuracy.
 Warning warn_of_borders(const State& state, double strain);

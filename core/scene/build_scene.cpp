@@ -9,6 +9,7 @@
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
+#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
@@ -25,6 +26,8 @@ void put_plates(Scene& scene) {
     }
     scene.length = (most - least)[axis];
     scene.width = (most - least)[1 - axis];
+    // A column, say: nothing in it can close.
+    if (scene.solid_area >= kClosed * scene.length * scene.width) scene.solid_area = 0.0;
   }
   double low = scene.position.front()[axis];
   double high = low;
@@ -94,6 +97,10 @@ SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
   complete.section.axial_points = spec.section.axial_count();
   complete.section.depth_points = spec.section.depth_count();
   complete.numerics.time_step_s = scene.schedule.time_step;
+  if (!spec.loading.end_strain && scene.plates.present) {
+    complete.loading.end_strain =
+        scene.schedule.end == RunEnd::closed ? *closing_strain_of(scene) : LoadingSpec::kDefaultEndStrain;
+  }
   return complete;
 }
 

@@ -106,8 +106,9 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
 
 void check_plates(const LoadingSpec& loading, FieldChecker& check) {
   check.within_limits("loading.speed_m_per_s", loading.speed_m_per_s);
-  const bool end = check.within_limits("loading.end_strain", loading.end_strain);
-  const double latest = end ? loading.end_strain : FieldChecker::greatest_of("loading.end_strain");
+  const double end = loading.end_strain.value_or(LoadingSpec::kDefaultEndStrain);
+  const bool ends = check.within_limits("loading.end_strain", end);
+  const double latest = ends ? end : FieldChecker::greatest_of("loading.end_strain");
   check.in_range("loading.ramp_strain", loading.ramp_strain, {.low = 0.0, .high = latest, .high_open = true},
                  " (end_strain)");
 }

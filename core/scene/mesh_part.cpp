@@ -10,6 +10,7 @@
 #include "scene/check_spec.h"
 #include "scene/frame.h"
 #include "scene/mesh.h"
+#include "scene/solid_area.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
 
@@ -122,18 +123,15 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
   lump_masses(*scene);
   lump_rigid_bodies(*scene);
   link_elements(*scene);
+  scene->solid_area = solid_area_of(*scene);
   scene->stable_step = steps_of(*scene).stable;
   return scene;
 }
 
 namespace {
 
-/// Of the joints along the crush: a regular lattice has that of its layout, before any imperfection.
-double extent_of(const SceneSpec& part, const Scene& scene) {
-  if (scene.length > 0.0) {
-    return scene.length;
-  }
-  const int axis = crush_axis_of(part);
+/// Of the joints along an axis.
+double extent_of(const Scene& scene, int axis) {
   const auto [low, high] =
       std::ranges::minmax(scene.position, {}, [axis](const Vector2& place) { return place[axis]; });
   return high[axis] - low[axis];
@@ -144,7 +142,11 @@ double extent_of(const SceneSpec& part, const Scene& scene) {
 MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures;
   measures.element_count = scene.element_count();
-  measures.length = extent_of(part, scene);
+  // A regular lattice has those of its layout, before any imperfection.
+  const int axis = crush_axis_of(part);
+  measures.length = scene.length > 0.0 ? scene.length : extent_of(scene, axis);
+  const double width = scene.length > 0.0 ? scene.width : extent_of(scene, 1 - axis);
+  measures.closing_strain = closing_strain_of(scene.solid_area, measures.length * width);
   measures.steps = steps_of(scene);
   measures.lightest_mass = std::ranges::min(scene.mass);
   measures.shortest_element = std::ranges::min(scene.walls.undeformed_length);

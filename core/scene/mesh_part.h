@@ -34,6 +34,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 struct MeshMeasures {
   std::size_t element_count = 0;
   double length = 0.0;  ///< envelope of the joints along the crush
+  double closing_strain = 0.0;  ///< between plates (scene/solid_area.h)
   MeshSteps steps;
   double lightest_mass = 0.0;  ///< of a particle
   double shortest_element = 0.0;

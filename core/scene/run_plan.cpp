@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "lattice/lattice.h"
 #include "scene/check_spec.h"
@@ -12,6 +13,9 @@
 
 namespace cellcrush {
 namespace {
+
+/// Strain past the ramp from which a lattice is worth crushing.
+constexpr double kWorthRunning = 0.05;
 
 Plates plates_of(const SceneSpec& spec, const MeshMeasures& mesh, double stiffness) {
   const double speed = *spec.loading.speed_m_per_s * kMmPerM;
@@ -26,20 +30,37 @@ Plates plates_of(const SceneSpec& spec, const MeshMeasures& mesh, double stiffne
   return plates;
 }
 
-/// The time of end_strain, or end_time_s where that comes first or there are no plates.
-double end_time_of(const SceneSpec& spec, const MeshMeasures& mesh, const Plates& plates) {
-  const double given = spec.loading.end_time_s.value_or(std::numeric_limits<double>::infinity());
-  if (!plates.present) {
-    return given;
-  }
-  return std::min(given, spec.loading.end_strain * mesh.length / plates.speed + 0.5 * plates.ramp_time);
+struct End {
+  double time = 0.0;  ///< s
+  RunEnd reason = RunEnd::time;
+};
+
+/// The strain at which a run between plates ends. By default it ends where the lattice is closed: past that, results
+/// depend on the mesh. Of a lattice that is all but closed before loading the whole run is computed.
+std::pair<double, RunEnd> end_strain_of(const SceneSpec& spec, const MeshMeasures& mesh) {
+  const double by_default = LoadingSpec::kDefaultEndStrain;
+  const double closed = mesh.closing_strain;
+  const bool ends_there =
+      !spec.loading.end_strain && closed < by_default && closed > spec.loading.ramp_strain + kWorthRunning;
+  return ends_there ? std::pair(closed, RunEnd::closed)
+                    : std::pair(spec.loading.end_strain.value_or(by_default), RunEnd::strain);
 }
 
-Schedule schedule_of(const SceneSpec& spec, const TimeStep& step, double end_time) {
+/// The end at a strain, or at end_time_s where that comes first or there are no plates.
+End end_of(const SceneSpec& spec, const MeshMeasures& mesh, const Plates& plates) {
+  const double given = spec.loading.end_time_s.value_or(std::numeric_limits<double>::infinity());
+  if (!plates.present) return {given, RunEnd::time};
+  const auto [strain, reason] = end_strain_of(spec, mesh);
+  const double time = strain * mesh.length / plates.speed + 0.5 * plates.ramp_time;
+  return given < time ? End{given, RunEnd::time} : End{time, reason};
+}
+
+Schedule schedule_of(const SceneSpec& spec, const TimeStep& step, const End& end) {
   Schedule schedule;
   schedule.time_step = step.seconds;
   schedule.bound = step.bound;
-  schedule.step_count = static_cast<std::int64_t>(std::ceil(end_time / schedule.time_step - 1e-9));
+  schedule.step_count = static_cast<std::int64_t>(std::ceil(end.time / schedule.time_step - 1e-9));
+  schedule.end = end.reason;
   const auto interval = [&](int count) { return std::max<std::int64_t>(1, schedule.step_count / count); };
   schedule.sample_interval = interval(spec.output.sample_count);
   schedule.frame_interval = interval(spec.output.frame_count);
@@ -93,10 +114,10 @@ RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& prob
     plan.plates = plates_of(spec, mesh, plan.contact.stiffness);
   }
   const TimeStep step = time_step_of(spec, mesh, plan.contact, plan.plates);
-  const double end_time = end_time_of(spec, mesh, plan.plates);
-  check_step_count(spec, end_time / step.seconds, problems);
+  const End end = end_of(spec, mesh, plan.plates);
+  check_step_count(spec, end.time / step.seconds, problems);
   if (problems.empty()) {
-    plan.schedule = schedule_of(spec, step, end_time);
+    plan.schedule = schedule_of(spec, step, end);
   }
   return plan;
 }

@@ -73,7 +73,8 @@ Share share_of_element(const SceneSpec& spec, const std::shared_ptr<const Scene>
   visit_arrays(*scene, [&](const auto& array) { out.scene += bytes(array); });
   visit_arrays(make_initial_state(*scene), [&](const auto& array) { out.state += bytes(array); });
   // Without plates, nobody says how near the walls come.
-  const double end_strain = scene->plates.present ? spec.loading.end_strain : 1.0;
+  const double end_strain =
+      scene->plates.present ? spec.loading.end_strain.value_or(LoadingSpec::kDefaultEndStrain) : 1.0;
   const double of_friction = scene->contact.friction > 0.0 ? kGrowth.of_friction : 0.0;
   if (scene->contact.present) out.touches = end_strain * (growth + of_friction);
   return out;

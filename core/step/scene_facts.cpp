@@ -4,6 +4,7 @@
 #include "measure/theory.h"
 #include "push/half_planes.h"
 #include "scene/check_spec.h"
+#include "scene/solid_area.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
 
@@ -130,6 +131,8 @@ SceneFacts facts_of(const Scene& scene) {
   facts.relative_density = relative_density_of(scene);
   facts.length = scene.length;
   facts.width = scene.width;
+  facts.valid_to_strain = closing_strain_of(scene);
+  facts.end = scene.schedule.end;
   facts.stable_step = scene.stable_step;
   facts.time_step = scene.schedule.time_step;
   facts.step_count = scene.schedule.step_count;

@@ -20,6 +20,7 @@ Value plateau_to_densification(Of s) {
   return known(s.has_plateau_stress_to_densification_mpa(), s.plateau_stress_to_densification_mpa());
 }
 Value densification_strain(Of s) { return known(s.has_densification_strain(), s.densification_strain()); }
+Value valid_to_strain(Of s) { return known(s.has_valid_to_strain(), s.valid_to_strain()); }
 Value absorbed_energy(Of s) { return known(s.step_count() > 0, s.absorbed_energy_mj()); }
 Value gibson_ashby(Of s) { return known(s.theory().shock_mpa() > 0.0, s.theory().gibson_ashby_mpa()); }
 Value shock_stress(Of s) { return known(s.theory().shock_mpa() > 0.0, s.theory().shock_mpa()); }
@@ -87,6 +88,7 @@ const std::vector<ResultColumn>& result_columns() {
       {{"shock", "theory", "Eq. 52"}, "MPa", "front_shock_mpa", "front.shock_mpa", "no front", front_shock},
       {{"strain", "behind", "front"}, "", "front_strain_behind", "front.strain_behind", "no front", front_strain},
       {{"energy", "ledger", "error"}, "%", "energy_error_relative", "energy_error_relative", "-", energy_error},
+      {{"valid", "to", "strain"}, "", "valid_to_strain", "valid_to_strain", "-", valid_to_strain},
   };
   return kColumns;
 }

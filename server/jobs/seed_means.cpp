@@ -23,6 +23,7 @@ constexpr std::array kResults = {"plateau_stress_impact_mpa",
                                  "front.shock_mpa",
                                  "front.strain_behind",
                                  "energy_error_relative",
+                                 "valid_to_strain",
                                  "solid_fraction_at_densification"};
 
 }  // namespace

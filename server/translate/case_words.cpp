@@ -158,7 +158,7 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   if (loading.has_speed_m_per_s()) {
     text += fmt::format("{}crushed along {} at {} m/s", text.empty() ? "" : ", ",
                         loading.direction() == v1::Loading::Y ? 'Y' : 'X', loading.speed_m_per_s());
-    if (loading.has_end_strain()) text += fmt::format(" to strain {}", loading.end_strain());
+    if (loading.has_end_strain()) text += fmt::format(" to strain {:.4g}", loading.end_strain());
   }
   if (loading.end_at_rest() > 0.0) {
     add_fact(words, "end at rest", fmt::format("at {} of the greatest kinetic energy", loading.end_at_rest()));
@@ -211,6 +211,17 @@ const char* words_of(v1::Summary::CrushMode mode) {
   }
 }
 
+std::string end_words_of(const v1::Summary& summary) {
+  switch (summary.end()) {
+    case v1::Summary::END_STRAIN: return "at the end strain";
+    case v1::Summary::END_CLOSED:
+      return fmt::format("at strain {:.3f}, where the lattice is closed", summary.valid_to_strain());
+    case v1::Summary::END_TIME: return "at the end time";
+    case v1::Summary::END_AT_REST: return "at rest";
+    default: return "";
+  }
+}
+
 }  // namespace
 
 void add_words(v1::CheckCaseResponse& check) {
@@ -219,7 +230,10 @@ void add_words(v1::CheckCaseResponse& check) {
 
 void add_words(v1::Job& job) {
   if (job.has_case_()) *job.mutable_words() = describe_case(job.case_());
-  if (job.has_summary()) job.mutable_summary()->set_crush_mode_words(words_of(job.summary().crush_mode()));
+  if (!job.has_summary()) return;
+  v1::Summary& summary = *job.mutable_summary();
+  summary.set_crush_mode_words(words_of(summary.crush_mode()));
+  summary.set_end_words(end_words_of(summary));
 }
 
 void add_words(v1::ListJobsResponse& jobs) {

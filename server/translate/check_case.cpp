@@ -66,6 +66,7 @@ void describe(const SceneFacts& facts, v1::CheckCaseResponse& out) {
   out.set_relative_density(facts.relative_density);
   out.set_length_mm(facts.length);
   out.set_width_mm(facts.width);
+  if (facts.valid_to_strain) out.set_valid_to_strain(*facts.valid_to_strain);
   out.set_stable_step_s(facts.stable_step);
   out.set_time_step_s(facts.time_step);
   out.set_step_count(facts.step_count);

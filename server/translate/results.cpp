@@ -52,6 +52,7 @@ v1::Warning::Kind to_proto(Warning::Kind kind) {
     case Warning::Kind::borders_near: return v1::Warning::BORDERS_NEAR;
     case Warning::Kind::walls_neck: return v1::Warning::WALLS_NECK;
     case Warning::Kind::denser_than_solid: return v1::Warning::DENSER_THAN_SOLID;
+    case Warning::Kind::closed: return v1::Warning::CLOSED;
     case Warning::Kind::energy_drift: return v1::Warning::ENERGY_DRIFT;
     case Warning::Kind::contact_energy: return v1::Warning::CONTACTS_MAKE_ENERGY;
   }
@@ -174,8 +175,21 @@ v1::Theory to_proto(const Theory& theory) {
   return out;
 }
 
+v1::Summary::End to_proto(RunEnd end) {
+  switch (end) {
+    case RunEnd::strain: return v1::Summary::END_STRAIN;
+    case RunEnd::closed: return v1::Summary::END_CLOSED;
+    case RunEnd::time: return v1::Summary::END_TIME;
+    case RunEnd::at_rest: return v1::Summary::END_AT_REST;
+  }
+  return v1::Summary::END_UNSPECIFIED;
+}
+
 v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& time) {
   v1::Summary out;
+  if (summary.valid_to_strain) out.set_valid_to_strain(*summary.valid_to_strain);
+  if (summary.valid_to_time) out.set_valid_to_time_s(*summary.valid_to_time);
+  out.set_end(to_proto(summary.end));
   if (summary.plateau_stress_impact) out.set_plateau_stress_impact_mpa(*summary.plateau_stress_impact);
   if (summary.plateau_stress_support) out.set_plateau_stress_support_mpa(*summary.plateau_stress_support);
   out.set_plateau_window_low(Summary::kPlateauLow);

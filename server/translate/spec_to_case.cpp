@@ -127,7 +127,7 @@ void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
 void write_plates(const LoadingSpec& in, v1::Loading& out) {
   out.set_direction(wire_of<v1::Loading::Direction>(in.direction));
   if (in.speed_m_per_s) out.set_speed_m_per_s(*in.speed_m_per_s);
-  out.set_end_strain(in.end_strain);
+  if (in.end_strain) out.set_end_strain(*in.end_strain);
   out.set_ramp_strain(in.ramp_strain);
 }
 

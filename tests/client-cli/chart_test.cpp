@@ -204,11 +204,16 @@ TEST(JobChart, TheStressAxisFollowsThePlateauAndAnArrowSaysHowHighTheFirstWaveGo
   v1::Summary& summary = *history.job.mutable_summary();
   summary = from_text<v1::Summary>(
       "plateau_stress_impact_mpa: 3.4 densification_strain: 0.62 theory { shock_mpa: 3.5 }"
-      "warnings { kind: WALLS_NECK strain: 0.7 } warnings { kind: BORDERS_NEAR strain: 0.3 }");
+      "warnings { kind: WALLS_NECK strain: 0.7 } warnings { kind: BORDERS_NEAR strain: 0.3 }"
+      "valid_to_strain: 0.72 warnings { kind: CLOSED strain: 0.72 }");
   const Chart chart = build_job_chart(history);
   ASSERT_EQ(chart.marks.size(), 2U) << "near borders put nothing in doubt";
   EXPECT_EQ(chart.marks[0].text, "densification 0.62");
   EXPECT_EQ(chart.marks[1].text, "in doubt: walls neck");
+  ASSERT_FALSE(chart.bands.empty());
+  EXPECT_EQ(chart.bands.back().text, "closed");
+  EXPECT_NEAR(chart.bands.back().from, 0.72, 1e-12);
+  EXPECT_NEAR(chart.bands.back().to, 0.8, 1e-12);
   EXPECT_THAT(chart.note, HasSubstr("Eq. 52: no front"));
   EXPECT_GT(chart.y.high, 3.4);
   EXPECT_LT(chart.y.high, 8.0);

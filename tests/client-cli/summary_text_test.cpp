@@ -52,6 +52,22 @@ TEST(SummaryText, NamesWarningsWithTheirRemedies) {
   EXPECT_THAT(text, HasSubstr("Remedy: Give a shorter numerics.time_step_s.\n"));
 }
 
+TEST(SummaryText, SaysWhereTheLatticeIsClosedAndWhatIsTakenBefore) {
+  v1::Job job = testing::make_job(v1::Job::SUCCEEDED);
+  v1::Summary& summary = *job.mutable_summary();
+  summary.set_valid_to_strain(0.31);
+  summary.clear_plateau_stress_impact_mpa();
+  summary.mutable_ledger()->set_work_external_mj(10.0 * summary.absorbed_energy_mj());
+  const std::string text = summary_text(job, 120);
+  EXPECT_THAT(text, ContainsRegex("at the impact plate +closed before"));
+  EXPECT_THAT(text, ContainsRegex("valid to strain +0.310 +the lattice is closed from there on"));
+  EXPECT_THAT(text, HasSubstr("energy absorbed to 31 % strain"));
+  EXPECT_THAT(text, Not(HasSubstr("ended by itself")));
+  summary.set_end(v1::Summary::END_CLOSED);
+  summary.set_end_words("at strain 0.310, where the lattice is closed");
+  EXPECT_THAT(summary_text(job, 120), HasSubstr("ended by itself: at strain 0.310, where the lattice is closed"));
+}
+
 TEST(SummaryText, FitsItsTerminal) {
   const v1::Job job = testing::make_job(v1::Job::SUCCEEDED);
   for (const int width : {60, 80, 100}) {

@@ -89,15 +89,17 @@ TEST(SweepTable, WithFewerThanThreeResultsThereIsNoFitAndFailuresSayWhy) {
 }
 
 TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {
-  const auto lines = lines_of(sweep_table_csv(make_table(1)));
+  v1::SweepTable table = make_table(1);
+  table.mutable_rows(0)->mutable_result()->mutable_summary()->set_valid_to_strain(0.86);
+  const auto lines = lines_of(sweep_table_csv(table));
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[0],
             "loading.speed_m_per_s,job,state,plateau_stress_impact_mpa,plateau_stress_support_mpa,"
             "plateau_stress_to_densification_mpa,densification_strain,absorbed_energy_mj,gibson_ashby_mpa,shock_mpa,"
-            "front_shock_mpa,front_strain_behind,energy_error_relative,crush_mode");
+            "front_shock_mpa,front_strain_behind,energy_error_relative,valid_to_strain,crush_mode");
   EXPECT_EQ(lines[1].find("50,jobs/1,SUCCEEDED,1.005,0.44,,,12345,0.301,"), 0U) << lines[1];
-  EXPECT_THAT(lines[1], HasSubstr(",0.0121,V"));
-  EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,,,,");
+  EXPECT_THAT(lines[1], HasSubstr(",0.0121,0.86,V"));
+  EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,,,,,");
 }
 
 TEST(SweepTable, ShowsMeansOverTheSeedsWithTheirIntervalsUnlessEachJobIsWanted) {

@@ -61,6 +61,8 @@ TEST_F(ImportTest, AResultIsAnEndedJobWithTheNumbersThatItHad) {
   auto before = client.get("jobs/1");
   // No attribute has it.
   before.mutable_summary()->mutable_theory()->clear_densification_strain();
+  before.mutable_summary()->clear_end();
+  before.mutable_summary()->clear_end_words();
   EXPECT_THAT(store::import_results(other(), {file(), data_folder() / "jobs/1"}, store::Import::copy),
               ::testing::ElementsAre(1, 2));
   EXPECT_THAT(store::verify_folder(other()).problems, IsEmpty());

@@ -43,7 +43,8 @@ class Results(ABC):
         rows = []
         for label, name, unit in (("plateau at the impact plate", "plateau_stress_impact_mpa", "MPa"),
                                   ("plateau at the support plate", "plateau_stress_support_mpa", "MPa"),
-                                  ("densification strain", "densification_strain", "")):
+                                  ("densification strain", "densification_strain", ""),
+                                  ("valid to strain", "valid_to_strain", "")):
             value = getattr(self.summary, name)
             if value is not None:
                 rows.append((label, f"{value:.4g} {unit}".rstrip()))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 # The columns of results, named as in the table of the command line.
 _RESULTS = ("plateau_stress_impact_mpa", "plateau_stress_support_mpa", "plateau_stress_to_densification_mpa",
             "densification_strain", "absorbed_energy_mj", "theory.gibson_ashby_mpa", "theory.shock_mpa",
-            "front.shock_mpa", "front.strain_behind", "energy_error_relative")
+            "front.shock_mpa", "front.strain_behind", "energy_error_relative", "valid_to_strain")
 
 
 def _column(path: str) -> str:

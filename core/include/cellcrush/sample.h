@@ -68,8 +68,9 @@ struct Warning {
     contact_energy,    ///< contacts had created more than 1 % of the work done
     /// Distant parts of the border of a large lattice came near each other: the contact search is slower from then on.
     borders_near,
-    walls_neck,        ///< more than 1 % of the walls were stretched by more than their thickness
-    denser_than_solid  ///< walls filled a layer by more than its volume
+    walls_neck,         ///< more than 1 % of the walls were stretched by more than their thickness
+    denser_than_solid,  ///< walls filled a layer by more than its volume
+    closed              ///< lattice or frame was closed: from there on its stress depends on the mesh
   };
   Kind kind = Kind::deep_penetration;
   std::int64_t step = 0;
@@ -91,8 +92,10 @@ struct Sample {
   double energy_contact_stored = 0.0;  ///< elastic energy stored in contacts now (E8b); not a term of the balance
   /// Greatest of wall contacts since the start, divided by the thickness of the thinner wall.
   double deepest_penetration = 0.0;
-  std::int64_t contact_count = 0;   ///< wall contacts closed now
-  double solid_fraction = 0.0;      ///< between the plates: relative density / (1 - strain)
+  std::int64_t contact_count = 0;  ///< wall contacts closed now
+  /// Between plates, or rigid walls that face each other: walls before loading, joints counted once, over the volume
+  /// left (scene/solid_area.h). 0 without either.
+  double solid_fraction = 0.0;
   double collapsed_fraction = 0.0;  ///< fraction of the cells that have collapsed (measure/crush_mode.h)
   /// Of the cells that have collapsed by now, in samples in which it was evaluated.
   CrushMode crush_mode = CrushMode::none;
@@ -177,19 +180,33 @@ struct QuasiStatic {
   double kinetic_share = 0.0;
 };
 
-/// Results of a whole run.
+/// What ends a run that nothing stops.
+enum class RunEnd {
+  strain,  ///< loading.end_strain, or its default
+  closed,  ///< the lattice is closed before the default of loading.end_strain (scene/solid_area.h)
+  time,    ///< loading.end_time_s
+  at_rest  ///< loading.end_at_rest
+};
+
+/// Results of a whole run. Stresses, energies, the front and the onset of densification are those of the part before
+/// `valid_to_strain`.
 struct Summary {
   static constexpr double kPlateauLow = 0.20;  ///< range of nominal strain over which the plateau stress is averaged
   static constexpr double kPlateauHigh = 0.40;
   static constexpr double kQuasiStaticFrom = 0.05;    ///< strain from which the plates are compared
   static constexpr double kQuasiStaticWindow = 0.05;  ///< range of strain of each window of comparison
 
+  /// Nominal strain from which the lattice is closed, so that stress and work depend on mesh and contact stiffness
+  /// (scene/solid_area.h); absent without plates.
+  std::optional<double> valid_to_strain;
+  std::optional<double> valid_to_time;  ///< s, the same of a frame between rigid walls, if it has closed
+  RunEnd end = RunEnd::time;
   std::optional<double> plateau_stress_impact;  ///< MPa; absent if the run ended before the end of the range
   std::optional<double> plateau_stress_support;
   std::optional<double> densification_strain;             ///< onset; absent without a lasting rise (measure/curve.h)
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate
-  std::optional<double> solid_fraction_at_densification;  ///< relative density / (1 - densification_strain)
-  double absorbed_energy = 0.0;                           ///< N mm, work of the impact plate up to 50 % strain
+  std::optional<double> solid_fraction_at_densification;  ///< Sample::solid_fraction there
+  double absorbed_energy = 0.0;  ///< N mm, work of the impact plate up to 50 % strain or valid_to_strain
   /// Greatest |residual| over the energy turned over by then: the work done, or the energy that was there at the start.
   double energy_error_relative = 0.0;
   double deepest_penetration = 0.0;

@@ -9,6 +9,7 @@
 
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/laws.h"
+#include "cellcrush/sample.h"
 #include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
 
@@ -233,6 +234,7 @@ struct Schedule {
   double time_step = 0.0;  ///< s
   StepBound bound = StepBound::asked_for;
   std::int64_t step_count = 0;
+  RunEnd end = RunEnd::time;  ///< at step_count
   std::int64_t sample_interval = 0;
   std::int64_t frame_interval = 0;
   double end_at_rest = 0.0;  ///< fraction of the greatest kinetic energy (RestWatch in step/rest_watch.h); 0: no end
@@ -293,6 +295,7 @@ struct Scene {
   double length = 0.0;           ///< envelope along the crush, mm; reference length of the strain
   double width = 0.0;            ///< envelope across the crush, mm
   double total_mass = 0.0;       ///< real, tonne
+  double solid_area = 0.0;       ///< of the walls before loading, mm^2, joints counted once (scene/solid_area.h)
   double stable_step = 0.0;      ///< s, of the undeformed mesh (E11b, scene/time_step.h)
   double collapse_stress = 0.0;  ///< MPa, quasi-static plastic collapse after Gibson and Ashby; 0 if unknown
   std::string fidelity;          ///< what the fidelity filled in, as a sentence; empty without one
@@ -347,8 +350,8 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
                elements, walls, bands, rigid, pins, incidence_offset, incidence, joint_count, wall_end_offset,
                wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity, initial_spin, depth,
                materials, law, section, single_fibres, slow_loading, constant_area, contact, limited_reaches, faces,
-               plates, rigid_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, stable_step,
-               collapse_stress, fidelity, watched] = scene;
+               plates, rigid_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, solid_area,
+               stable_step, collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;

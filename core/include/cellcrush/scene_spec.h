@@ -215,10 +215,12 @@ struct PlatesSpec {
 /// The two plates, which stand around the lattice where a speed is given, and the end of the run: at the strain, at the
 /// time or at rest, whichever comes first.
 struct LoadingSpec {
+  static constexpr double kDefaultEndStrain = 0.8;
+
   enum class Direction { x, y };
   Direction direction = Direction::x;
   std::optional<double> speed_m_per_s;
-  double end_strain = 0.8;
+  std::optional<double> end_strain;  ///< default: kDefaultEndStrain, or where the lattice is closed if that is less
   double ramp_strain = 0.0;
   std::optional<double> end_time_s;  ///< default between plates: none
   /// Fraction of the greatest kinetic energy so far, below which the lattice is at rest; 0: the run does not end at

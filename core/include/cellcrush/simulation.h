@@ -43,6 +43,8 @@ struct SceneFacts {
   double relative_density = 0.0;  ///< mass over that of the solid envelope
   double length = 0.0;            ///< envelope along the crush
   double width = 0.0;             ///< envelope across it
+  std::optional<double> valid_to_strain;  ///< as in Summary
+  RunEnd end = RunEnd::time;
   double stable_step = 0.0;
   double time_step = 0.0;
   std::int64_t step_count = 0;

@@ -6,6 +6,7 @@
 
 #include "cellcrush/simulation.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 
 namespace cellcrush {
 namespace {
@@ -46,6 +47,18 @@ TEST(ListedLattice, BetweenPlatesMeasuresWhatTheRegularOneDoes) {
   EXPECT_NEAR(*frame.plateau_stress_impact / *regular.plateau_stress_impact, 1.0, 0.01);
   EXPECT_NEAR(*frame.plateau_stress_support / *regular.plateau_stress_support, 1.0, 0.01);
   EXPECT_EQ(frame.theory.shock, 0.0) << "no closed form is known of it";
+}
+
+TEST(ListedLattice, EndsWhereItIsClosedAsTheRegularOneDoes) {
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
+  scenes::cells_of(spec).wall_thickness_mm = 0.8;
+  spec.imperfection = {};
+  spec.loading.end_strain.reset();
+  const SceneFacts regular = facts_of(*scenes::build(spec));
+  const SceneFacts frame = facts_of(*scenes::build(listed(spec)));
+  EXPECT_EQ(frame.end, RunEnd::closed);
+  EXPECT_EQ(frame.step_count, regular.step_count);
+  EXPECT_NEAR(frame.valid_to_strain.value_or(0.0), *regular.valid_to_strain, 1e-9);
 }
 
 TEST(ListedLattice, WithoutCellsHasStressAndStrain) {

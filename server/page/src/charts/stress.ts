@@ -23,7 +23,7 @@ export function smoothedStress(samples: Sample[], axis: Axis): StressCurves {
 /** The upper end of the stress axis: it follows the plateau, not the first wave nor the densified specimen. */
 export function stressTop(smooth: StressCurves, summary: Summary | undefined, theory: Theory | undefined): number {
   const last = smooth.strain[smooth.strain.length - 1] ?? 0;
-  const solid = summary?.densificationStrain ?? 0.65;
+  const solid = Math.min(summary?.densificationStrain ?? 0.65, summary?.validToStrain ?? 1);
   const crushing: number[] = [];
   smooth.strain.forEach((strain, i) => {
     const inFirstWave = strain < kFirstWave && last > 2 * kFirstWave;
@@ -53,12 +53,20 @@ function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top:
   return levels;
 }
 
+/** Where results depend on the mesh: from a strain on, or of a frame from a time on. */
+export function closedBands(samples: Sample[], axis: Axis, summary: Summary | undefined): Band[] {
+  const from = summary?.validToStrain ?? summary?.validToTimeS ?? Infinity;
+  const last = samples.length > 0 ? axis.sample(samples[samples.length - 1]) : 0;
+  return last > from ? [{ from, to: last, label: "closed" }] : [];
+}
+
 /** Densification, and where warnings put the result in doubt. */
 function marksOf(summary: Summary | undefined): Mark[] {
   const densification = summary?.densificationStrain;
   const marks: Mark[] = densification === undefined ? [] : [{ at: densification, label: "densification" }];
   for (const { kind, strain } of summary?.warnings ?? []) {
-    if (kind === Warning_Kind.BORDERS_NEAR || strain <= 0) continue; // costs time only
+    // Borders cost time only; what is closed is a band.
+    if (kind === Warning_Kind.BORDERS_NEAR || kind === Warning_Kind.CLOSED || strain <= 0) continue;
     marks.push({ at: strain, label: `in doubt: ${Warning_Kind[kind].toLowerCase().replaceAll("_", " ")}` });
   }
   return marks;

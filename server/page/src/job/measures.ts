@@ -35,7 +35,8 @@ function valueAt(path: string): (s: Summary) => number | undefined {
 const kWords: Record<string, string> = {
   plateau_stress_impact_mpa: "Impact plateau", plateau_stress_support_mpa: "Support plateau",
   "theory.shock_mpa": "Shock theory (Eq. 51)", "theory.gibson_ashby_mpa": "Gibson-Ashby",
-  densification_strain: "Densification strain", absorbed_energy_mj: "Absorbed energy",
+  densification_strain: "Densification strain", valid_to_strain: "Valid to strain",
+  absorbed_energy_mj: "Absorbed energy",
   energy_error_relative: "Ledger error", plateau_stress_to_densification_mpa: "Mean stress to densification",
   "front.shock_mpa": "Shock theory, measured jumps (Eq. 52)",
   "theory.densification_strain": "Densification strain, theory",

@@ -8,7 +8,8 @@ import { Chart } from "../charts/chart";
 import { strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";
 import { kSampleColumns, sampleChart, wordsOfColumn } from "../charts/sample_chart";
-import { forceChart, stressChart } from "../charts/stress";
+import type { ChartData } from "../charts/chart_data";
+import { closedBands, forceChart, stressChart } from "../charts/stress";
 import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { QueuePanel } from "../jobs/queue";
@@ -184,11 +185,13 @@ export class JobPage implements View {
       : stressChart(samples, this.axis, this.summary, this.theory, words?.theoryNote ?? "");
     this.stress.setTitle(isDriven ? "Forces of the rigid walls" : "Stress and strain");
     this.stress.element.hidden = !stress;
-    if (stress) this.stress.setData(stress);
+    const closed = closedBands(samples, this.axis, this.summary);
+    const withClosed = (data: ChartData): ChartData => ({ ...data, bands: [...data.bands ?? [], ...closed] });
+    if (stress) this.stress.setData(withClosed(stress));
     const { value: column } = this.below;
     this.energy.setTitle(column ? wordsOfColumn(column) : "Energy ledger");
-    this.energy.setData(column ? sampleChart(samples, this.axis, column)
-      : energyChart(samples, this.axis, isDriven ? "work of all loads" : undefined));
+    this.energy.setData(withClosed(column ? sampleChart(samples, this.axis, column)
+      : energyChart(samples, this.axis, isDriven ? "work of all loads" : undefined)));
     this.setEnd();
   }
 

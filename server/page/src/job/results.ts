@@ -1,5 +1,5 @@
 // The numbers of a result, with units, beside theory.
-import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
+import { Summary_End, type Summary } from "../../gen/cellcrush/v1/sample_pb";
 import { h } from "../dom/element";
 import { count, duration, number, percent, quantity, strainText } from "../dom/format";
 import { fieldHelp } from "../new_case/words";
@@ -21,12 +21,21 @@ export function resultsList(s: Summary, note: string): HTMLElement {
   const impact = s.plateauStressImpactMpa;
   if (impact !== undefined || theory?.gibsonAshbyMpa) {
     add("Plateau stress, impact plate", "plateau_stress_impact_mpa", quantity(impact, "MPa"),
-        impact === undefined ? "the run ended before strain 0.40"
+        impact === undefined
+          ? `the ${(s.validToStrain ?? 1) < 0.4 ? "lattice closed" : "run ended"} before strain 0.40`
           : compared(impact, theory?.shockMpa, "shock theory (Eq. 51)"));
     add("Plateau stress, support plate", "plateau_stress_support_mpa", quantity(s.plateauStressSupportMpa, "MPa"),
         compared(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby"));
     add("Densification strain", "densification_strain", strainText(s.densificationStrain),
-        s.densificationStrain === undefined ? "no lasting rise of the stress" : "");
+        s.densificationStrain === undefined ? "no lasting rise of the stress before the lattice closed or the run ended"
+          : "");
+  }
+  if (s.validToStrain !== undefined) {
+    add("Valid to strain", "valid_to_strain", strainText(s.validToStrain),
+        `the lattice is closed from there on${s.end === Summary_End.CLOSED ? "; the run ended there" : ""}`);
+  }
+  if (s.validToTimeS !== undefined) {
+    add("Valid to time", "valid_to_time_s", quantity(s.validToTimeS, "s"), "the frame is closed from there on");
   }
   if (s.plateauStressToDensificationMpa !== undefined) {
     add("Mean stress to densification", "plateau_stress_to_densification_mpa",
@@ -35,7 +44,7 @@ export function resultsList(s: Summary, note: string): HTMLElement {
   const absorbed = s.absorbedEnergyMj;
   if (absorbed) {
     add("Absorbed energy", "absorbed_energy_mj", quantity(absorbed, "mJ"),
-        "to strain 0.50, or the end of a shorter run");
+        `to strain ${strainText(Math.min(0.5, s.validToStrain ?? 0.5))}, or the end of a shorter run`);
   }
   if (theory?.gibsonAshbyMpa && s.crushModeWords) { // a frame has no cells
     add("Crush mode", "crush_mode", s.crushModeWords,
