@@ -26,10 +26,13 @@ test("every field of the form is in the protos and has help", () => {
     }
   }
   assert.equal(unitOf("loading.speed_m_per_s"), "m/s");
-  assert.equal(defaultOf("loading.end_strain"), "0.8");
+  assert.equal(defaultOf("loading.end_strain"), "0.8, or less where the lattice is closed");
   assert.equal(defaultOf("depth_mm"), "required");
   assert.equal(limitsOf("depth_mm"), "Required, 1e-6 to 1e12");
-  assert.equal(limitsOf("loading.end_strain"), "Default 0.8; 0.0001 to below 0.95");
+  assert.equal(
+    limitsOf("loading.end_strain"),
+    "Default 0.8, or less where the lattice is closed; 0.0001 to below 0.95",
+  );
   assert.equal(limitsOf("lattice.hexagon.wall_thickness_mm"), "Required, 1e-6 to half of side_mm");
   assert.equal(limitsOf("output.sample_count"), "Default 1000; 10 to 100000");
   assert.equal(limitsOf("loading.end_time_s"), "Required without plates only; 1e-12 to 1e12");
