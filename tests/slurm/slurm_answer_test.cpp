@@ -31,7 +31,7 @@ TEST_F(SlurmAnswerTest, ASubmissionWithoutAnAnswerIsFoundByItsName) {
   EXPECT_THAT(job->wait_for_place("RUNNING"), HasSubstr("Slurm job 1,"));
   EXPECT_EQ(job->wait().kind, Kind::exited);
   EXPECT_EQ(count_in_log("begins"), 1);
-  EXPECT_EQ(count_in_log("has ended"), 1);
+  EXPECT_EQ(count_in_log("has ended", 1), 1);
 }
 
 // Neither found nor begun for long: it is taken back. What then starts in Slurm computes nothing.
@@ -190,7 +190,7 @@ TEST_F(SlurmAnswerTest, JobsThatSqueueHidesNowAndThenAreComputedOnce) {
   EXPECT_THAT(lines, HasSubstr("RUNNING"));
   EXPECT_THAT(lines, HasSubstr("PENDING"));
   EXPECT_EQ(count_in_log("begins"), 12);
-  EXPECT_EQ(count_in_log("has ended"), 12);
+  EXPECT_EQ(count_in_log("has ended", 12), 12);
 }
 
 TEST_F(SlurmAnswerTest, AStateThatIsNotKnownIsShown) {

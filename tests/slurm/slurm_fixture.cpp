@@ -3,9 +3,11 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "slurm/attempt_folder.h"
 
@@ -106,11 +108,15 @@ std::filesystem::path SlurmFixture::logging_program() const {
   return out;
 }
 
-int SlurmFixture::count_in_log(const std::string& words) const {
-  std::ifstream file(folder_.path() / "log");
-  int out = 0;
-  for (std::string line; std::getline(file, line);) out += line.find(words) != std::string::npos ? 1 : 0;
-  return out;
+int SlurmFixture::count_in_log(const std::string& words, int expected) const {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  for (;;) {
+    std::ifstream file(folder_.path() / "log");
+    int out = 0;
+    for (std::string line; std::getline(file, line);) out += line.find(words) != std::string::npos ? 1 : 0;
+    if (out >= expected || std::chrono::steady_clock::now() > end) return out;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 v1::Case slow_case() {

@@ -52,7 +52,8 @@ class SlurmFixture : public ::testing::Test {
   /// A program for the nodes that writes into one log what each task begins and ends.
   [[nodiscard]] std::filesystem::path logging_program() const;
   /// Number of lines in that log with these words.
-  [[nodiscard]] int count_in_log(const std::string& words) const;
+  /// Waits until there are so many: a task writes its last lines as it ends.
+  [[nodiscard]] int count_in_log(const std::string& words, int expected = 0) const;
 
   TemporaryFolder folder_;
   std::unique_ptr<SlurmCluster> cluster_;

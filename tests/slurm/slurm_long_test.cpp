@@ -83,7 +83,7 @@ TEST_F(SlurmLongTest, ADaemonKilledAtFiftyRandomMomentsLosesAndRepeatsNothing) {
   ASSERT_TRUE(wait_for_all(client, sweep, seconds(1200)));
   // No task computed a point again.
   EXPECT_EQ(count_in_log("begins"), sweep.jobs_size());
-  EXPECT_EQ(count_in_log("has ended"), sweep.jobs_size());
+  EXPECT_EQ(count_in_log("has ended", sweep.jobs_size()), sweep.jobs_size());
   expect_undisturbed(client, get_sweep(client, sweep.name()), long_sweep());
 }
 
@@ -123,7 +123,7 @@ TEST_F(SlurmLongTest, TwoHundredAndFiftySixJobsAreInTheClusterAtOnceAndComputedO
   EXPECT_GE(most, 240);
   ASSERT_TRUE(wait_for_all(client, sweep, seconds(1200)));
   EXPECT_EQ(count_in_log("begins"), 256);
-  EXPECT_EQ(count_in_log("has ended"), 256);
+  EXPECT_EQ(count_in_log("has ended", 256), 256);
   const auto ended = get_sweep(client, sweep.name());
   for (const auto& job : ended.jobs()) EXPECT_EQ(client.get(job).attempt(), 1) << client.get(job).cause_message();
 }
