@@ -7,7 +7,7 @@ namespace cellcrush::translate {
 namespace {
 
 // Measured bytes: of the program with its libraries; of mesh, frames and buffers for each element; of a sample.
-constexpr double kOfProgram = 34e6;
+constexpr double kOfProgram = 30e6;
 constexpr double kOfOutput = 60.0;
 constexpr double kOfSample = 500.0;
 

@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -21,6 +23,7 @@ namespace cellcrush::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class DaemonTest : public ::testing::Test {
@@ -58,6 +61,18 @@ TEST_F(DaemonTest, ServesASocketAndAPortAtOnceAndEndsInOrder) {
   EXPECT_EQ(status.st_mode & 0777U, 0700U);
   daemon.send_signal(SIGTERM);
   EXPECT_EQ(daemon.wait(), 0) << daemon.errors();
+}
+
+// They would take 4 MB of every daemon and worker.
+TEST_F(DaemonTest, LoadsNoLibraryThatOnlyReadsObjectStores) {
+  DaemonProcess daemon({"--data", data(), "--listen", socket()});
+  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
+  std::ifstream file("/proc/" + std::to_string(daemon.number()) + "/maps");
+  const std::string maps(std::istreambuf_iterator<char>(file), {});
+  ASSERT_THAT(maps, HasSubstr("libgrpc"));
+  for (const char* library : {"libcurl", "libgnutls", "libkrb5", "libldap"}) {
+    EXPECT_THAT(maps, Not(HasSubstr(library)));
+  }
 }
 
 TEST_F(DaemonTest, EndsInOrderWhileAJobIsWatched) {
