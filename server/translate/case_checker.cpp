@@ -35,8 +35,8 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted, const BeforeM
   for (const auto& note : find_implausible(reading.spec)) out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
   out.element_count = verdict.element_count;
   out.element_steps = verdict.element_count * verdict.step_count;
-  out.most_memory_bytes =
-      memory_of_worker({verdict.most_memory_bytes, verdict.element_count, reading.spec.output.sample_count});
+  out.most_memory_bytes = memory_of_worker(
+      reading.spec, {verdict.most_memory_bytes, verdict.element_count, reading.spec.output.sample_count});
   return out;
 }
 

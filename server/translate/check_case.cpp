@@ -160,7 +160,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;
   out.checkpoint_bytes = checkpoint_of_run(spec, *scene);
   out.response.set_predicted_memory_bytes(
-      memory_of_worker({memory_of_run(spec, *scene), facts.element_count, out.sample_count}));
+      memory_of_worker(spec, {memory_of_run(spec, *scene), facts.element_count, out.sample_count}));
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "cellcrush/scene_spec.h"
+
 namespace cellcrush::translate {
 
 /// What the memory of a worker depends on.
@@ -12,9 +14,9 @@ struct WorkerSize {
 };
 
 /// The most resident memory of a worker process, bytes: the program; the run, or what building its scene takes; mesh,
-/// samples, frames and the result's buffers. A checkpoint is written in pieces and takes none. Its constants are
-/// measured (tests/load/README.md).
-std::int64_t memory_of_worker(const WorkerSize& size);
+/// samples, frames and the result's buffers; the case. A checkpoint is written in pieces and takes none. Its constants
+/// are measured (tests/load/README.md).
+std::int64_t memory_of_worker(const SceneSpec& spec, const WorkerSize& size);
 
 /// Bytes that a worker of this predicted memory may allocate: a quarter more, as lists grow by leaps, and room for the
 /// stacks of its threads. `factor`: at least 1, after attempts that ran out of memory; beyond 1 the limit does not

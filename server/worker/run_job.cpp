@@ -50,7 +50,7 @@ std::int64_t memory_limit_of(const Order& order, const Scene& scene) {
   if (order.memory_factor() <= 0.0) return 0;
   const SceneSpec spec = translate::to_spec(order.case_()).spec;
   const auto predicted = translate::memory_of_worker(
-      {memory_of_run(spec, scene), static_cast<std::int64_t>(scene.element_count()), spec.output.sample_count});
+      spec, {memory_of_run(spec, scene), static_cast<std::int64_t>(scene.element_count()), spec.output.sample_count});
   const auto limit =
       translate::memory_limit(predicted, order.threads(), order.memory_factor(), order.most_memory_bytes());
   // The limit has room for stacks of the usual size. They count whole, however little of them is used.

@@ -7,12 +7,16 @@ import argparse
 import csv
 import itertools
 import json
+import math
 import os
 import subprocess
 import tempfile
 import time
 
 LATTICES = {"hexagon": 3, "square": 2, "triangle": 3}  # and the walls of a cell
+# Hexagons that are listed as a frame, without plates.
+FRAMES = ["frame_pushed", "frame_struck", "frame_loaded"]
+LARGEST_FRAME = 100_000  # a larger one is more than a message may have
 LAWS = {
     "plastic": [],
     "hardening": ["material.hardening_modulus_mpa=700", "material.isotropic_fraction=0.5"],
@@ -21,23 +25,58 @@ LAWS = {
               "section.area_rule=CONSTANT_AREA"],
 }
 # Of so many elements: the strain to crush to, and seconds between checkpoints, so that a run writes several.
-SIZES = {1_000: (0.8, 0.05), 10_000: (0.5, 0.05), 100_000: (0.05, 0.5), 500_000: (0.05, 5), 2_000_000: (0.02, 20)}
+SIZES = {1_000: (0.8, 0.02), 10_000: (0.5, 0.05), 100_000: (0.05, 0.5), 500_000: (0.05, 5), 2_000_000: (0.02, 20)}
 ELEMENTS_PER_WALL = 4
+SIDE_MM, THICKNESS_MM = 4, 0.3
+SPEED = 200  # m/s
 COMMON = """
 depth_mm: 4 elements_per_wall: 4 material { youngs_modulus_mpa: 69000 yield_stress_mpa: 76 density_kg_per_m3: 2700 }
-loading { speed_m_per_s: 200 end_strain: %g } output { sample_count: 100 frame_count: 10 }"""
+output { sample_count: 100 frame_count: 10 } """
 COLUMNS = ["lattice", "law", "size", "elements", "memory_predicted_mb", "memory_mb", "disk_predicted_mb", "disk_mb",
            "data_mb", "result_predicted_mb", "result_mb"]
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
+def frame_of(kind, columns, rows, strain):
+    """On a rigid wall: pushed by another as by a plate, struck by one of several times its mass, or loaded a little."""
+    nodes, beams = {}, []
+    for row, column in itertools.product(range(rows), range(columns)):
+        x, y = math.sqrt(3) * SIDE_MM * (column + 0.5 * (row % 2)), 1.5 * SIDE_MM * row
+        corners = [(x + SIDE_MM * math.sin(turn), y + SIDE_MM * math.cos(turn))
+                   for turn in (math.pi / 3 * corner for corner in range(6))]
+        ring = [nodes.setdefault((round(1e3 * x), round(1e3 * y)), len(nodes)) for x, y in corners]
+        beams += [tuple(sorted(pair)) for pair in zip(ring, ring[1:] + ring[:1])]
+    low, high = (end(x for x, _ in nodes) / 1e3 for end in (min, max))
+    end_time = strain * (high - low) / (1e3 * SPEED)
+    walls = {
+        "frame_pushed": "displacement_mm { points { time_s: 0 value: 0 } "
+                        f"points {{ time_s: {end_time} value: {1e3 * SPEED * end_time} }} }}",
+        "frame_struck": f"mass_g: {0.03 * len(beams)} speed_m_per_s: {SPEED}",
+    }
+    yield "lattice { frame { self_contact: true "
+    yield from (f'nodes {{ id: "{name}" x_mm: {x / 1e3} y_mm: {y / 1e3} }}' for (x, y), name in nodes.items())
+    yield from (f'beams {{ start: "{start}" end: "{end}" thickness_mm: {THICKNESS_MM} }}'
+                for start, end in sorted(set(beams)))
+    yield f'rigid_walls {{ id: "support" x_mm: {high + THICKNESS_MM} y_mm: 0 normal_x: -1 }}'
+    if kind in walls:
+        yield f'rigid_walls {{ id: "impact" x_mm: {low - THICKNESS_MM} y_mm: 0 normal_x: 1 {walls[kind]} }}'
+    else:
+        force = "component: COMPONENT_X force_n_or_n_mm { points { time_s: 0 value: 0.1 } }"
+        yield from (f'loads {{ node: "{name}" {force} }}' for (x, _), name in nodes.items() if x / 1e3 < low + SIDE_MM)
+    yield f"end_time_s: {end_time} }} }}"
+
+
 def case_of(lattice, size):
     """Few columns, which are crushed in few steps; the more elements, the less far."""
     columns = 10 if size < 100_000 else 40
-    rows = max(2, round(0.995 * size / (LATTICES[lattice] * ELEMENTS_PER_WALL * columns)))
+    rows = max(2, round(0.995 * size / (LATTICES.get(lattice, 3) * ELEMENTS_PER_WALL * columns)))
+    strain = SIZES[size][0]
+    if lattice in FRAMES:
+        return "\n".join(frame_of(lattice, columns, rows, strain)) + COMMON
     return (
-        f"lattice {{ {lattice} {{ columns: {columns} rows: {rows} side_mm: 4 wall_thickness_mm: 0.3 }} }}"
-        + COMMON % SIZES[size][0]
+        f"lattice {{ {lattice} {{ columns: {columns} rows: {rows} side_mm: {SIDE_MM} "
+        f"wall_thickness_mm: {THICKNESS_MM} }} }}"
+        + COMMON + f"loading {{ speed_m_per_s: {SPEED} end_strain: {strain} }}"
     )
 
 
@@ -95,7 +134,8 @@ class Daemon:
 def measure(daemon, path, lattice, law, size):
     with open(path, "w", encoding="ascii") as file:
         file.write(case_of(lattice, size))
-    case = [path] + [word for change in LAWS[law] for word in ("--set", change)]
+    changes = [change for change in LAWS[law] if lattice in LATTICES or not change.startswith("plates")]
+    case = [path] + [word for change in changes for word in ("--set", change)]
     check = daemon.call("check", *case)
     memory, disk, data, result = daemon.run(*case)
     numbers = [int(check["predicted_memory_bytes"]), memory, int(check["predicted_disk_bytes"]), disk, data,
@@ -140,7 +180,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("programs", metavar="BIN", help="folder of cellcrushd and cellcrush")
     parser.add_argument("--sizes", nargs="+", type=int, choices=SIZES, default=list(SIZES), metavar="ELEMENTS")
-    parser.add_argument("--lattices", nargs="+", choices=LATTICES, default=list(LATTICES))
+    parser.add_argument("--lattices", nargs="+", choices=[*LATTICES, *FRAMES], default=[*LATTICES, *FRAMES])
     parser.add_argument("--laws", nargs="+", choices=LAWS, default=list(LAWS))
     parser.add_argument("--record", action="store_true")
     wanted = parser.parse_args()
@@ -151,6 +191,8 @@ def main():
             daemon = Daemon(wanted.programs, folder, size)
             try:
                 for lattice, law in itertools.product(wanted.lattices, wanted.laws):
+                    if lattice in FRAMES and size > LARGEST_FRAME:
+                        continue
                     row = measure(daemon, os.path.join(folder, "case.txtpb"), lattice, law, size)
                     print(",".join(row.values()), flush=True)
                     measured.append(row)

@@ -100,6 +100,22 @@ std::shared_ptr<Scene> build(const SceneSpec& spec) {
   return result.scene ? std::make_shared<Scene>(*result.scene) : nullptr;
 }
 
+SceneSpec listed(SceneSpec spec) {
+  const auto scene = build(spec);
+  FrameLattice frame;
+  for (int joint = 0; joint < scene->joint_count; ++joint) {
+    frame.nodes.push_back({scene->position[joint].x(), scene->position[joint].y(), 0.0, 0.0});
+  }
+  for (std::size_t w = 0; w < scene->walls.start.size(); ++w) {
+    const int elements = scene->walls.blocks.front().elements;
+    frame.beams.push_back(beam(scene->walls.start[w], scene->walls.end[w], scene->walls.thickness[w], elements));
+  }
+  frame.self_contact = true;
+  put_frame(frame, spec);
+  spec.imperfection = {};
+  return spec;
+}
+
 void stir(Scene& scene, double speed) {
   std::mt19937_64 generator(20261120);
   const auto draw = [&] { return speed * (static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0); };

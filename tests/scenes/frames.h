@@ -85,6 +85,10 @@ SceneSpec hexagon_specimen(int columns, int rows);
 /// A scene whose spec has no problems; fails the test with their texts when it has.
 std::shared_ptr<Scene> build(const SceneSpec& spec);
 
+/// The joints and walls of a regular lattice as nodes and beams of a frame, between the plates of the spec if it has
+/// them.
+SceneSpec listed(SceneSpec spec);
+
 /// Small velocities in all directions for every particle, the same ones each time: what no symmetry hides from.
 void stir(Scene& scene, double speed);
 

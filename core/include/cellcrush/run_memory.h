@@ -9,10 +9,10 @@ namespace cellcrush {
 
 // The memory of a run, predicted: the bytes that become resident from before the scene is built until the crush ends.
 // They are proportional to the elements, so a specimen of a few cells of the same spec is built, and its bytes are
-// scaled.
+// scaled; a frame is counted as it is.
 //
 // Counted: the arrays of scene and state, by the lists that checkpoint, hash and large pages go by; candidates and
-// touches, which grow with the strain; cells, columns and frames; the heap's reserve.
+// touches, which grow as the lattice is shortened (scene/shortening.h); cells, columns and frames; the heap's reserve.
 // Not counted: the program, its libraries and threads; samples and frames that a caller keeps; scratch of a second
 // thread; what sorts or builds for a while.
 //

@@ -18,29 +18,11 @@ SceneSpec short_crush() {
   return spec;
 }
 
-/// The joints and walls of a regular lattice as nodes and beams.
-SceneSpec listed(SceneSpec spec) {
-  const auto scene = scenes::build(spec);
-  FrameLattice frame;
-  for (int joint = 0; joint < scene->joint_count; ++joint) {
-    frame.nodes.push_back({scene->position[joint].x(), scene->position[joint].y(), 0.0, 0.0});
-  }
-  for (std::size_t w = 0; w < scene->walls.start.size(); ++w) {
-    const int elements = scene->walls.blocks.front().elements;
-    frame.beams.push_back(
-        scenes::beam(scene->walls.start[w], scene->walls.end[w], scene->walls.thickness[w], elements));
-  }
-  frame.self_contact = true;
-  scenes::put_frame(frame, spec);
-  spec.imperfection = {};
-  return spec;
-}
-
 Summary summary_of(const SceneSpec& spec) { return summarize(*scenes::build(spec), scenes::run_frame(spec)); }
 
 TEST(ListedLattice, BetweenPlatesMeasuresWhatTheRegularOneDoes) {
   const Summary regular = summary_of(short_crush());
-  const Summary frame = summary_of(listed(short_crush()));
+  const Summary frame = summary_of(scenes::listed(short_crush()));
   ASSERT_TRUE(regular.plateau_stress_impact && frame.plateau_stress_impact);
   ASSERT_TRUE(regular.plateau_stress_support && frame.plateau_stress_support);
   EXPECT_EQ(frame.step_count, regular.step_count);
@@ -55,7 +37,7 @@ TEST(ListedLattice, EndsWhereItIsClosedAsTheRegularOneDoes) {
   spec.imperfection = {};
   spec.loading.end_strain.reset();
   const SceneFacts regular = facts_of(*scenes::build(spec));
-  const SceneFacts frame = facts_of(*scenes::build(listed(spec)));
+  const SceneFacts frame = facts_of(*scenes::build(scenes::listed(spec)));
   EXPECT_EQ(frame.end, RunEnd::closed);
   EXPECT_EQ(frame.step_count, regular.step_count);
   EXPECT_NEAR(frame.valid_to_strain.value_or(0.0), *regular.valid_to_strain, 1e-9);
@@ -86,7 +68,7 @@ TEST(ListedLattice, BetweenPlatesIsRefusedWithAField) {
     for (const Problem& problem : build_scene(spec).problems) fields += problem.field + ' ';
     return fields;
   };
-  SceneSpec spec = listed(short_crush());
+  SceneSpec spec = scenes::listed(short_crush());
   auto& frame = std::get<FrameWalls>(spec.lattice);
   spec.loading.speed_m_per_s.reset();
   EXPECT_EQ(fields_of(spec), "loading.end_time_s ");
