@@ -262,7 +262,7 @@ class OracleOfElements : public testing::TestWithParam<Rule> {
  protected:
   ~OracleOfElements() override { use_simd_target(""); }
 
-  /// Calls check(scene, differences) for every hardening, area rule, precision and vector kernel.
+  /// Calls check(scene, differences) for every hardening, area rule, precision and kernel of other bits.
   template <class Check>
   static void compare_all(Start same_history, const Check& check) {
     for (const Hardening& hardening : kHardenings) {
@@ -270,7 +270,7 @@ class OracleOfElements : public testing::TestWithParam<Rule> {
         for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
           const std::shared_ptr<Scene> scene = scenes::build(spec_of(GetParam(), hardening, area, precision));
           impose_random_motions(*scene, kSteps);
-          for (const std::string& target : simd_targets()) {
+          for (const std::string& target : distinct_targets()) {
             ASSERT_TRUE(use_simd_target(target));
             SCOPED_TRACE(std::string(hardening.name) + " hardening, constant " +
                          (area == AreaRule::constant_area ? "area, " : "volume, ") +

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cellcrush/simd.h"
+
 namespace cellcrush {
 namespace {
 
@@ -152,6 +154,12 @@ reference::Lattice lattice_of(const Scene& scene) {
   lattice.mass_damping = scene.mass_damping;
   lattice.time_step = scene.schedule.time_step;
   return lattice;
+}
+
+std::vector<std::string> distinct_targets() {
+  std::vector<std::string> targets = simd_targets();
+  if (targets.front() == "avx512") std::erase(targets, "avx2");
+  return targets;
 }
 
 }  // namespace cellcrush

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "cellcrush/scene.h"
@@ -27,5 +28,8 @@ reference::ElementHistory element_history_of(const Scene& scene, const State& st
 
 /// A state as the oracle has it.
 reference::Instant instant_of(const Scene& scene, const State& state);
+
+/// Kernels that may give different bits. Of those with fused multiply-add, which give the same (GoldenHash), the best.
+std::vector<std::string> distinct_targets();
 
 }  // namespace cellcrush
