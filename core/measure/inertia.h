@@ -13,7 +13,8 @@ namespace cellcrush {
 // Belytschko, Int. J. Mech. Sci. 40, 1998). In a shock of Eq. 51 with sigma = sigma_0 + D the share is D / (2 sigma),
 // so twice the share is what inertia adds to the plateau.
 
-/// Share of the added mass above which the result is warned of, and above which the run ends.
+/// Unwanted share above which the result of scaled masses is warned of, and above which a run ends. A quasi-static
+/// crush is warned of above its bound, Plates::kinetic_share.
 inline constexpr double kInertiaWarning = 0.02;
 inline constexpr double kLargestInertia = 0.10;
 /// Share that remedies aim at: cells that snap make it fall more slowly than with the square of the speed.
@@ -34,19 +35,20 @@ InertiaWindow inertia_window_of(const Scene& scene);
 /// there is any.
 double inertia_share_of(const Sample& sample);
 
-/// The part of the share that is due to mass that the material does not have; 0 with real masses.
-double share_of_added_mass(const Scene& scene, double inertia_share);
+/// The part of the share that is due to mass that the material does not have: 0 with real masses. In a quasi-static
+/// crush, whose masses are real, all of it.
+double unwanted_share_of(const Scene& scene, double inertia_share);
 
 /// The greatest share over the window; nothing without plates, or if no sample is in the window.
 std::optional<double> find_inertia_share(const Scene& scene, std::span<const Sample> samples);
 
-/// What a share of the added mass means, as a clause without a full stop.
+/// What an unwanted share means, as a clause without a full stop.
 std::string words_of_inertia(const Scene& scene, double share);
 
-/// What reduces a share of the added mass to kRemediedInertia.
+/// What reduces an unwanted share.
 std::string remedy_for_inertia(const Scene& scene, double share);
 
-/// Warns of a share of the added mass above kInertiaWarning, where it is greatest in the window.
+/// Warns of an unwanted share where it is greatest in the window.
 std::optional<Warning> warn_of_inertia(const Scene& scene, std::span<const Sample> samples);
 
 }  // namespace cellcrush

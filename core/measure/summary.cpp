@@ -189,7 +189,9 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     return summary;
   }
   summary.step_count = all.back().step;
-  summary.end = all.back().step < scene.schedule.step_count ? RunEnd::at_rest : scene.schedule.end;
+  const bool has_travelled = scene.plates.kinetic_share > 0.0 ? all.back().travel >= scene.plates.end_travel
+                                                              : all.back().step >= scene.schedule.step_count;
+  summary.end = has_travelled ? scene.schedule.end : RunEnd::at_rest;
   summary.deepest_penetration = all.back().deepest_penetration;
   summary.energy_error_relative = energy_error_of(all);
   summary.warnings = collect_warnings(scene, all);

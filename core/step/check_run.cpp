@@ -111,7 +111,7 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
 }
 
 RunStatus check_inertia(const Scene& scene, const State& state, const Sample& sample) {
-  const double share = share_of_added_mass(scene, inertia_share_of(sample));
+  const double share = unwanted_share_of(scene, inertia_share_of(sample));
   if (share <= kLargestInertia || !scene.plates.present || !inertia_window_of(scene).holds(sample.strain)) {
     return {};
   }

@@ -47,7 +47,9 @@ struct SceneFacts {
   RunEnd end = RunEnd::time;
   double stable_step = 0.0;
   double time_step = 0.0;
-  std::int64_t step_count = 0;
+  std::int64_t step_count = 0;       ///< planned
+  std::int64_t most_steps = 0;       ///< more than planned only in quasi-static crushes
+  double end_strain = 0.0;           ///< nominal, of a quasi-static crush; otherwise 0
   std::int64_t sample_interval = 0;  ///< steps
   std::int64_t frame_interval = 0;   ///< steps
   Theory theory;

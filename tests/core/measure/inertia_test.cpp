@@ -60,8 +60,8 @@ TEST(InertiaShare, OfAShortRunIsTakenFromHalfOfItsStrainOn) {
 
 TEST(InertiaShare, CountsAddedMassAloneAgainstARun) {
   const auto real = scenes::build(scaled(1.0, 100.0));
-  EXPECT_EQ(share_of_added_mass(*real, 0.4), 0.0);
-  EXPECT_NEAR(share_of_added_mass(*scenes::build(scaled(4.0, 5.0)), 0.4), 0.3, 1e-12);
+  EXPECT_EQ(unwanted_share_of(*real, 0.4), 0.0);
+  EXPECT_NEAR(unwanted_share_of(*scenes::build(scaled(4.0, 5.0)), 0.4), 0.3, 1e-12);
 }
 
 // With real masses inertia is what a fast crush is about. In a shock sigma_0 + D the share is D / (2 sigma), with the
