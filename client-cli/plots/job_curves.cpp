@@ -203,8 +203,9 @@ void fit_axes(Chart& chart) {
 
 std::string with_speed(const v1::Job& job, const std::string& title) {
   std::string name = title.empty() ? job.name() : title;
-  if (!job.case_().loading().has_speed_m_per_s()) return name;
-  const std::string speed = short_text(job.case_().loading().speed_m_per_s()) + " m/s";
+  const v1::Loading& loading = job.case_().loading();
+  if (!loading.has_speed_m_per_s() && !loading.quasi_static()) return name;
+  const std::string speed = loading.quasi_static() ? "quasi-static" : short_text(loading.speed_m_per_s()) + " m/s";
   return name.find(speed) == std::string::npos ? name + ", " + speed : name;
 }
 

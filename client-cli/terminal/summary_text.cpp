@@ -40,7 +40,9 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
                               const std::string& source) {
     const bool closed = summary.has_valid_to_strain() && summary.valid_to_strain() < summary.plateau_window_high();
     table.add({fmt::format("  at the {} plate", plate),
-               known ? stress_text(stress) : closed ? "closed before" : "not reached",
+               known    ? stress_text(stress)
+               : closed ? "closed before"
+                        : "not reached",
                theory ? stress_text(expected) : "", theory ? source : ""});
   };
   table.add({fmt::format("plateau stress, {:.0f}-{:.0f} % strain", 100 * summary.plateau_window_low(),
@@ -124,7 +126,12 @@ void add_quasi_static_rows(Table& table, const v1::Summary& summary) {
   table.add({"plate stress difference beyond 5 % strain", percent_text(found.plate_difference_relative(), 2), "",
              "of the mean stress; at most " + percent_text(found.plate_difference_greatest(), 2) +
                  " in any 5 % strain interval"});
-  table.add({"largest kinetic energy", percent_text(found.kinetic_share(), 2), "", "of the plastic work"});
+}
+
+void add_inertia_row(Table& table, const v1::Summary& summary) {
+  if (!summary.has_inertia_share()) return;
+  table.add({"inertia's share of the work", percent_text(summary.inertia_share(), 2), "",
+             "largest kinetic energy on the plateau"});
 }
 
 std::string warning_text(const v1::Warning& warning, int width) {
@@ -163,10 +170,11 @@ std::string summary_text(const v1::Job& job, int width) {
   if (plates) {
     add_plateau_rows(table, summary);
     add_quasi_static_rows(table, summary);
+    add_inertia_row(table, summary);
   }
   if (summary.has_valid_to_time_s()) {
-    table.add({"valid to time", quantity_text(summary.valid_to_time_s(), "s"), "",
-               "the frame is closed from there on"});
+    table.add(
+        {"valid to time", quantity_text(summary.valid_to_time_s(), "s"), "", "the frame is closed from there on"});
   }
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measure/theory.h"
+#include "push/push.h"
 
 namespace cellcrush {
 namespace {
@@ -192,7 +193,7 @@ Columns divide_into_columns(const Scene& scene, double pitch) {
 
 std::optional<Front> find_front(const Columns& columns, const Scene& scene, const State& state) {
   const Profile profile = measure_columns(columns, scene, state);
-  const double plate_speed = scene.plates.speed_at(state.time);
+  const double plate_speed = plate_speed_at(scene, state, state.time);
   const auto last = static_cast<int>(columns.place.size()) - 1;
   std::vector<double> strains;
   for (int k = 0; k < last; ++k) {

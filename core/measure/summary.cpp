@@ -4,6 +4,7 @@
 
 #include "cellcrush/simulation.h"
 #include "measure/curve.h"
+#include "measure/inertia.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
 #include "scene/solid_area.h"
@@ -116,6 +117,10 @@ std::optional<double> relative_error(double theory, const std::optional<double>&
 
 }  // namespace
 
+double moving_density_of(const Scene& scene) {
+  return scene.mass_scaling.mass * scene.total_mass / (scene.length * scene.width * scene.depth);
+}
+
 double relative_density_of(const Scene& scene) {
   const double envelope = scene.length * scene.width * scene.depth;
   return envelope > 0.0 ? scene.total_mass / (scene.materials.front().density * envelope) : 0.0;
@@ -129,10 +134,9 @@ Theory theory_of(const Scene& scene) {
   const double relative_density = relative_density_of(scene);
   theory.gibson_ashby = scene.collapse_stress;
   theory.densification_strain = 1.0 - 1.4 * relative_density;
-  const double density = scene.materials.front().density * relative_density;
   if (theory.gibson_ashby > 0.0) {  // known of regular lattices only
-    theory.shock =
-        theory.gibson_ashby + density * scene.plates.speed * scene.plates.speed / theory.densification_strain;
+    theory.shock = theory.gibson_ashby +
+                   moving_density_of(scene) * scene.plates.speed * scene.plates.speed / theory.densification_strain;
   }
   return theory;
 }
@@ -160,7 +164,7 @@ std::optional<FrontSummary> summarize_front(const Scene& scene, std::span<const 
     summary.*value = mean_of(fronts, [value](const Sample& sample) { return (*sample.front).*value; });
   }
   summary.window_share = static_cast<double>(fronts.size()) / static_cast<double>(in_window);
-  const double density = scene.total_mass / (scene.length * scene.width * scene.depth);
+  const double density = moving_density_of(scene);
   const double length_ahead = scene.length - summary.position;
   summary.stress_ahead = stress_support + density * length_ahead * acceleration_ahead(fronts, summary.velocity_ahead);
   const double velocity_jump = summary.velocity_behind - summary.velocity_ahead;
@@ -185,10 +189,13 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     return summary;
   }
   summary.step_count = all.back().step;
-  summary.end = all.back().step < scene.schedule.step_count ? RunEnd::at_rest : scene.schedule.end;
+  const bool has_travelled = scene.plates.kinetic_share > 0.0 ? all.back().travel >= scene.plates.end_travel
+                                                              : all.back().step >= scene.schedule.step_count;
+  summary.end = has_travelled ? scene.schedule.end : RunEnd::at_rest;
   summary.deepest_penetration = all.back().deepest_penetration;
   summary.energy_error_relative = energy_error_of(all);
-  summary.warnings = collect_warnings(all);
+  summary.warnings = collect_warnings(scene, all);
+  summary.inertia_share = find_inertia_share(scene, all);
   if (!scene.plates.present) {
     const auto closed = std::ranges::find(summary.warnings, Warning::Kind::closed, &Warning::kind);
     if (closed != summary.warnings.end()) {

@@ -7,6 +7,7 @@
 
 #include "contact/thickening.h"
 #include "contact/touch/force_laws.h"
+#include "measure/inertia.h"
 #include "scene/check_spec.h"
 #include "scene/solid_area.h"
 
@@ -164,7 +165,7 @@ double turnover_of(const Sample& sample) {
   return std::max(std::abs(sample.energies.external), sample.energies.kinetic + sample.energies.initial);
 }
 
-std::vector<Warning> collect_warnings(std::span<const Sample> samples) {
+std::vector<Warning> collect_warnings(const Scene& scene, std::span<const Sample> samples) {
   std::vector<Warning> warnings;
   for (const Sample& sample : samples) {
     warnings.insert(warnings.end(), sample.warnings.begin(), sample.warnings.end());
@@ -175,6 +176,9 @@ std::vector<Warning> collect_warnings(std::span<const Sample> samples) {
   add_drift(
       samples, Warning::Kind::contact_energy, "Contacts have created energy of",
       [](const Sample& sample) { return -sample.energies.contact; }, warnings);
+  if (const std::optional<Warning> inertia = warn_of_inertia(scene, samples)) {
+    warnings.push_back(*inertia);
+  }
   std::stable_sort(warnings.begin(), warnings.end(),
                    [](const Warning& a, const Warning& b) { return a.step < b.step; });
   return warnings;

@@ -44,9 +44,9 @@ std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, dou
 /// whichever is greater, N mm. Errors of the energy are compared with it.
 double turnover_of(const Sample& sample);
 
-/// The warnings of the samples and those of the ledger, in order of steps. Samples before a hundredth of the greatest
-/// turnover do not count, because they compare two small numbers.
-std::vector<Warning> collect_warnings(std::span<const Sample> samples);
+/// The warnings of the samples, those of the ledger and that of inertia, in order of steps. For the ledger, samples
+/// before a hundredth of the greatest turnover do not count, because they compare two small numbers.
+std::vector<Warning> collect_warnings(const Scene& scene, std::span<const Sample> samples);
 
 // Phrases for warnings and for the errors that end a run.
 

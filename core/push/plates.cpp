@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "contact/thickening.h"
+#include "fields/field_checker.h"
 #include "push/half_planes.h"
 
 namespace cellcrush {
@@ -32,6 +35,9 @@ void add_force(const FaceForce& force, PlateForce& plate, double& stored) {
 }
 
 void place_plates(const Scene& scene, State& state) {
+  if (scene.plates.kinetic_share > 0.0) {
+    state.plate_drive = {{-0.5 * scene.schedule.time_step, kStartOfControl * scene.plates.speed, 0.0}};
+  }
   if (scene.plates.friction > 0.0) {
     const std::size_t n = scene.particle_count();
     state.friction_force.assign(n, Vector2::Zero());
@@ -79,12 +85,20 @@ void accumulate_plates(const Scene& scene, const PlateStep& plates, State& state
 
 MotionWorks half_step_works_of_plates(const Scene& scene, const State& state) {
   const double half = 0.5 * scene.schedule.time_step;
-  return face_works(state.impact_force, half * scene.plates.speed_at(state.time - half));
+  return face_works(state.impact_force, half * plate_speed_at(scene, state, state.time - half));
 }
 
 void describe_plates(const Scene& scene, std::vector<std::string>& lines) {
-  if (scene.plates.present) {
-    lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_words(scene.plates.friction));
+  const Plates& plates = scene.plates;
+  if (plates.kinetic_share > 0.0) {
+    lines.push_back("Speed: quasi-static, at most " + to_text(std::round(plates.speed) / kMmPerM) +
+                    " m/s, and slower where the kinetic energy comes near " +
+                    to_text(std::round(1e5 * plates.kinetic_share) / 1e3) +
+                    " % of the work done. The run takes about " + std::to_string(scene.schedule.step_count) +
+                    " steps, and at most four times as many. Masses are real: scaled ones would need as many steps.");
+  }
+  if (plates.present) {
+    lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_words(plates.friction));
   }
 }
 
@@ -100,10 +114,16 @@ double Plates::speed_at(double time) const {
   return ramp_time == 0.0 || time >= ramp_time ? speed : speed * std::max(time, 0.0) / ramp_time;
 }
 
-PlateStep plate_step_of(const Scene& scene, double time, double travel) {
+double plate_speed_at(const Scene& scene, const State& state, double time) {
+  if (state.plate_drive.empty()) return scene.plates.speed_at(time);
+  const PlateDrive& drive = state.plate_drive.front();
+  return drive.speed + drive.rate * (time - drive.since);
+}
+
+PlateStep plate_step_of(const Scene& scene, const State& state, double time, double travel) {
   const double step = scene.schedule.time_step;
-  const double before = scene.plates.speed_at(time - 0.5 * step);
-  const double after = scene.plates.speed_at(time + 0.5 * step);
+  const double before = plate_speed_at(scene, state, time - 0.5 * step);
+  const double after = plate_speed_at(scene, state, time + 0.5 * step);
   PlateStep plates = {0.5 * step * (before + after), travel + step * after, after, {}};
   if (scene.plates.present) {
     constexpr double kRounding = 1e-9;  // mm

@@ -11,14 +11,21 @@
 
 namespace cellcrush {
 
-/// Motion of the impact plate over a step. It does not depend on the lattice, so it is known steps ahead.
+/// Motion of the impact plate over a step. It does not depend on the lattice, so it is known steps ahead; if its speed
+/// is controlled, up to the next setting.
 struct PlateStep {
   double displacement = 0.0;  ///< mm, of the work of the forces: half a step before and half a step after them
   double travel = 0.0;        ///< mm, at the end of the step
   double speed = 0.0;         ///< mm/s, half a step before its end
   NearRange reach;            ///< positions between which no ball reaches a plate at its end
 };
-PlateStep plate_step_of(const Scene& scene, double time, double travel);
+PlateStep plate_step_of(const Scene& scene, const State& state, double time, double travel);
+
+/// Fraction of its greatest speed at which a controlled plate starts.
+inline constexpr double kStartOfControl = 1.0 / 64.0;
+
+/// Speed of the impact plate at a time since the newest setting, mm/s.
+double plate_speed_at(const Scene& scene, const State& state, double time);
 
 /// Particles of a band on which something presses.
 struct PressedBand {

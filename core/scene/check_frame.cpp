@@ -104,7 +104,8 @@ class FrameChecker {
   void check_pushers(const SceneSpec& spec) {
     const bool present = has_plates(spec);
     if (present && has_pins(frame_)) {
-      check_.add("loading.speed_m_per_s", "", "puts plates at a frame with pinned ends, which cannot be computed.",
+      check_.add(spec.loading.quasi_static ? "loading.quasi_static" : "loading.speed_m_per_s", "",
+                 "puts plates at a frame with pinned ends, which cannot be computed.",
                  "Remove loading, or pin_start and pin_end of all beams.");
     }
     if (!loads_.rigid_walls.empty() && has_pins(frame_)) {

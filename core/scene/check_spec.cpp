@@ -104,8 +104,25 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
   }
 }
 
+/// A quasi-static crush has the speed, the ramp and the end that the solver chooses, and real masses.
+void check_quasi_static(const SceneSpec& spec, FieldChecker& check) {
+  const LoadingSpec& loading = spec.loading;
+  check.within_limits("loading.kinetic_share", loading.kinetic_share);
+  if (!loading.quasi_static) return;
+  const auto exclude = [&check](bool is_given, const char* field, double value) {
+    if (is_given) {
+      check.add(field, to_text(value), "does not go with loading.quasi_static, which chooses speed and masses.",
+                "Remove it, or loading.quasi_static.");
+    }
+  };
+  exclude(loading.speed_m_per_s.has_value(), "loading.speed_m_per_s", loading.speed_m_per_s.value_or(0.0));
+  exclude(loading.ramp_strain != 0.0, "loading.ramp_strain", loading.ramp_strain);
+  exclude(loading.end_time_s.has_value(), "loading.end_time_s", loading.end_time_s.value_or(0.0));
+  exclude(spec.numerics.mass_scaling != 1.0, "numerics.mass_scaling", spec.numerics.mass_scaling);
+}
+
 void check_plates(const LoadingSpec& loading, FieldChecker& check) {
-  check.within_limits("loading.speed_m_per_s", loading.speed_m_per_s);
+  if (!loading.quasi_static) check.within_limits("loading.speed_m_per_s", loading.speed_m_per_s);
   const double end = loading.end_strain.value_or(LoadingSpec::kDefaultEndStrain);
   const bool ends = check.within_limits("loading.end_strain", end);
   const double latest = ends ? end : FieldChecker::greatest_of("loading.end_strain");
@@ -117,6 +134,7 @@ void check_plates(const LoadingSpec& loading, FieldChecker& check) {
 void check_loading(const SceneSpec& spec, FieldChecker& check) {
   const LoadingSpec& loading = spec.loading;
   if (has_plates(spec) || (!loading.end_time_s && !std::holds_alternative<FrameWalls>(spec.lattice))) {
+    check_quasi_static(spec, check);
     check_plates(loading, check);
   } else if (!loading.end_time_s) {
     check.within_limits("loading.end_time_s", {});

@@ -83,7 +83,7 @@ Material material_of(const MaterialSpec& spec) {
 
 int crush_axis_of(const SceneSpec& spec) { return spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1; }
 
-bool has_plates(const SceneSpec& spec) { return spec.loading.speed_m_per_s.has_value(); }
+bool has_plates(const SceneSpec& spec) { return spec.loading.speed_m_per_s.has_value() || spec.loading.quasi_static; }
 
 bool is_driven_by_plates_alone(const SceneSpec& spec) { return has_plates(spec) && spec.loads == LoadsSpec(); }
 
@@ -147,6 +147,8 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   measures.length = scene.length > 0.0 ? scene.length : extent_of(scene, axis);
   const double width = scene.length > 0.0 ? scene.width : extent_of(scene, 1 - axis);
   measures.closing_strain = closing_strain_of(scene.solid_area, measures.length * width);
+  const double solid_mass = scene.materials.front().density * measures.length * width * scene.depth;
+  measures.relative_density = solid_mass > 0.0 ? scene.total_mass / solid_mass : 0.0;
   measures.steps = steps_of(scene);
   measures.lightest_mass = std::ranges::min(scene.mass);
   measures.shortest_element = std::ranges::min(scene.walls.undeformed_length);

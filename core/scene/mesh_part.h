@@ -33,8 +33,9 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 /// Measures of a mesh on which the rest of a scene depends. Units mm, tonne, s, MPa.
 struct MeshMeasures {
   std::size_t element_count = 0;
-  double length = 0.0;  ///< envelope of the joints along the crush
-  double closing_strain = 0.0;  ///< between plates (scene/solid_area.h)
+  double length = 0.0;            ///< envelope of the joints along the crush
+  double relative_density = 0.0;  ///< real mass over that of the solid envelope
+  double closing_strain = 0.0;    ///< between plates (scene/solid_area.h)
   MeshSteps steps;
   double lightest_mass = 0.0;  ///< of a particle
   double shortest_element = 0.0;

@@ -3,6 +3,8 @@
 #include "cellcrush/spec_checker.h"
 #include "lattice/lattice.h"
 #include "scene/check_spec.h"
+#include "scene/mesh_part.h"
+#include "scene/quasi_static.h"
 
 namespace cellcrush {
 namespace {
@@ -69,6 +71,22 @@ void check_walls(const std::string& field, const RegularLattice& lattice, FieldC
   }
 }
 
+/// A speed at which nothing moves but at the pace of the plate: that of a testing machine, typed as it is.
+void check_slowness(const SceneSpec& spec, FieldChecker& notes) {
+  constexpr double kThinnestLattice = 0.01;  // relative density: at a higher one the fast enough speed is higher
+  constexpr double kTooSlow = 20.0;
+  const double share = LoadingSpec().kinetic_share;
+  const double enough = quasi_static_speed(share, kThinnestLattice, material_of(spec.material)) / kMmPerM;
+  const double speed = *spec.loading.speed_m_per_s;
+  if (kTooSlow * speed < enough) {
+    notes.add("loading.speed_m_per_s", to_text(speed),
+              "is far slower than inertia asks for: the number of steps grows as the speed falls, and already at " +
+                  to_text(std::round(10.0 * enough) / 10.0) + " m/s, in " + to_text(std::round(enough / speed)) +
+                  " times fewer steps, the kinetic energy is under 1 % of the work.",
+              "Give loading.quasi_static instead of a speed. Walls do not depend on the strain rate.");
+  }
+}
+
 void check_speed(const SceneSpec& spec, FieldChecker& notes) {
   constexpr double kPascal = 1e6;  // in a MPa
   const double wave = std::sqrt(*spec.material.youngs_modulus_mpa * kPascal / *spec.material.density_kg_per_m3);
@@ -94,7 +112,11 @@ Problems find_implausible(const SceneSpec& spec) {
   }
   check_stiffness(material, notes);
   check_density(*material.density_kg_per_m3, notes);
-  if (spec.loading.speed_m_per_s) check_speed(spec, notes);
+  if (!spec.loading.speed_m_per_s) return notes.take();
+  check_speed(spec, notes);
+  Problems found = notes.take();
+  if (!found.empty()) return found;  // what is slow follows from sound units
+  check_slowness(spec, notes);
   return notes.take();
 }
 

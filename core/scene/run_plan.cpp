@@ -9,6 +9,7 @@
 #include "lattice/lattice.h"
 #include "scene/check_spec.h"
 #include "scene/contact_law.h"
+#include "scene/quasi_static.h"
 #include "scene/time_step.h"
 
 namespace cellcrush {
@@ -25,6 +26,7 @@ Plates plates_of(const SceneSpec& spec, const MeshMeasures& mesh, double stiffne
   plates.axis = crush_axis_of(spec);
   plates.speed = speed;
   plates.ramp_time = ramp_time;
+  plates.kinetic_share = spec.loading.quasi_static ? spec.loading.kinetic_share : 0.0;
   plates.stiffness = stiffness;
   plates.friction = spec.plates.friction;
   return plates;
@@ -51,7 +53,8 @@ End end_of(const SceneSpec& spec, const MeshMeasures& mesh, const Plates& plates
   const double given = spec.loading.end_time_s.value_or(std::numeric_limits<double>::infinity());
   if (!plates.present) return {given, RunEnd::time};
   const auto [strain, reason] = end_strain_of(spec, mesh);
-  const double time = strain * mesh.length / plates.speed + 0.5 * plates.ramp_time;
+  const double slowing = spec.loading.quasi_static ? slowing_of_quasi_static(strain) : 1.0;
+  const double time = slowing * strain * mesh.length / plates.speed + 0.5 * plates.ramp_time;
   return given < time ? End{given, RunEnd::time} : End{time, reason};
 }
 
@@ -88,7 +91,9 @@ void check_step_count(const SceneSpec& spec, double count, Problems& problems) {
     problems.push_back(
         {"numerics.time_step_s", to_text(fixed), message, "Use a longer step, or 0 for an automatic step."});
   } else if (has_plates(spec)) {
-    problems.push_back({"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Use a higher speed."});
+    problems.push_back({"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message,
+                        "Use a higher speed. For a crush as slow as in a testing machine, give loading.quasi_static "
+                        "instead: it chooses the highest speed at which inertia does not matter."});
   } else {
     problems.push_back({"loading.end_time_s", to_text(*spec.loading.end_time_s), message, "Use an earlier end time."});
   }
@@ -102,7 +107,8 @@ double bending_share(const SceneSpec& spec, double thickness) {
 
 }  // namespace
 
-RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& problems) {
+RunPlan plan_run(const SceneSpec& given, const MeshMeasures& mesh, Problems& problems) {
+  const SceneSpec spec = with_chosen_speed(given, mesh);
   RunPlan plan;
   check_stability(spec, mesh, problems);
   if (!problems.empty()) {
@@ -112,6 +118,7 @@ RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& prob
   problems = mesh.overlaps;
   if (has_plates(spec)) {
     plan.plates = plates_of(spec, mesh, plan.contact.stiffness);
+    if (spec.loading.quasi_static) plan.plates.end_travel = end_strain_of(spec, mesh).first * mesh.length;
   }
   const TimeStep step = time_step_of(spec, mesh, plan.contact, plan.plates);
   const End end = end_of(spec, mesh, plan.plates);
@@ -133,6 +140,10 @@ bool prevents_meshing(const Problems& problems) {
 double steps_to_yield(const SceneSpec& spec, const MeshMeasures& mesh, const RunPlan& plan) {
   if (!plan.plates.present) {
     return static_cast<double>(plan.schedule.step_count);
+  }
+  if (plan.plates.kinetic_share > 0.0) {
+    constexpr double kOfRun = 0.2;  // it starts slowly
+    return kOfRun * static_cast<double>(plan.schedule.step_count);
   }
   const double strain =
       mesh.material.yield_stress / mesh.material.youngs_modulus / bending_share(spec, mesh.thinnest_wall);

@@ -6,6 +6,7 @@
 #include "beam/internal_forces.h"
 #include "energy/ledger.h"
 #include "motion/initial_state.h"
+#include "push/push.h"
 #include "step/advance_wavefront.h"
 #include "step/execute_stages.h"
 #include "step/step_record.h"
@@ -33,7 +34,7 @@ State make_initial_state(const Scene& scene) {
   StepInProgress step = begin_step(scene, state, workspace);
   StepRecord& record = step.record;
   record.plates.travel = 0.0;
-  record.plates.speed = scene.plates.speed_at(-0.5 * scene.schedule.time_step);
+  record.plates.speed = plate_speed_at(scene, state, -0.5 * scene.schedule.time_step);
   std::iota(workspace.near_plates.begin(), workspace.near_plates.end(), 0);
   for (std::size_t band = 0; band < scene.bands.size(); ++band) {
     const LatticeBand& of = scene.bands[band];

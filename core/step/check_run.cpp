@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "measure/inertia.h"
 #include "measure/warnings.h"
 #include "scene/check_spec.h"
 #include "scene/time_step.h"
@@ -109,6 +110,17 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
   return {};
 }
 
+RunStatus check_inertia(const Scene& scene, const State& state, const Sample& sample) {
+  const double share = unwanted_share_of(scene, inertia_share_of(sample));
+  if (share <= kLargestInertia || !scene.plates.present || !inertia_window_of(scene).holds(sample.strain)) {
+    return {};
+  }
+  return {RunStatus::Kind::inertia,
+          "Inertia bears too much of the load: at " + moment_of(state.step, state.time) + ", strain " +
+              to_text(std::round(1e3 * sample.strain) / 1e3) + ", " + words_of_inertia(scene, share) + ".",
+          remedy_for_inertia(scene, share)};
+}
+
 /// Speed of approach for which the step of a scene would be chosen, mm/s.
 double speed_of_step(const Scene& scene) { return kTravelPerStep * scene.contact.thinnest / scene.schedule.time_step; }
 
@@ -183,6 +195,7 @@ RunStatus check_run(const Scene& scene, const State& state, const Sample& sample
   go_on([&] { return check_contacts(scene, state); });
   go_on([&] { return check_energy(scene, state, sample); });
   go_on([&] { return check_walls(scene, state, sample); });
+  go_on([&] { return check_inertia(scene, state, sample); });
   return status;
 }
 

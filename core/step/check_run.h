@@ -27,6 +27,8 @@ inline constexpr double kMostCompaction = 1.25;
 ///   contact_energy  contacts have created more than that; the ledger counts it like any other work,
 ///   wall_crossing   a wall has passed through another: its contacts push to the wrong side from then on,
 ///   overcompaction  a layer is filled to more than kMostCompaction,
+///   inertia         the kinetic energy of mass that the material does not have is more than kLargestInertia
+///                   (measure/inertia.h) of the work done, in the plateau window,
 ///   contact_lost    in a step since the start, particles of a frame could approach each other by more than
 ///                   ContactLaw::most_travel, or a beam has sunk into another by the thickness of the thinner one.
 /// Only the current state is checked; events since the last sample show in the sums of the ledger and in what the state

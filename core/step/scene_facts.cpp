@@ -7,6 +7,7 @@
 #include "scene/solid_area.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
+#include "step/plate_control.h"
 
 namespace cellcrush {
 namespace {
@@ -136,6 +137,8 @@ SceneFacts facts_of(const Scene& scene) {
   facts.stable_step = scene.stable_step;
   facts.time_step = scene.schedule.time_step;
   facts.step_count = scene.schedule.step_count;
+  facts.most_steps = most_steps_of(scene);
+  facts.end_strain = is_controlled(scene) ? scene.plates.end_travel / scene.length : 0.0;
   facts.sample_interval = scene.schedule.sample_interval;
   facts.frame_interval = scene.schedule.frame_interval;
   facts.theory = theory_of(scene);

@@ -11,6 +11,7 @@
 #include "measure/sampler.h"
 #include "step/advance_step.h"
 #include "step/check_run.h"
+#include "step/plate_control.h"
 #include "step/rest_watch.h"
 
 namespace cellcrush {
@@ -49,19 +50,34 @@ struct Simulation::Impl {
     }
   }
 
-  /// Advances to a step, or to rest.
+  /// Steps up to `end` in which nothing looks at the state.
+  [[nodiscard]] std::int64_t steps_to_next_look(std::int64_t end) const {
+    std::int64_t next = end;
+    const auto look_every = [&](std::int64_t interval) {
+      next = std::min(next, (state.step / interval + 1) * interval);
+    };
+    if (scene->schedule.end_at_rest > 0.0) look_every(RestWatch::interval(scene->schedule));
+    if (!is_controlled(*scene)) return next - state.step;
+    look_every(control_interval(scene->schedule));
+    return std::min(next - state.step, steps_to_arrival(*scene, state));
+  }
+
+  /// Advances to a step, to rest, or to where a controlled plate arrives.
   void advance_to(std::int64_t end, StageObserver* observer) {
-    const std::int64_t interval = scene->schedule.end_at_rest > 0.0 ? RestWatch::interval(scene->schedule) : end;
-    while (state.step < end && !rest.is_at_rest()) {
-      const std::int64_t next = std::min(end, (state.step / interval + 1) * interval);
-      advance_steps(*scene, state, workspace, next - state.step, observer);
-      if (scene->schedule.end_at_rest > 0.0 && state.step % interval == 0) {
+    while (state.step < end && !has_ended()) {
+      advance_steps(*scene, state, workspace, steps_to_next_look(end), observer);
+      if (scene->schedule.end_at_rest > 0.0 && state.step % RestWatch::interval(scene->schedule) == 0) {
         rest.look(*scene, state);
+      }
+      if (is_controlled(*scene) && state.step % control_interval(scene->schedule) == 0) {
+        control_plate(*scene, state);
       }
     }
   }
 
-  [[nodiscard]] bool has_ended() const { return state.step >= scene->schedule.step_count || rest.is_at_rest(); }
+  [[nodiscard]] bool has_ended() const {
+    return state.step >= most_steps_of(*scene) || rest.is_at_rest() || has_arrived(*scene, state);
+  }
 
   /// Frames kept over a run in case it fails: often enough to see it come, seldom enough to take less than a hundredth
   /// of the time.
@@ -80,7 +96,7 @@ struct Simulation::Impl {
 namespace {
 
 // Changes with what follows it in a checkpoint.
-constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720006;
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720007;
 
 /// Sizes of the lists that equal scenes have alike.
 std::array<std::size_t, 8> shape_of(const State& state) {
@@ -99,7 +115,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::advance(std::int64_t steps, StageObserver* observer) {
-  const std::int64_t last = std::min(impl_->state.step + steps, impl_->scene->schedule.step_count);
+  const std::int64_t last = std::min(impl_->state.step + steps, most_steps_of(*impl_->scene));
   if (impl_->status.kind == RunStatus::Kind::running) {
     impl_->advance_to(last, observer);
     if (impl_->has_ended()) {

@@ -6,7 +6,7 @@ namespace cellcrush {
 
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record) {
   record.time = time;
-  record.plates = plate_step_of(scene, time, travel);
+  record.plates = plate_step_of(scene, state, time, travel);
   record.of_rigid_bodies = MotionWorks();
   record.moved.resize(moved_chunk_count(scene));
   record.near.resize(scene.bands.size());

@@ -117,6 +117,8 @@ void read_loading(const v1::Loading& in, SceneSpec& spec, Problems& problems) {
   LoadingSpec& out = spec.loading;
   read_choice(in.direction(), "loading.direction", out.direction, problems);
   if (in.has_speed_m_per_s()) out.speed_m_per_s = in.speed_m_per_s();
+  if (in.has_quasi_static()) out.quasi_static = in.quasi_static();
+  if (in.has_kinetic_share()) out.kinetic_share = in.kinetic_share();
   if (in.has_end_strain()) out.end_strain = in.end_strain();
   if (in.has_ramp_strain()) out.ramp_strain = in.ramp_strain();
   if (in.has_end_time_s()) out.end_time_s = in.end_time_s();

@@ -140,6 +140,8 @@ std::string rigid_wall_text(const std::string& id, const LoadsSpec::RigidWall& w
   return texts.empty() ? id : fmt::format("{} ({})", id, fmt::join(texts, ", "));
 }
 
+bool has_plates(const v1::Loading& loading) { return loading.has_speed_m_per_s() || loading.quasi_static(); }
+
 void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   if (loading.gravity_x_m_per_s2() != 0.0 || loading.gravity_y_m_per_s2() != 0.0) {
     add_fact(
@@ -155,9 +157,11 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
     add_fact(words, "end time", fmt::format("{} s", loading.end_time_s()));
     text = fmt::format("loaded for {} s", loading.end_time_s());
   }
-  if (loading.has_speed_m_per_s()) {
-    text += fmt::format("{}crushed along {} at {} m/s", text.empty() ? "" : ", ",
-                        loading.direction() == v1::Loading::Y ? 'Y' : 'X', loading.speed_m_per_s());
+  if (has_plates(loading)) {
+    const std::string pace =
+        loading.quasi_static() ? "quasi-statically" : fmt::format("at {} m/s", loading.speed_m_per_s());
+    text += fmt::format("{}crushed along {} {}", text.empty() ? "" : ", ",
+                        loading.direction() == v1::Loading::Y ? 'Y' : 'X', pace);
     if (loading.has_end_strain()) text += fmt::format(" to strain {:.4g}", loading.end_strain());
   }
   if (loading.end_at_rest() > 0.0) {
@@ -182,7 +186,7 @@ std::string material_text(const v1::Material& material) {
 
 v1::CaseWords describe_case(const v1::Case& scene) {
   v1::CaseWords words;
-  words.set_plates(scene.loading().has_speed_m_per_s());
+  words.set_plates(has_plates(scene.loading()));
   if (scene.lattice().has_frame()) describe_frame(scene.lattice().frame(), words);
   if (const auto regular = read_regular(scene.lattice())) describe_cells(*regular, words);
   describe_changes(scene.lattice(), words);

@@ -132,7 +132,9 @@ std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, 
   }
   add_if(spec.loading.direction != specimen.direction, "loading.direction");
   const auto [lowest, highest] = speeds_of(specimen);
-  add_if(*spec.loading.speed_m_per_s < lowest || *spec.loading.speed_m_per_s > highest, "loading.speed_m_per_s");
+  const double speed = spec.loading.speed_m_per_s.value_or(0.0);
+  add_if(speed < lowest || speed > highest,
+         spec.loading.quasi_static ? "loading.quasi_static" : "loading.speed_m_per_s");
   add_if(spec.contact.friction != measured.contact.friction, "contact.friction");
   add_if(spec.plates.friction != measured.plates.friction, "plates.friction");
   return fields;

@@ -53,6 +53,7 @@ v1::Warning::Kind to_proto(Warning::Kind kind) {
     case Warning::Kind::walls_neck: return v1::Warning::WALLS_NECK;
     case Warning::Kind::denser_than_solid: return v1::Warning::DENSER_THAN_SOLID;
     case Warning::Kind::closed: return v1::Warning::CLOSED;
+    case Warning::Kind::inertia: return v1::Warning::INERTIA;
     case Warning::Kind::energy_drift: return v1::Warning::ENERGY_DRIFT;
     case Warning::Kind::contact_energy: return v1::Warning::CONTACTS_MAKE_ENERGY;
   }
@@ -137,6 +138,7 @@ v1::Job::Cause cause_of(RunStatus::Kind kind) {
     case RunStatus::Kind::energy_balance: return v1::Job::ENERGY_BALANCE;
     case RunStatus::Kind::contact_energy: return v1::Job::CONTACT_ENERGY;
     case RunStatus::Kind::wall_crossing: return v1::Job::WALL_CROSSING;
+    case RunStatus::Kind::inertia: return v1::Job::INERTIA;
     case RunStatus::Kind::overcompaction: return v1::Job::OVERCOMPACTION;
     case RunStatus::Kind::contact_lost: return v1::Job::CONTACT_LOST;
   }
@@ -190,6 +192,7 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& 
   if (summary.valid_to_strain) out.set_valid_to_strain(*summary.valid_to_strain);
   if (summary.valid_to_time) out.set_valid_to_time_s(*summary.valid_to_time);
   out.set_end(to_proto(summary.end));
+  if (summary.inertia_share) out.set_inertia_share(*summary.inertia_share);
   if (summary.plateau_stress_impact) out.set_plateau_stress_impact_mpa(*summary.plateau_stress_impact);
   if (summary.plateau_stress_support) out.set_plateau_stress_support_mpa(*summary.plateau_stress_support);
   out.set_plateau_window_low(Summary::kPlateauLow);

@@ -127,6 +127,10 @@ void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
 void write_plates(const LoadingSpec& in, v1::Loading& out) {
   out.set_direction(wire_of<v1::Loading::Direction>(in.direction));
   if (in.speed_m_per_s) out.set_speed_m_per_s(*in.speed_m_per_s);
+  if (in.quasi_static) {
+    out.set_quasi_static(true);
+    out.set_kinetic_share(in.kinetic_share);
+  }
   if (in.end_strain) out.set_end_strain(*in.end_strain);
   out.set_ramp_strain(in.ramp_strain);
 }
@@ -194,7 +198,7 @@ v1::Case to_case(const SceneSpec& spec) {
   out.mutable_contact()->set_impact_speed_m_per_s(spec.contact.impact_speed_m_per_s);
   out.mutable_contact()->set_search(wire_of<v1::Contact::Search>(spec.contact.search));
   out.mutable_plates()->set_friction(spec.plates.friction);
-  const bool has_plates = spec.loading.speed_m_per_s.has_value();
+  const bool has_plates = spec.loading.speed_m_per_s.has_value() || spec.loading.quasi_static;
   if (has_plates || !spec.loading.end_time_s) write_plates(spec.loading, *out.mutable_loading());
   write_loads(spec, out);
   write_numerics(spec.numerics, *out.mutable_numerics());

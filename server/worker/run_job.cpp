@@ -139,7 +139,7 @@ class Run {
   // is due.
   void advance_to_next_output() {
     const std::int64_t next =
-        std::min({next_multiple(facts_.sample_interval), next_multiple(facts_.frame_interval), facts_.step_count});
+        std::min({next_multiple(facts_.sample_interval), next_multiple(facts_.frame_interval), facts_.most_steps});
     while (simulation_.step() < next && !simulation_.has_ended()) {
       const std::int64_t before = simulation_.step();
       const auto start = Clock::now();
@@ -152,7 +152,7 @@ class Run {
         return;
       }
       piece_ = now - start < std::chrono::milliseconds(25) ? 2 * piece_ : std::max<std::int64_t>(1, piece_ / 2);
-      piece_ = std::min(piece_, facts_.step_count);
+      piece_ = std::min(piece_, facts_.most_steps);
       output_->put_progress(simulation_.step(), simulation_.strain(), now);
       request_ = requested_stop_();
       if (request_ == StopRequest::cancel) acknowledge_cancel();

@@ -19,14 +19,16 @@ constexpr std::chrono::milliseconds kInterval{200};
 constexpr double kNewShare = 0.3;  // weight of the newest reading of the speed
 
 ProgressMeter meter_of(const SceneFacts& facts, std::int64_t first_step) {
-  return {facts.step_count, Summary::kPlateauLow, Summary::kPlateauHigh, ProgressMeter::Clock::now(), first_step};
+  return {facts.step_count, Summary::kPlateauLow, Summary::kPlateauHigh, ProgressMeter::Clock::now(),
+          first_step,       facts.end_strain};
 }
 
 }  // namespace
 
 ProgressMeter::ProgressMeter(std::int64_t step_count, double plateau_low, double plateau_high, Clock::time_point start,
-                             std::int64_t first_step)
+                             std::int64_t first_step, double end_strain)
     : step_count_(step_count),
+      end_strain_(end_strain),
       plateau_low_(plateau_low),
       plateau_high_(plateau_high),
       last_time_(start),
@@ -48,15 +50,17 @@ std::optional<v1::Progress> ProgressMeter::read(std::int64_t step, double strain
   steps_per_second_ = steps_per_second_ > 0.0 ? (1.0 - kNewShare) * steps_per_second_ + kNewShare * speed : speed;
   last_time_ = now;
   last_step_ = step;
+  const auto at_this_pace = static_cast<std::int64_t>(static_cast<double>(step) * end_strain_ / std::max(strain, 1e-9));
+  const std::int64_t step_count = 2 * step > step_count_ ? std::max(step_count_, at_this_pace) : step_count_;
 
   v1::Progress out;
   out.set_strain(strain);
   out.set_step(step);
-  out.set_step_count(step_count_);
+  out.set_step_count(step_count);
   out.set_steps_per_second(steps_per_second_);
-  if (steps_per_second_ > 0.0) out.set_seconds_left(static_cast<double>(step_count_ - step) / steps_per_second_);
+  if (steps_per_second_ > 0.0) out.set_seconds_left(static_cast<double>(step_count - step) / steps_per_second_);
   if (plateau_width_ > 0.0) out.set_plateau_so_far_mpa(plateau_integral_ / plateau_width_);
-  if (step_count_ > 0) out.set_fraction(static_cast<double>(step) / static_cast<double>(step_count_));
+  if (step_count > 0) out.set_fraction(static_cast<double>(step) / static_cast<double>(step_count));
   out.set_stress_impact_mpa(newest_.stress_impact_mpa());
   out.set_stress_support_mpa(newest_.stress_support_mpa());
   return out;

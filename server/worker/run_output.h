@@ -21,9 +21,9 @@ class ProgressMeter {
   using Clock = std::chrono::steady_clock;
 
   /// `plateau_low`, `plateau_high`: strains between which the plateau stress is averaged. The run starts or resumes at
-  /// `first_step`.
+  /// `first_step`. `end_strain`: at which a run of planned steps ends; 0 if it takes exactly `step_count`.
   ProgressMeter(std::int64_t step_count, double plateau_low, double plateau_high, Clock::time_point start,
-                std::int64_t first_step = 0);
+                std::int64_t first_step = 0, double end_strain = 0.0);
 
   void add(const v1::Sample& sample);
 
@@ -32,6 +32,7 @@ class ProgressMeter {
 
  private:
   std::int64_t step_count_;
+  double end_strain_;
   double plateau_low_;
   double plateau_high_;
   Clock::time_point last_time_;

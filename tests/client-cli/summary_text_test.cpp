@@ -35,10 +35,11 @@ TEST(SummaryText, HasBothShockTheoriesWithTheirErrorsFrontModeAndLedger) {
 
 TEST(SummaryText, SaysHowSteadyASlowCrushWasAndNothingOfAFastOne) {
   auto job = from_text<v1::Job>(R"(words { plates: true } summary { quasi_static {
-    plate_difference_relative: 0.0058 plate_difference_greatest: 0.021 kinetic_share: 0.0052 } })");
+    plate_difference_relative: 0.0058 plate_difference_greatest: 0.021 kinetic_share: 0.0052 }
+    inertia_share: 0.0047 })");
   const std::string slow = summary_text(job, 120);
   EXPECT_THAT(slow, ContainsRegex("plate stress difference beyond 5 % strain +0.58 %.*at most 2.10 %"));
-  EXPECT_THAT(slow, ContainsRegex("largest kinetic energy +0.52 % +of the plastic work"));
+  EXPECT_THAT(slow, ContainsRegex("inertia's share of the work +0.47 %"));
   job.mutable_summary()->mutable_quasi_static()->set_kinetic_share(0.9);
   EXPECT_THAT(summary_text(job, 120), Not(HasSubstr("plate stress difference")));
 }

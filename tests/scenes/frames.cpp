@@ -175,6 +175,7 @@ std::string name_of(RunStatus::Kind kind) {
     case RunStatus::Kind::contact_energy: return "contact_energy";
     case RunStatus::Kind::wall_crossing: return "wall_crossing";
     case RunStatus::Kind::contact_lost: return "contact_lost";
+    case RunStatus::Kind::inertia: return "inertia";
     case RunStatus::Kind::overcompaction: break;
   }
   return "overcompaction";

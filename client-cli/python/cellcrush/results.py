@@ -44,7 +44,8 @@ class Results(ABC):
         for label, name, unit in (("plateau at the impact plate", "plateau_stress_impact_mpa", "MPa"),
                                   ("plateau at the support plate", "plateau_stress_support_mpa", "MPa"),
                                   ("densification strain", "densification_strain", ""),
-                                  ("valid to strain", "valid_to_strain", "")):
+                                  ("valid to strain", "valid_to_strain", ""),
+                                  ("inertia's share of the work", "inertia_share", "")):
             value = getattr(self.summary, name)
             if value is not None:
                 rows.append((label, f"{value:.4g} {unit}".rstrip()))

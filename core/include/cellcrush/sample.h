@@ -70,7 +70,8 @@ struct Warning {
     borders_near,
     walls_neck,         ///< more than 1 % of the walls were stretched by more than their thickness
     denser_than_solid,  ///< walls filled a layer by more than its volume
-    closed              ///< lattice or frame was closed: from there on its stress depends on the mesh
+    closed,             ///< lattice or frame was closed: from there on its stress depends on the mesh
+    inertia             ///< mass that the material does not have took more than 2 % of the work
   };
   Kind kind = Kind::deep_penetration;
   std::int64_t step = 0;
@@ -161,7 +162,7 @@ struct FieldFrame {
 /// Closed-form solutions to compare a result with.
 struct Theory {
   double gibson_ashby = 0.0;          ///< MPa, quasi-static plastic collapse of the lattice
-  double shock = 0.0;                 ///< MPa, Eq. 51
+  double shock = 0.0;                 ///< MPa, Eq. 51, with the masses of the run
   double densification_strain = 0.0;  ///< used in Eq. 51: 1 - 1.4 relative density
 };
 
@@ -201,6 +202,9 @@ struct Summary {
   std::optional<double> valid_to_strain;
   std::optional<double> valid_to_time;  ///< s, the same of a frame between rigid walls, if it has closed
   RunEnd end = RunEnd::time;
+  /// Greatest kinetic energy over the work done by then, over the plateau window (measure/inertia.h); absent without
+  /// plates, or if the run ended before.
+  std::optional<double> inertia_share;
   std::optional<double> plateau_stress_impact;  ///< MPa; absent if the run ended before the end of the range
   std::optional<double> plateau_stress_support;
   std::optional<double> densification_strain;             ///< onset; absent without a lasting rise (measure/curve.h)

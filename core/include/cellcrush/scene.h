@@ -169,12 +169,15 @@ struct Plates {
   int axis = 0;               ///< 0: crush along x, 1: along y
   double impact_face = 0.0;   ///< mm, position of the face before loading
   double support_face = 0.0;  ///< mm
-  double speed = 0.0;         ///< V, mm/s
+  double speed = 0.0;         ///< V, mm/s; the greatest if it is controlled
   double ramp_time = 0.0;     ///< s, time in which the speed rises linearly from 0
-  double stiffness = 0.0;     ///< k, N/mm, penalty stiffness of one particle
-  double friction = 0.0;      ///< Coulomb's coefficient
+  /// Kinetic energy over the work done below which the speed is controlled (step/plate_control.h); 0: it is not.
+  double kinetic_share = 0.0;
+  double end_travel = 0.0;  ///< mm, at the end of a run whose speed is controlled
+  double stiffness = 0.0;   ///< k, N/mm, penalty stiffness of one particle
+  double friction = 0.0;    ///< Coulomb's coefficient
 
-  /// Speed at a time, mm/s.
+  /// Speed at a time, mm/s, if it is not controlled.
   [[nodiscard]] double speed_at(double time) const;
 };
 
@@ -233,8 +236,8 @@ enum class StepBound { asked_for, elements, plate_travel, approach, contacts, st
 struct Schedule {
   double time_step = 0.0;  ///< s
   StepBound bound = StepBound::asked_for;
-  std::int64_t step_count = 0;
-  RunEnd end = RunEnd::time;  ///< at step_count
+  std::int64_t step_count = 0;  ///< planned, if the speed of the plate is controlled
+  RunEnd end = RunEnd::time;    ///< at step_count
   std::int64_t sample_interval = 0;
   std::int64_t frame_interval = 0;
   double end_at_rest = 0.0;  ///< fraction of the greatest kinetic energy (RestWatch in step/rest_watch.h); 0: no end

@@ -212,14 +212,18 @@ struct PlatesSpec {
   bool operator==(const PlatesSpec&) const = default;
 };
 
-/// The two plates, which stand around the lattice where a speed is given, and the end of the run: at the strain, at the
-/// time or at rest, whichever comes first.
+/// The two plates, which stand around the lattice where a speed is given or chosen, and the end of the run: at the
+/// strain, at the time or at rest, whichever comes first.
 struct LoadingSpec {
   static constexpr double kDefaultEndStrain = 0.8;
 
   enum class Direction { x, y };
   Direction direction = Direction::x;
   std::optional<double> speed_m_per_s;
+  /// Whether the speed is chosen, and lowered during the run, so that the kinetic energy stays below kinetic_share of
+  /// the work done (scene/quasi_static.h).
+  bool quasi_static = false;
+  double kinetic_share = 0.01;
   std::optional<double> end_strain;  ///< default: kDefaultEndStrain, or where the lattice is closed if that is less
   double ramp_strain = 0.0;
   std::optional<double> end_time_s;  ///< default between plates: none

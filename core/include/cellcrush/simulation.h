@@ -39,15 +39,17 @@ SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene);
 struct SceneFacts {
   std::int64_t particle_count = 0;
   std::int64_t element_count = 0;
-  double mass = 0.0;              ///< tonne, of all walls
-  double relative_density = 0.0;  ///< mass over that of the solid envelope
-  double length = 0.0;            ///< envelope along the crush
-  double width = 0.0;             ///< envelope across it
+  double mass = 0.0;                      ///< tonne, of all walls
+  double relative_density = 0.0;          ///< mass over that of the solid envelope
+  double length = 0.0;                    ///< envelope along the crush
+  double width = 0.0;                     ///< envelope across it
   std::optional<double> valid_to_strain;  ///< as in Summary
   RunEnd end = RunEnd::time;
   double stable_step = 0.0;
   double time_step = 0.0;
-  std::int64_t step_count = 0;
+  std::int64_t step_count = 0;       ///< planned
+  std::int64_t most_steps = 0;       ///< more than planned only in quasi-static crushes
+  double end_strain = 0.0;           ///< nominal, of a quasi-static crush; otherwise 0
   std::int64_t sample_interval = 0;  ///< steps
   std::int64_t frame_interval = 0;   ///< steps
   Theory theory;
@@ -81,6 +83,7 @@ struct RunStatus {
     energy_balance,  ///< the energy balance has too large an error
     contact_energy,  ///< contacts have created too much energy
     wall_crossing,   ///< a wall has passed through another
+    inertia,         ///< mass that the material does not have takes too much of the work
     overcompaction,  ///< walls are packed more densely than contacts can bear
     contact_lost     ///< beams of a frame moved too fast, or sank too deep into each other, for contacts to hold them
   };

@@ -56,6 +56,13 @@ struct RigidWallMotion {
   double way = 0.0;     ///< mm, of the work of the forces before: half a step before and half a step after them
 };
 
+/// Speed of an impact plate that is controlled: changes evenly from one setting to the next.
+struct PlateDrive {
+  double since = 0.0;  ///< s
+  double speed = 0.0;  ///< mm/s, then
+  double rate = 0.0;   ///< mm/s^2
+};
+
 /// Impulse of a rigid wall on the lattice since the start, N s.
 struct RigidWallImpulse {
   double normal = 0.0;
@@ -137,6 +144,7 @@ struct State {
   std::vector<RigidWallForce> rigid_wall_force;  ///< one for each of Scene::rigid_walls
   ContactTotals contact_totals;
   std::vector<FastestStep> fastest_step;  ///< one where contacts of a frame are watched; otherwise empty
+  std::vector<PlateDrive> plate_drive;    ///< one where the speed of the plate is controlled; otherwise empty
 
   Ledger ledger;
 
@@ -160,7 +168,7 @@ void visit_fields(S& state, Visitor&& visit) {
          length, inverse_length, thickening, thickening_slope, radius_growth, fibres, single_fibres, wall_force,
          wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step, contact_force,
          friction_force, impact_friction, support_friction, impact_force, support_force, rigid_wall_friction,
-         rigid_wall_force, contact_totals, fastest_step, ledger, derived_steps, derived_tiles] = state;
+         rigid_wall_force, contact_totals, fastest_step, plate_drive, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding] = history;
@@ -180,7 +188,7 @@ void visit_fields(S& state, Visitor&& visit) {
     visit_touch_fields(lists, visit);
   }
   list(contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
-       rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, ledger);
+       rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, ledger);
 }
 
 /// The same for the arrays alone, the derived ones too.

@@ -58,6 +58,11 @@ std::vector<Change> changes() {
       [](SceneSpec& spec) { spec.loading.speed_m_per_s = -20.0; },
       [](SceneSpec& spec) { spec.loading.speed_m_per_s = 1e-6; },
       [](SceneSpec& spec) { spec.loading.speed_m_per_s.reset(); },
+      [](SceneSpec& spec) { spec.loading.quasi_static = true; },
+      [](SceneSpec& spec) {
+        spec.loading.speed_m_per_s.reset();
+        spec.loading.quasi_static = true;
+      },
       [](SceneSpec& spec) { spec.loading.end_strain = 0.3; },
       [](SceneSpec& spec) { spec.loading.ramp_strain = 0.1; },
       [](SceneSpec& spec) { spec.loading.direction = LoadingSpec::Direction::y; },

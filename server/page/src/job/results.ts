@@ -58,6 +58,10 @@ export function resultsList(s: Summary, note: string): HTMLElement {
     add("Difference between the plates", "quasi_static", percent(s.quasiStatic.plateDifferenceRelative),
         "of their mean; 0 if quasi-static");
   }
+  if (s.inertiaShare !== undefined) {
+    add("Inertia's share of the work", "inertia_share", percent(s.inertiaShare),
+        "largest kinetic energy on the plateau");
+  }
   add("Energy ledger error", "energy_error_relative", percent(s.energyErrorRelative, 3));
   add("Deepest penetration", "deepest_penetration", percent(s.deepestPenetration),
       "of the thickness of the thinner wall");

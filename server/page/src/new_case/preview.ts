@@ -23,8 +23,8 @@ export class Preview {
   /** Draws the lattice of a valid case, if it is another one than before. */
   async show(value: Case, elementCount: number): Promise<void> {
     const { lattice: walls, loading, elementsPerWall, numerics } = value;
-    const parts = [walls, loading?.direction, loading?.speedMPerS === undefined, loading?.rigidWalls, elementsPerWall,
-                   numerics?.fidelity];
+    const hasPlates = loading?.speedMPerS !== undefined || loading?.quasiStatic;
+    const parts = [walls, loading?.direction, hasPlates, loading?.rigidWalls, elementsPerWall, numerics?.fidelity];
     const key = JSON.stringify(parts, (_, part) => (typeof part === "bigint" ? `${part}` : part));
     if (key === this.shownKey) return;
     this.shownKey = key;
