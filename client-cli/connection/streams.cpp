@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <set>
@@ -26,10 +28,26 @@ int pipe_ends[2] = {-1, -1};
 struct sigaction former_interrupt = {};
 struct sigaction former_terminate = {};
 
-extern "C" void on_interrupt(int /*signal*/) {
+/// ms on the monotonic clock; 0: none yet.
+std::atomic<std::int64_t> first_signal = 0;
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+// `timeout` sends a signal to its command and then to the command's group: the command gets it twice.
+constexpr std::int64_t kSameRequest = 500;  // ms
+
+extern "C" void on_interrupt(int signal) {
   const int saved = errno;
-  const char byte = 1;
-  [[maybe_unused]] const ssize_t written = write(pipe_ends[1], &byte, 1);
+  timespec now = {};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::int64_t time = 1000 * static_cast<std::int64_t>(now.tv_sec) + now.tv_nsec / 1'000'000;
+  std::int64_t first = 0;
+  if (first_signal.compare_exchange_strong(first, time)) {
+    const char byte = 1;
+    [[maybe_unused]] const ssize_t written = write(pipe_ends[1], &byte, 1);
+  } else if (time - first >= kSameRequest) {
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+  }
   errno = saved;
 }
 
@@ -147,8 +165,9 @@ bool follow(Connection& connection, const FollowedStream<Event>& stream, const I
 Interruption::Interruption() {
   if (pipe2(pipe_ends, O_CLOEXEC | O_NONBLOCK) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   struct sigaction action = {};
+  first_signal = 0;
   action.sa_handler = on_interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, &former_interrupt);
   sigaction(SIGTERM, &action, &former_terminate);
 }
