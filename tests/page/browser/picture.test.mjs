@@ -25,12 +25,19 @@ async function drawn(renderer, place, colorScheme) {
   }, renderer);
   await page.goto(`${daemon.url}/${job}?${place}`);
   await page.getByText('succeeded').first().waitFor();
-  await page.waitForTimeout(1000);
+  const pictureOf = () => page.locator('.picture').screenshot();
+  // On a busy machine frames come late: the picture is taken once it has not changed for two seconds.
+  let picture = await pictureOf();
+  for (let same = 0; same < 4; ) {
+    await page.waitForTimeout(500);
+    const next = await pictureOf();
+    same = next.equals(picture) ? same + 1 : 0;
+    picture = next;
+  }
   const kind = await page.evaluate(() => {
     const canvas = document.querySelector('.picture canvas');
     return canvas.getContext('2d') ? '2d' : canvas.getContext('webgl2') ? 'webgl2' : 'none';
   });
-  const picture = await page.locator('.picture').screenshot();
   assert.deepEqual(errors, []);
   await page.close();
   return { kind, picture };
