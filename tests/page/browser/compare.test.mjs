@@ -25,9 +25,7 @@ const rowsOf = (group) => page.locator(`.compare-below tbody:has(th:text-is("${g
 async function compare(ids) {
   await page.goto(`${daemon.url}/compare?jobs=${ids}`);
   await page.getByRole('columnheader', { name: `job ${ids[0]}` }).waitFor();
-  for (let i = 0; i < 300 && (await daemon.call('Jobs/GetJob', { name: jobs[2] })).state !== 'SUCCEEDED'; ++i) {
-    await page.waitForTimeout(100);
-  }
+  await daemon.success(jobs[2]);
   await page.waitForTimeout(500);
 }
 

@@ -57,6 +57,16 @@ export class Daemon {
     return body;
   }
 
+  // Waits until a job has succeeded.
+  async success(name) {
+    for (;;) {
+      const { state } = await this.call('Jobs/GetJob', { name });
+      if (state === 'SUCCEEDED') return;
+      if (state !== 'PENDING' && state !== 'RUNNING') throw new Error(`${name}: ${state}`);
+      await new Promise((resolve) => setTimeout(resolve, 200));
+    }
+  }
+
   async presetCase(name, change = () => {}) {
     const preset = await this.call('Cases/GetPreset', { name });
     change(preset.case);

@@ -10,6 +10,7 @@ const daemon = stage(async (its) => {
   ({ browser } = its);
   const submitted = await daemon.presetCase('hexagon-small', (each) => (each.loading.endStrain = 0.5));
   job = (await daemon.call('Jobs/CreateJob', { case: submitted })).name;
+  await daemon.success(job);  // a page that is opened before shows the newest strain
 }, ['--use-angle=swiftshader', '--enable-unsafe-swiftshader']);
 
 /** A picture of the lattice, and how its walls were drawn: "webgl2" or "2d". */
