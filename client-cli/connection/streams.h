@@ -10,7 +10,8 @@
 namespace cellcrush::client {
 
 /// Catches the first Ctrl-C (SIGINT) or SIGTERM while it lives, so that a watch can end properly. A second one, half a
-/// second later or more, ends the program as usual. At most one may exist at a time. wait_for may be called from any thread.
+/// second later or more, ends the program as usual. At most one may exist at a time. wait_for may be called from any
+/// thread.
 class Interruption {
  public:
   Interruption();
