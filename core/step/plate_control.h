@@ -8,7 +8,7 @@
 namespace cellcrush {
 
 // The speed of the plate in a quasi-static crush (loading.quasi_static; scene/quasi_static.h has the plan). Every
-// control_interval() steps it is set anew from the energies, whatever samples and checkpoints are taken. In between it
+// control_interval() steps it is set from the energies, whatever samples and checkpoints are taken. In between it
 // changes evenly. It starts at a small fraction of the greatest speed and
 //   - rises while the kinetic energy is under a low part of the bound on its share of the work,
 //   - falls while it is above a high part,
