@@ -16,6 +16,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
+/// Least modulus over the yield stress by which the elastic strain of a squashed element is taken, and least such
+/// strain (E5c). L follows from the modulus, and the modulus from L: with less, one would run away from the other.
+inline constexpr double kLeastModulusOfStrain = 20.0;
+inline constexpr double kLeastElasticStrain = -0.5;
+
 /// The constant data of the cross-sections of elements, for the walls of a block from `lane` on (E5c).
 template <class D>
 struct CrossSection {
@@ -38,113 +43,107 @@ struct CrossSection {
         constant_area(of_scene.constant_area),
         in_pairs(of_scene.section.force_based && block.has_pairs()) {}
 
-  /// Area A = V_0 / L, mm^2 (E5c). Plastic flow keeps the volume of a wall that shortens. With constant area, as in the
-  /// paper, a wall under its yield force would shorten without end, one element before the others. A wall that is
-  /// stretched keeps its area: otherwise it would neck, over the length of an element.
-  HWY_INLINE Lane<D> area(Lane<D> inverse_length) const {
-    const Lane<D> area = depth * thickness;
-    return constant_area ? area : area * max(undeformed * inverse_length, Lane<D>(1));
+  /// l_0 / L, at least 1 (E5c): L is the length without elastic strain. A wall that is stretched has L = l_0, and so
+  /// keeps its area: otherwise it would neck, over the length of an element.
+  HWY_INLINE Lane<D> shortening(Lane<D> inverse_length, Lane<D> elastic_strain) const {
+    return max(undeformed * inverse_length * (Lane<D>(1) + elastic_strain), Lane<D>(1));
   }
 
-  /// 1 / L over a step, 1/mm, from 1 / l_m: the strains over L do the work of the forces on V_0 (E5).
-  HWY_INLINE Lane<D> inverse_strained(Lane<D> inverse_mean) const {
-    return constant_area ? inverse_undeformed : max(inverse_mean, inverse_undeformed);
+  /// Elastic strain of squashed elements under the axial stress (E5c). Their modulus is no real one: in compression, at
+  /// the yield stress before hardening, they have the strain of the real modulus.
+  HWY_INLINE Lane<D> elastic_strain(Lane<D> axial, Lane<D> inverse_squashed, Lane<D> inverse_modulus) const {
+    const Lane<D> yield = yield_stress();
+    const Lane<D> most = max(Lane<D>(1.0 / kLeastModulusOfStrain) / yield, inverse_modulus);
+    const Lane<D> of_modulus = min(inverse_squashed, most);
+    return max(fma(axial, of_modulus, yield * (of_modulus - inverse_modulus)), Lane<D>(kLeastElasticStrain));
+  }
+
+  /// Area A = V_0 / L, mm^2 (E5c). Plastic flow keeps the volume of a wall that shortens. With constant area, as in the
+  /// paper, a wall under its yield force would shorten without end, one element before the others.
+  HWY_INLINE Lane<D> area(Lane<D> shortening) const {
+    const Lane<D> area = depth * thickness;
+    return constant_area ? area : area * shortening;
+  }
+
+  /// 1 / L over a step, 1/mm, from that at its start: the strains over L do the work of the forces on V_0 (E5).
+  HWY_INLINE Lane<D> inverse_strained(Lane<D> shortening) const {
+    return constant_area ? inverse_undeformed : shortening * inverse_undeformed;
   }
 
   /// V_0, mm^3, over which the stress does work.
   HWY_INLINE Lane<D> volume() const { return depth * thickness * undeformed; }
 
-  /// Lanes whose elements are squashed: shortened so far that their modulus is reduced and their thickness grows.
-  HWY_INLINE LaneMask<D> is_squashed(Lane<D> length) const { return length < Lane<D>(kSquashedStretch) * undeformed; }
+  /// Lanes whose elements are squashed: shortened so far that their modulus is reduced and their thickness may grow.
+  HWY_INLINE LaneMask<D> is_squashed(Lane<D> shortening) const { return shortening > Lane<D>(1.0 / kSquashedStretch); }
 
   /// Whether any lanes have elements that grow thicker: in plane strain first.
-  HWY_INLINE bool grows(Lane<D> length) const {
-    constexpr double kFirst = 1.0 / (1.0 + kGrowthLeftOut);
-    return !constant_area && any(length < Lane<D>(kFirst) * undeformed);
+  HWY_INLINE bool grows(Lane<D> shortening) const {
+    return !constant_area && any(shortening > Lane<D>(1.0 + kGrowthLeftOut));
   }
 
-  /// What half of the thickness has grown by, mm (E5f).
-  HWY_INLINE Lane<D> thickening(Lane<D> length) const {
-    if (!grows(length)) {
+  /// What half of the thickness has grown by, mm (E5f): in bending with l_0 / L, in contact with l_0 / l.
+  HWY_INLINE Lane<D> thickening(Lane<D> shortening) const {
+    if (!grows(shortening)) {
       return 0;
     }
-    const Lane<D> shortening = undeformed / length;
     const Lane<D> growth = select(is_in_plane_strain(), shortening, sqrt(shortening)) - Lane<D>(1.0 + kGrowthLeftOut);
     return Lane<D>(0.5) * thickness * min(max(growth, Lane<D>(0)), Lane<D>(kMostThickening - 1.0));
   }
 
   /// Derivative of the thickening by the length.
-  HWY_INLINE Lane<D> slope_of_thickening(Lane<D> length, Lane<D> thickening) const {
+  HWY_INLINE Lane<D> slope_of_thickening(Lane<D> shortening, Lane<D> thickening) const {
     const Lane<D> half = Lane<D>(0.5) * thickness;
     const Lane<D> power = select(is_in_plane_strain(), Lane<D>(1), Lane<D>(0.5));
     const Lane<D> whole = fma(half, Lane<D>(1.0 + kGrowthLeftOut), thickening);
     const LaneMask<D> grows = (thickening > Lane<D>(0)) & (thickening < half * Lane<D>(kMostThickening - 1.0));
-    return masked(grows, -power * whole / length);
+    return masked(grows, -power * whole * shortening * inverse_undeformed);
   }
 
-  /// E_l / E (E5c): with this fraction of its modulus, an element or pair of length l vibrates no faster than at
-  /// kSquashedStretch. A / L grows as 1 / l^2 at constant volume; the turn of a node is stiffer by the square of the
+  /// E_l / E (E5c): with this fraction of its modulus, an element or pair of length L vibrates no faster than at
+  /// kSquashedStretch. A / L grows as 1 / L^2 at constant volume; the turn of a node is stiffer by the square of the
   /// thickness. Bending adds the factor P, with the gamma of the rotary inertia, which stays. Such elements yield:
   /// their force is that of the yield stress, and their stored energy is a small part of their plastic work.
-  HWY_INLINE Lane<D> modulus_share(Lane<D> length, Lane<D> inverse_length, Lane<D> thickening) const {
-    const Lane<D> one = 1;
-    const Lane<D> ratio = length * inverse_of_bound();
-    Lane<D> share = (constant_area ? one : ratio * ratio) * bending_at_bound() / bending_of(inverse_length).factor;
-    if (grows(length)) {
-      const Lane<D> over_growth = thickness / (thickness + thickening + thickening);
-      share = share * over_growth * over_growth;
-    }
-    return select(is_squashed(length), share, one);
+  HWY_INLINE Lane<D> modulus_share(Lane<D> shortening, Lane<D> thickening) const {
+    return select(is_squashed(shortening), stiffness_at_bound() / stiffness(shortening, thickening), Lane<D>(1));
   }
 
-  /// -1/2 L (dE_l/dl) / E_l^2, 1/MPa (E5g); 0 of elements that are not squashed. With the factor P, its slope P' =
-  /// -dP/dl l / 2 and the growth g = h / h_0 it is -L g^2 (0.95 l_0 / l)^2 [(P + P') / l - P g' / g] over E and the
-  /// factor at 0.95 l_0.
-  HWY_INLINE Lane<D> fall_of_modulus(Lane<D> length, Lane<D> inverse_length, Lane<D> thickening,
-                                     Lane<D> slope_of_thickening) const {
-    const Lane<D> one = 1;
-    const Bending bending = bending_of(inverse_length);
-    Lane<D> fall = (constant_area ? bending.slope : bending.factor + bending.slope) * inverse_length;
-    if (grows(length)) {
-      const Lane<D> inverse_half = Lane<D>(2) / thickness;
-      const Lane<D> growth = fma(thickening, inverse_half, one);
-      fall = growth * fms(growth, fall, bending.factor * slope_of_thickening * inverse_half);
-    }
-    const Lane<D> over_ratio = constant_area ? one : Lane<D>(kSquashedStretch) * undeformed * inverse_length;
-    const Lane<D> strained = constant_area ? undeformed : length;
-    return masked(is_squashed(length), -(strained * over_ratio * over_ratio * fall) / (modulus() * bending_at_bound()));
+  /// Square of the greatest frequency of elements with the modulus E, but for a factor of the element; and that at
+  /// kSquashedStretch.
+  HWY_INLINE Lane<D> stiffness(Lane<D> shortening, Lane<D> thickening) const {
+    const Lane<D> stiffer = constant_area ? thickness : shortening * (thickness + thickening + thickening);
+    return bending_of(shortening) * (stiffer * stiffer);
   }
+  HWY_INLINE Lane<D> stiffness_at_bound() const { return stiffness(Lane<D>(1.0 / kSquashedStretch), Lane<D>(0)); }
 
   /// E of the walls, MPa.
-  HWY_INLINE Lane<D> modulus() const {
-    double moduli[Lane<D>::kWidth];
-    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
-      moduli[lane] = material_of(lane).youngs_modulus;
-    }
-    return Lane<D>::load(moduli);
-  }
+  HWY_INLINE Lane<D> modulus() const { return of_materials<&Material::youngs_modulus>(); }
 
  private:
-  /// By what bending multiplies the square of the greatest frequency, with s = q h_0^2 / l^2: 1 + s / 3 for an element
-  /// (E11b), (1 + s + sqrt(1 + s + s^2)) / 2 for a pair (E11c).
-  struct Bending {
-    Lane<D> factor;  ///< P
-    Lane<D> slope;   ///< s dP/ds = -dP/dl l / 2
-  };
-  HWY_INLINE Bending bending_of(Lane<D> inverse_length) const {
+  /// P, by which bending multiplies the square of the greatest frequency, with s = q h_0^2 / L^2: 1 + s / 3 for an
+  /// element (E11b), (1 + s + sqrt(1 + s + s^2)) / 2 for a pair (E11c).
+  HWY_INLINE Lane<D> bending_of(Lane<D> shortening) const {
     const Lane<D> one = 1;
-    const Lane<D> half = 0.5;
-    const Lane<D> slenderness = thickness * inverse_length;
+    const Lane<D> slenderness = thickness * shortening * inverse_undeformed;
     const Lane<D> s = Lane<D>(scene.mass_scaling.rotary) * slenderness * slenderness;
     if (!in_pairs) {
-      const Lane<D> third = s * Lane<D>(1.0 / 3.0);
-      return {one + third, third};
+      return fma(s, 1.0 / 3.0, one);
     }
-    const Lane<D> root = sqrt(fma(s, s, one + s));
-    return {half * (one + s + root), half * s * fma(half, (one + s + s) / root, one)};
+    return Lane<D>(0.5) * (one + s + sqrt(fma(s, s, one + s)));
   }
-  HWY_INLINE Lane<D> inverse_of_bound() const { return Lane<D>(1.0 / kSquashedStretch) * inverse_undeformed; }
-  HWY_INLINE Lane<D> bending_at_bound() const { return bending_of(inverse_of_bound()).factor; }
+
+  HWY_INLINE Lane<D> yield_stress() const { return of_materials<&Material::yield_stress>(); }
+
+  template <double Material::*kValue>
+  HWY_INLINE Lane<D> of_materials() const {
+    if (scene.materials.size() == 1) {
+      return scene.materials.front().*kValue;
+    }
+    double values[Lane<D>::kWidth];
+    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
+      values[lane] = material_of(lane).*kValue;
+    }
+    return Lane<D>::load(values);
+  }
 
   HWY_INLINE const Material& material_of(std::size_t lane) const {
     return scene.materials[scene.materials.size() == 1 ? 0 : scene.walls.material[wall + static_cast<int>(lane)]];
@@ -159,16 +158,14 @@ struct CrossSection {
   }
 };
 
-/// Thickness of squashed elements in the arrays of the state (E5f), and what follows from it.
+/// Thickness that squashed elements have in contact, in the arrays of the state (E5f).
 template <class D>
 class GrownWalls {
   using Real = Lane<D>;
 
  public:
   explicit GrownWalls(State& state)
-      : length_(state.length.data()),
-        inverse_length_(state.inverse_length.data()),
-        thickening_(state.thickening.data()),
+      : thickening_(state.thickening.data()),
         slope_(state.thickening_slope.data()),
         radius_growth_(state.radius_growth.data()) {}
 
@@ -176,54 +173,23 @@ class GrownWalls {
   [[nodiscard]] HWY_INLINE double step() const { return greatest_of_lanes(step_); }
 
   /// What half of the thickness has grown by, mm.
-  struct Growth {
-    Real before;
-    Real now;
-  };
+  [[nodiscard]] HWY_INLINE Real thickening(std::ptrdiff_t element) const { return Real::load(thickening_ + element); }
 
-  /// Updates the thickness of elements that now have this length. REQUIRES: section.grows() now or before.
-  HWY_INLINE Growth grow(const CrossSection<D>& section, std::ptrdiff_t element, Real length) {
-    const Real before = Real::load(thickening_ + element);
-    const Real now = section.thickening(length);
+  /// Updates the thickness of elements of the length l_0 / `compression`. REQUIRES: not at constant area.
+  HWY_INLINE void grow(const CrossSection<D>& section, std::ptrdiff_t element, Real compression) {
+    const Real before = thickening(element);
+    const Real now = section.thickening(compression);
     now.store(thickening_ + element);
-    section.slope_of_thickening(length, now).store(slope_ + element);
+    section.slope_of_thickening(compression, now).store(slope_ + element);
     step_ = max(step_, now - before);
-    return {before, now};
   }
 
   /// Updates the radius of balls between two elements.
   HWY_INLINE void grow_balls(std::ptrdiff_t particle, std::ptrdiff_t element, std::ptrdiff_t next) const {
-    (Real(0.5) * (Real::load(thickening_ + element) + Real::load(thickening_ + next))).store(radius_growth_ + particle);
-  }
-
-  /// Area of elements times their thickness over that before loading, mm^2.
-  HWY_INLINE Real moment_area(const CrossSection<D>& section, std::ptrdiff_t element) const {
-    const Real area = section.area(Real::load(inverse_length_ + element));
-    if (section.constant_area) {
-      return area;
-    }
-    const Real thickening = Real::load(thickening_ + element);
-    return area * (Real(1) + (thickening + thickening) / section.thickness);
-  }
-
-  /// What the axial stress is more where the modulus falls with the length (E5g), MPa: dU/dl over A, with the stored
-  /// energy U of n = `axial` and of the moments over A h, `left` and `right`. U at given stresses goes as 1 / E_l.
-  HWY_INLINE Real stress_of_modulus(const CrossSection<D>& section, std::ptrdiff_t element, Real axial, Real left,
-                                    Real right) const {
-    const Real length = Real::load(length_ + element);
-    if (none(section.is_squashed(length))) {
-      return 0;
-    }
-    const Real thickening = section.constant_area ? Real(0) : Real::load(thickening_ + element);
-    const Real slope = section.constant_area ? Real(0) : Real::load(slope_ + element);
-    const Real bending = fma(left, left, fma(left, right, right * right));  // 4 of it are those of m over A gamma
-    return fma(axial, axial, Real(4) * bending) *
-           section.fall_of_modulus(length, Real::load(inverse_length_ + element), thickening, slope);
+    (Real(0.5) * (thickening(element) + thickening(next))).store(radius_growth_ + particle);
   }
 
  private:
-  const double* const length_;
-  const double* const inverse_length_;
   double* const thickening_;  // null at constant area, like those below
   double* const slope_;
   double* const radius_growth_;

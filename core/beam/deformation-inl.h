@@ -55,15 +55,13 @@ struct Deformation {
   Lane<D> rotation_end;    ///< theta_2, rad
   Lane<D> length;          ///< l, mm
   Lane<D> inverse_length;  ///< 1/mm
-  Lane<D> inverse_mean;    ///< 1 / l_m = 2 / (l + l_a), 1/mm (E5)
   Points<D> axis;          ///< e, unit vector from the start node to the end node (e_t of the paper)
 };
 
-/// l, 1 / l and 1 / l_m = 2 / (l + l_a) from l squared. Where the lengths differ little, series from the inverse of the
-/// previous length give all digits and avoid the divisions, which are slow. Otherwise they are divided.
+/// l and 1 / l from l squared. Where the length differs little from the previous one, a series from its inverse gives
+/// all digits and avoids the division, which is slow. Otherwise it is divided.
 template <class D>
-HWY_INLINE void invert_lengths(Lane<D> square, Lane<D> previous_length, Lane<D> previous_inverse,
-                               Deformation<D>& deformation) {
+HWY_INLINE void invert_length(Lane<D> square, Lane<D> previous_inverse, Deformation<D>& deformation) {
   constexpr double kSmallMiss = 2e-3;  // the first omitted terms are below 1e-17
   const Lane<D> one = 1;
   const Lane<D> half = 0.5;
@@ -73,16 +71,11 @@ HWY_INLINE void invert_lengths(Lane<D> square, Lane<D> previous_length, Lane<D> 
   const Lane<D> left = fnma(square, near * near, one);
   deformation.inverse_length = fma(near * half, left, near);
   deformation.length = square * deformation.inverse_length;
-  const Lane<D> mean = half * (deformation.length + previous_length);
-  const Lane<D> guess = half * (deformation.inverse_length + previous_inverse);
-  const Lane<D> rest = fnma(mean, guess, one);
-  deformation.inverse_mean = fma(guess * rest, one + rest, guess);
   const LaneMask<D> is_small = abs(miss) < kSmallMiss;
   if (HWY_UNLIKELY(!all(is_small))) {
     const Lane<D> length = sqrt(square);
     deformation.length = select(is_small, deformation.length, length);
     deformation.inverse_length = select(is_small, deformation.inverse_length, one / length);
-    deformation.inverse_mean = select(is_small, deformation.inverse_mean, Lane<D>(2) / (length + previous_length));
   }
 }
 
@@ -93,7 +86,7 @@ template <class D>
 HWY_INLINE Deformation<D> reverse_motion(const Points<D>& span, const Points<D>& previous_axis, Lane<D> previous_length,
                                          Lane<D> previous_inverse, Lane<D> turn_start, Lane<D> turn_end) {
   Deformation<D> deformation;
-  invert_lengths(dot(span, span), previous_length, previous_inverse, deformation);
+  invert_length(dot(span, span), previous_inverse, deformation);
   deformation.axis = deformation.inverse_length * span;
   const Lane<D> rigid_turn = turn_between(previous_axis, deformation.axis);
   deformation.stretch = deformation.length - previous_length;

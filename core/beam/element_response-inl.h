@@ -22,9 +22,9 @@ namespace cellcrush::HWY_NAMESPACE {
 /// Strain increments of an element over a step (E5).
 template <class D>
 struct ElementStrains {
-  Lane<D> membrane;    ///< Delta / l_m
-  Lane<D> bend_start;  ///< h theta_1 / l_m
-  Lane<D> bend_end;    ///< h theta_2 / l_m
+  Lane<D> membrane;    ///< Delta / L
+  Lane<D> bend_start;  ///< h theta_1 / L
+  Lane<D> bend_end;    ///< h theta_2 / L
 };
 
 /// Sums over the fibres of an element (Eq. 28, E7), before they are multiplied by area and thickness. MPa.
@@ -71,14 +71,17 @@ struct ElementMemory {
   T* moment;  ///< m of the sections, `fibres.stride` apart
   /// Fibres that yielded in the last step, with a mark if any had in the step before.
   typename FibreHistory<T>::Bits* yielding;
+  T* end_force;  ///< kEndForces of them, `fibres.stride` apart
+  T* owed;
 };
 
 /// A step of a force-based unit (E5b, E5d): Neuenhofer and Filippou's state determination without iteration (1997),
 /// with an elastic look-ahead. The forces of the unit follow from the strains and the flexibilities of the sections;
 /// they give the strains of the sections; every fibre is mapped back once; and the forces are corrected, to first
-/// order, for what the sections are then out of balance. Nothing else is carried into the next step: its strains are
-/// found from the forces that the sections bear. While no fibre has yielded in the last two steps, the sections are in
-/// balance, and only changes are computed: otherwise the rounding of sums would add up over the steps.
+/// order, for what the sections are then out of balance. The strains of the next step are found from the forces that
+/// the sections bear. While no fibre has yielded in the last two steps, the sections are in balance, and only changes
+/// are computed: otherwise the rounding of sums would add up over the steps. While one has, the forces are corrected
+/// once more, so that their work is that of the sections (E5h).
 template <class Law, int kElements, class Rule, class D>
 class UnitResponse {
   using T = hn::TFromD<D>;
@@ -121,13 +124,23 @@ class UnitResponse {
       }
       forces = select(unsettled, whole, forces);
     }
-    map_back(forces, unsettled, sums);
-    put(corrected(), soft, sums);
+    const Lane<D> gained = map_back(forces, unsettled, sums);
+    UnitForces<kElements, D> ends = corrected();
+    const LaneMask<D> disturbed = soft | bits().lanes();
+    if (any(disturbed)) {
+      make_work_exact(disturbed, unsettled, forces, gained, ends);
+    }
+    keep_end_forces(ends);
+    put(ends, soft, sums);
   }
 
  private:
   /// gamma / h.
   static constexpr double kGyrationOfThickness = 0.5 / std::numbers::sqrt3;
+  /// Bounds of E5h: the greatest correction over the elastic change of the step, and the least work of that change,
+  /// over the square of the yield stress.
+  static constexpr double kMostCorrection = 0.3;
+  static constexpr double kLeastWork = 1e-9;
 
   [[nodiscard]] HWY_INLINE FibreLaw<Law, D> law_of(int e) const { return {*material_[e], step_}; }
 
@@ -164,31 +177,41 @@ class UnitResponse {
     });
   }
 
-  /// Strains of section i of element e. The forces of unsettled lanes are whole, those of the others are changes.
-  [[nodiscard]] HWY_INLINE SectionForce<D> strains_of(const UnitForces<kElements, D>& forces, LaneMask<D> unsettled,
-                                                      int e, int i) const {
+  /// By how much section i of element e is to bear more. The forces of unsettled lanes are whole, those of the others
+  /// are changes.
+  [[nodiscard]] HWY_INLINE SectionForce<D> change_of(const UnitForces<kElements, D>& forces, LaneMask<D> unsettled,
+                                                     int e, int i) const {
     const SectionForce<D> borne = sections_.force[e][i];
-    const SectionForce<D> more = sections_.under(forces, e, i) -
-                                 SectionForce<D>{masked(unsettled, borne.axial), masked(unsettled, borne.moment)};
-    return sections_.is_soft(e, i) ? sections_.flexibility[e][i].strains_of(more) : more;
+    return sections_.under(forces, e, i) -
+           SectionForce<D>{masked(unsettled, borne.axial), masked(unsettled, borne.moment)};
   }
 
-  HWY_INLINE void map_back(const UnitForces<kElements, D>& forces, LaneMask<D> unsettled,
-                           ElementSums<D> (&sums)[kElements]) {
+  /// Returns twice the work of the sections, less that of what they were to bear: over V_0 and times E.
+  HWY_INLINE Lane<D> map_back(const UnitForces<kElements, D>& forces, LaneMask<D> unsettled,
+                              ElementSums<D> (&sums)[kElements]) {
+    Lane<D> gained = 0;
     for (int e = 0; e < kElements; ++e) {
       const FibreLaw<Law, D> law = law_of(e);
       FibreBits<D> yields;  // not the member: a store of a stress may alias it
+      Lane<D> of_element = 0;
       sums[e].plastic_work = 0;
       for (int i = 0; i < rule_.sections(); ++i) {
-        const SectionForce<D> strains = strains_of(forces, unsettled, e, i);
+        const SectionForce<D> change = change_of(forces, unsettled, e, i);
+        const SectionForce<D> strains =
+            sections_.is_soft(e, i) ? sections_.flexibility[e][i].strains_of(change) : change;
         const SectionSums<D> now = return_map_section(law, rule_, rule_.arm, rule_.arm_weight, strains.axial,
                                                       strains.moment, memory_[e].fibres, first_fibre(i), yields);
+        const SectionForce<D> more = SectionForce<D>{now.axial, now.moment} - sections_.force[e][i] - change - change;
         sections_.force[e][i] = {now.axial, now.moment};
-        sums[e].plastic_work = fma(Lane<D>(rule_.along_weight[i]), now.plastic_work, sums[e].plastic_work);
+        const Lane<D> weight = rule_.along_weight[i];
+        of_element = fma(weight, fma(more.axial, strains.axial, more.moment * strains.moment), of_element);
+        sums[e].plastic_work = fma(weight, now.plastic_work, sums[e].plastic_work);
       }
       yielding_[e] = yields;
       keep_yields<Law>(yields, memory_[e].fibres);
+      gained = fma(sections_.compression[e], of_element, gained);
     }
+    return gained;
   }
 
   /// Forces that the sections can bear together, with no strain.
@@ -203,6 +226,58 @@ class UnitResponse {
       sections_.flexibility[e][i] = flexibility_of(rule_, law_of(e), [&](int j) HWY_ATTR { return yielding.has(j); });
     });
     return select(yields, sections_.solve(none), forces);
+  }
+
+  /// Corrects the end forces of the lanes along those of an elastic step, by half of what their work and that of the
+  /// sections are apart: a force works in two steps. The rest is owed to the next step (E5h). Both works are taken less
+  /// that of the forces that the sections were to bear, `wanted` (of settled lanes changes): the difference of the
+  /// whole works would be that of rounding in slow motions. `gained`: of map_back.
+  HWY_INLINE void make_work_exact(LaneMask<D> lanes, LaneMask<D> unsettled, const UnitForces<kElements, D>& wanted,
+                                  Lane<D> gained, UnitForces<kElements, D>& ends) {
+    const Lane<D> owed = Lane<D>::load(memory_[0].owed);
+    const UnitForces<kElements, D> elastic = sections_.elastic_change(strains_);
+    const UnitForces<kElements, D> before = end_forces_before();
+    const auto less = [&](Lane<D> want, Lane<D> old, Lane<D> now) HWY_ATTR {
+      const Lane<D> whole = select(unsettled, want, old + want);
+      return (whole - old) + (whole - now);
+    };
+    Lane<D> missing = gained + owed;
+    Lane<D> whole = elastic.shared * strains_.shared;
+    missing = fma(less(wanted.shared, before.shared, ends.shared), strains_.shared, missing);
+    for (int e = 0; e < kElements; ++e) {
+      const Lane<D> axial = sections_.compression[e] * strains_.axial[e];
+      const Lane<D> outer = sections_.compression[e] * strains_.outer[e];
+      missing = fma(less(wanted.axial[e], before.axial[e], ends.axial[e]), axial, missing);
+      missing = fma(less(wanted.outer[e], before.outer[e], ends.outer[e]), outer, missing);
+      whole = fma(elastic.axial[e], axial, fma(elastic.outer[e], outer, whole));
+    }
+    const Lane<D> yield = material_[0]->yield_stress;
+    const Lane<D> least = Lane<D>(T(kLeastWork)) * yield * yield;
+    const Lane<D> most = T(kMostCorrection);
+    const Lane<D> share = masked(lanes, max(min(T(0.5) * missing / max(whole, least), most), -most));
+    select(lanes, fnma(share, whole, missing), owed).store(memory_[0].owed);
+    for (int e = 0; e < kElements; ++e) {
+      ends.axial[e] = fma(share, elastic.axial[e], ends.axial[e]);
+      ends.outer[e] = fma(share, elastic.outer[e], ends.outer[e]);
+    }
+    ends.shared = fma(share, elastic.shared, ends.shared);
+  }
+
+  [[nodiscard]] HWY_INLINE UnitForces<kElements, D> end_forces_before() const {
+    UnitForces<kElements, D> forces;
+    for (int e = 0; e < kElements; ++e) {
+      forces.axial[e] = Lane<D>::load(memory_[e].end_force);
+      forces.outer[e] = Lane<D>::load(memory_[e].end_force + memory_[e].fibres.stride);
+    }
+    forces.shared = Lane<D>::load(memory_[0].end_force + 2 * memory_[0].fibres.stride);
+    return forces;
+  }
+  HWY_INLINE void keep_end_forces(const UnitForces<kElements, D>& forces) const {
+    for (int e = 0; e < kElements; ++e) {
+      forces.axial[e].store(memory_[e].end_force);
+      forces.outer[e].store(memory_[e].end_force + memory_[e].fibres.stride);
+    }
+    forces.shared.store(memory_[0].end_force + 2 * memory_[0].fibres.stride);
   }
 
   /// `soft`: lanes in which fibres had yielded before the step; they may be out of balance, and are marked.
@@ -236,7 +311,7 @@ class UnitResponse {
 template <class T>
 struct RowStrains {
   T* membrane;
-  T* bend_start;  ///< h theta_1 / l_m
+  T* bend_start;  ///< h theta_1 / L
   T* bend_end;
   T* modulus_share;
 };

@@ -17,7 +17,7 @@ namespace cellcrush::HWY_NAMESPACE {
 
 /// What is added to the tangent modulus of a fibre that yields, over the elastic one (E5d). A perfectly plastic fibre
 /// has none, and a section of such fibres would be infinitely flexible.
-inline constexpr double kAddedTangent = 0.01;
+inline constexpr double kAddedTangent = 0.02;
 
 /// Stresses of a section over its area, MPa (E5b): n = N / A and m = M / (A gamma), with the radius of gyration gamma.
 /// The same numbers are elastic strains times E: n = E e, m = E gamma kappa.

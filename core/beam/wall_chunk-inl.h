@@ -48,8 +48,8 @@ struct NodalForces {
 /// operations. Motion and forces are in double precision (lanes D), fibres in single or double precision (lanes F).
 ///
 /// Deviations from the paper:
-///  - strains are taken over the mean length of the step, where Eq. 24-26 have l_a (E5). Stretching and returning then
-///    leaves no strain, and the work of the forces equals that of the stresses;
+///  - strains are taken over the length without elastic strain, where Eq. 24-26 have l_a (E5, E5c). A closed loop of
+///    elastic motions then leaves no stress, and the work of the forces equals that of the stresses;
 ///  - the shear force of Eq. 31 has the current length, as conservation of angular momentum requires (E7);
 ///  - the forward rotation of Eq. 32 is the current axis itself, so no rotation matrix is needed (E7).
 template <bool kForceBased, class Law, class Rule, class D, class F>
@@ -73,12 +73,14 @@ class WallChunk {
         axis_(state.axis.data()),
         length_(state.length.data()),
         inverse_length_(state.inverse_length.data()),
+        shortening_(state.shortening.data()),
         grown_(state),
         wall_force_(state.wall_force.data()),
         wall_moment_(state.wall_moment.data()),
         internal_force_(state.internal_force.data()),
         internal_moment_(state.internal_moment.data()),
         stress_(memory.stress.data()),
+        inverse_modulus_(1.0 / scene.materials.front().youngs_modulus),
         prefetches_(memory.stress.size() * sizeof(T) > last_cache_bytes() / kCacheShareOfFibres),
         uniform_(scene.materials.front()) {}
 
@@ -153,11 +155,13 @@ class WallChunk {
       deformation.length.store(length_ + e);
       deformation.inverse_length.store(inverse_length_ + e);
       const RowStrains<T> strains = scratch_.strains(row, lane, walls_of(block));
+      const Real shortening = Real::load(shortening_ + e);
       Real thickness = section.thickness;
-      if (HWY_UNLIKELY(any(section.is_squashed(min(deformation.length, previous_length))))) {
-        thickness += squash(section, e, deformation, previous_length, strains.modulus_share, grows);
+      const Real compression = section.undeformed * deformation.inverse_length;
+      if (HWY_UNLIKELY(any(section.is_squashed(max(shortening, compression))))) {
+        thickness += squash(section, e, shortening, compression, strains.modulus_share, grows);
       }
-      const Real inverse_strained = section.inverse_strained(deformation.inverse_mean);
+      const Real inverse_strained = section.inverse_strained(shortening);
       const Real slenderness = thickness * inverse_strained;
       (deformation.stretch * inverse_strained).store(strains.membrane);
       if (has_pairs(block) && !is_paired_on) {
@@ -179,20 +183,17 @@ class WallChunk {
     }
   }
 
-  /// Updates the thickness (E5f) and the modulus (E5c) of squashed elements, and of those that no longer are. Returns
-  /// what the mean thickness of the step is above that before loading.
-  HWY_INLINE Real squash(const CrossSection<D>& section, std::ptrdiff_t element, const Deformation<D>& deformation,
-                         Real previous_length, T* modulus_share, bool& grows) {
-    const Real length = deformation.length;
-    typename GrownWalls<D>::Growth growth = {0, 0};
-    if (section.grows(min(length, previous_length))) {
-      growth = grown_.grow(section, element, length);
+  /// Updates the thickness in contact (E5f) and the modulus (E5c) of squashed elements. Returns what the thickness in
+  /// bending is above that before loading.
+  HWY_INLINE Real squash(const CrossSection<D>& section, std::ptrdiff_t element, Real shortening, Real compression,
+                         T* modulus_share, bool& grows) {
+    if (!section.constant_area && (section.grows(compression) || any(grown_.thickening(element) > Real(0)))) {
+      grown_.grow(section, element, compression);
       grows = true;
     }
-    if (any(section.is_squashed(length))) {
-      note_modulus(section.modulus_share(length, deformation.inverse_length, growth.now), modulus_share);
-    }
-    return growth.before + growth.now;
+    const Real thickening = section.thickening(shortening);
+    note_modulus(section.modulus_share(shortening, thickening), modulus_share);
+    return thickening + thickening;
   }
 
   HWY_INLINE void grow_balls(const WallBlock& block, int lane) const {
@@ -226,8 +227,12 @@ class WallChunk {
 
   HWY_INLINE ElementMemory<T> memory_of(std::ptrdiff_t row, int lane, int stride) const {
     const std::ptrdiff_t first = row * rule_.sections() + lane;
-    return {fibres_of(row, lane, stride), &memory_.section_axial[first], &memory_.section_moment[first],
-            &memory_.yielding[row + lane]};
+    return {fibres_of(row, lane, stride),
+            &memory_.section_axial[first],
+            &memory_.section_moment[first],
+            &memory_.yielding[row + lane],
+            &memory_.end_force[row * kEndForces + lane],
+            &memory_.owed[row + lane]};
   }
 
   /// Prefetches the stresses of the lanes kRowsAhead rows ahead.
@@ -299,33 +304,37 @@ class WallChunk {
     element.plastic_work.store(sums.plastic_work);
   }
 
+  /// Areas of elements: A, and A times the thickness over that before loading, mm^2.
+  struct Areas {
+    Real axial;
+    Real moment;
+  };
+
   /// From the sums over the stresses to the forces on the particles (E7). At the common node of a pair the section has
   /// the mean of both.
   HWY_INLINE void put_forces(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
     const CrossSection<D> section(scene_, block, lane);
+    const Real inverse_modulus = scene_.materials.size() == 1 ? inverse_modulus_ : Real(1) / section.modulus();
     const std::size_t ends = 2 * static_cast<std::size_t>(block.first_wall) + lane;
     NodalForces<D> before = {{0, 0}, 0, 0};
     Real work = Real::load(plastic_work);
-    Real start_area = moment_area(section, row_of(block, 0) + lane);
     const int walls = walls_of(block);
+    const auto shorten_row = [&](int j) HWY_ATTR {
+      const std::ptrdiff_t row = row_of(block, j);
+      return shorten(section, row, lane, walls, inverse_modulus, work);
+    };
+    Areas own = shorten_row(0);
+    Real start_area = own.moment;
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
       const RowSums<T> sums = scratch_.sums(row, lane, walls);
-      const Real inverse_length = Real::load(inverse_length_ + row + lane);
-      const Real area = section.area(inverse_length);
       const bool is_paired_on = has_pairs(block) && j % 2 == 0;
-      const Real own_area = moment_area(section, row + lane);
-      const Real next_area = j + 1 < block.elements ? moment_area(section, row + walls + lane) : own_area;
-      const Real end_area = is_paired_on ? Real(0.5) * (own_area + next_area) : own_area;
-      Real axial = Real::load(sums.axial);
-      if (is_squashed_) {
-        axial += grown_.stress_of_modulus(section, row + lane, axial, Real::load(sums.moment_start),
-                                          -Real::load(sums.moment_end));
-      }
-      const NodalForces<D> forces =
-          nodal_forces({area * axial, section.thickness * start_area * Real::load(sums.moment_start),
-                        section.thickness * end_area * Real::load(sums.moment_end)},
-                       inverse_length, Points<D>::load(axis_ + row + lane));
+      const Areas next = j + 1 < block.elements ? shorten_row(j + 1) : own;
+      const Real end_area = is_paired_on ? Real(0.5) * (own.moment + next.moment) : own.moment;
+      const NodalForces<D> forces = nodal_forces(
+          {own.axial * Real::load(sums.axial), section.thickness * start_area * Real::load(sums.moment_start),
+           section.thickness * end_area * Real::load(sums.moment_end)},
+          Real::load(inverse_length_ + row + lane), Points<D>::load(axis_ + row + lane));
       work = fma(section.volume(), Real::load(sums.plastic_work), work);
       if (j == 0) {
         put_on_joints(ends, forces.force_on_end, -forces.moment_on_start);
@@ -335,14 +344,52 @@ class WallChunk {
         (-(before.moment_on_end + forces.moment_on_start)).store(internal_moment_ + particle);
       }
       before = forces;
-      start_area = is_paired_on ? end_area : next_area;
+      start_area = is_paired_on ? end_area : next.moment;
+      own = next;
     }
     put_on_joints(ends + walls, -before.force_on_end, -before.moment_on_end);
     work.store(plastic_work);
   }
 
-  HWY_INLINE Real moment_area(const CrossSection<D>& section, std::ptrdiff_t element) const {
-    return is_squashed_ ? grown_.moment_area(section, element) : section.area(Real::load(inverse_length_ + element));
+  /// Updates L of the elements of a row (E5c) and returns the areas that follow. Takes from `work` what the elements
+  /// store as their modulus falls (E5g).
+  HWY_INLINE Areas shorten(const CrossSection<D>& section, std::ptrdiff_t row, int lane, int walls,
+                           Real inverse_modulus, Real& work) const {
+    const std::ptrdiff_t element = row + lane;
+    const Real before = Real::load(shortening_ + element);
+    const Real elastic = Real::load(scratch_.sums(row, lane, walls).axial) * inverse_modulus;
+    const Real now = section.shortening(Real::load(inverse_length_ + element), elastic);
+    if (HWY_UNLIKELY(any(section.is_squashed(max(before, now))))) {
+      return shorten_squashed(section, row, lane, walls, inverse_modulus, work);
+    }
+    now.store(shortening_ + element);
+    const Real area = section.area(now);
+    return {area, area};
+  }
+
+  /// The same where any are squashed, before the step or after it.
+  HWY_NOINLINE Areas shorten_squashed(const CrossSection<D>& section, std::ptrdiff_t row, int lane, int walls,
+                                      Real inverse_modulus, Real& work) const {
+    const std::ptrdiff_t element = row + lane;
+    const RowSums<T> sums = scratch_.sums(row, lane, walls);
+    const Real axial = Real::load(sums.axial);
+    const Real before = Real::load(shortening_ + element);
+    const LaneMask<D> was_squashed = section.is_squashed(before);
+    const Real thickening = section.thickening(before);
+    const Real of_stiffness = inverse_modulus / section.stiffness_at_bound();
+    const Real inverse = select(was_squashed, of_stiffness * section.stiffness(before, thickening), inverse_modulus);
+    const Real elastic =
+        select(was_squashed, section.elastic_strain(axial, inverse, inverse_modulus), axial * inverse_modulus);
+    const Real now = section.shortening(Real::load(inverse_length_ + element), elastic);
+    now.store(shortening_ + element);
+    const Real left = Real::load(sums.moment_start);  // over A h: their squares are a twelfth of those over A gamma
+    const Real right = -Real::load(sums.moment_end);
+    const Real squares = fma(Real(4), fma(left, left, fma(left, right, right * right)), axial * axial);
+    const Real inverse_now = select(section.is_squashed(now),
+                                    of_stiffness * section.stiffness(now, section.thickening(now)), inverse_modulus);
+    work = fnma(Real(0.5) * section.volume() * (inverse_now - inverse), squares, work);
+    const Real area = section.area(now);
+    return {area, area * (Real(1) + (thickening + thickening) / section.thickness)};
   }
 
   /// Forces of an element from its axial force and end moments (Eq. 31, 32, E7).
@@ -371,6 +418,7 @@ class WallChunk {
   Vector2* const axis_;
   double* const length_;
   double* const inverse_length_;
+  double* const shortening_;
   GrownWalls<D> grown_;
   Vector2* const wall_force_;
   double* const wall_moment_;
@@ -378,6 +426,7 @@ class WallChunk {
   double* const internal_moment_;
   T* const stress_;
 
+  const Real inverse_modulus_;  // of one material
   const bool prefetches_;
   const LaneMaterial<F> uniform_;
   bool is_squashed_ = false;

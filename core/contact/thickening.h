@@ -11,11 +11,12 @@ namespace cellcrush {
 
 // The thickness of squashed walls (E5f). Plastic flow keeps the volume of a wall that shortens. In plane strain its
 // depth cannot grow, so its thickness does; in plane stress both grow alike. Bending and contact use the current
-// thickness. The growth of half of it is a function of the length of the element alone (beam/cross_section-inl.h). In
+// thickness. The growth of half of it is a function of one length alone (beam/cross_section-inl.h): in bending of L, as
+// all of the section; in contact of l, because the forces of contacts are the gradient of an energy of places. In
 // contact, a ball inside a wall grows by the mean of both its elements, and a joint keeps its radius. Along a segment
 // the growth varies smoothly from the ball at one node to that at the other (E8d).
 
-/// l / l_0 below which an element is squashed, so that its modulus is reduced (E5c).
+/// L / l_0 below which an element is squashed, so that its modulus is reduced (E5c).
 inline constexpr double kSquashedStretch = 0.95;
 
 /// What the growth of h / h_0 leaves out, so that walls that are hardly squashed need no further work (E5f).

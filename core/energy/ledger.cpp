@@ -83,10 +83,10 @@ class LaneEnergy {
 
   HWY_INLINE Lane<D> energy_of(const WallBlock& block, int lane, std::size_t element, Lane<D> squares) const {
     const CrossSection<D> section(scene_, block, lane);
-    const Lane<D> length = Lane<D>::load(&state_.length[element]);
+    const Lane<D> shortening = Lane<D>::load(&state_.shortening[element]);
     Lane<D> modulus = section.modulus();
-    if (HWY_UNLIKELY(any(section.is_squashed(length)))) {
-      modulus = modulus * section.modulus_share(length, Lane<D>(1) / length, section.thickening(length));
+    if (HWY_UNLIKELY(any(section.is_squashed(shortening)))) {
+      modulus = modulus * section.modulus_share(shortening, section.thickening(shortening));
     }
     return section.volume() * squares / (modulus + modulus);
   }

@@ -25,6 +25,8 @@ void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
     fibres.section_axial.assign(elements * scene.section.section_count(), T(0.0));
     fibres.section_moment.assign(elements * scene.section.section_count(), T(0.0));
     fibres.yielding.assign(elements, 0);
+    fibres.end_force.assign(elements * kEndForces, T(0.0));
+    fibres.owed.assign(elements, T(0.0));
   }
 }
 
@@ -53,6 +55,7 @@ State place_particles(const Scene& scene) {
     state.inverse_length.push_back(1.0 / span.norm());
     state.axis.push_back(span / state.length.back());
   }
+  state.shortening.assign(scene.element_count(), 1.0);
   if (scene.thickens()) {
     state.thickening.assign(scene.element_count(), 0.0);
     state.thickening_slope.assign(scene.element_count(), 0.0);

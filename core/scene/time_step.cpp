@@ -74,6 +74,9 @@ TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const Con
   };
   if (plates.present) {
     hold_to(kTravelPerStep * mesh.thinnest_wall / plates.speed, StepBound::plate_travel);
+    if (spec.section.formulation == SectionSpec::Formulation::force_based) {
+      hold_to(kTurnPerStep * mesh.shortest_element / plates.speed, StepBound::plate_travel);
+    }
   }
   if (contact.present || mesh.rigid_walls) {
     hold_to(kTravelPerStep * mesh.thinnest_wall / impact_speed_of(spec, mesh), StepBound::approach);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
 
@@ -25,16 +23,14 @@ double stable_step_of_pair(double length, double thickness, const Material& mate
 
 /// Fraction of the stable step of displacement-based elements, and of contacts, that is used.
 inline constexpr double kStepFraction = 0.9;
-/// Fraction beyond which some mode advances by a quarter of its period in a step, 2 asin(1 / sqrt(2)), and repeats
-/// after four steps as +A, 0, -A, 0. Force-based elements that yield in such a cycle feed it, and it spreads
-/// (CycleOfFourSteps, core/time-step.md): their forces are accurate to first order only.
-inline constexpr double kCycleStepFraction = 1.0 / std::numbers::sqrt2;
-/// Fraction of the stable step of force-based elements, single or in pairs, that is used: less than the one above,
-/// because squashed elements vibrate faster than undeformed ones.
-inline constexpr double kForceBasedStepFraction = 0.68;
+/// The same of force-based elements, single or in pairs: their ledger opens with the step (core/time-step.md).
+inline constexpr double kForceBasedStepFraction = 0.8;
 
 /// Travel of the plate, or approach of a frame's beams, in a step: greatest fraction of the thinnest wall's thickness.
-inline constexpr double kTravelPerStep = 0.08;
+inline constexpr double kTravelPerStep = 0.09;
+/// Travel of the plate in a step over the length of the shortest force-based element: about the greatest turn in a step
+/// of the elements at the front.
+inline constexpr double kTurnPerStep = 0.02;
 
 /// Steps that the undeformed mesh allows, s. Attached masses only raise them.
 struct MeshSteps {
@@ -50,10 +46,11 @@ struct TimeStep {
 };
 
 /// The step of a run: the one that is given, or the least of
-///  - 0.68 of the stable step of an element (E11b) or a pair (E11c), or 0.9 of it if elements are displacement-based,
-///  - the time in which the plate moves by 0.08 of the thinnest wall (walls approach each other by up to 1.7 times as
+///  - 0.8 of the stable step of an element (E11b) or a pair (E11c), or 0.9 of it if elements are displacement-based,
+///  - the time in which the plate moves by 0.09 of the thinnest wall (walls approach each other by up to 1.7 times as
 ///    much in a step, and a new contact can be as deep); the same of the beams of a frame that approach each other
 ///    or a rigid wall,
+///  - the time in which the plate moves by 0.02 of the shortest element, if elements are force-based,
 ///  - 0.9 of the bound of a row of the lightest particles between contacts (E12, scene/contact_law.h), also with a
 ///    light rigid wall that swings against them (E12b),
 ///  - for squares and triangles, the step for which omega dt of the lightest particle on its contact is 0.3 rad times

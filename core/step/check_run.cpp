@@ -9,6 +9,7 @@
 #include "measure/inertia.h"
 #include "measure/warnings.h"
 #include "scene/check_spec.h"
+#include "scene/solid_area.h"
 #include "scene/time_step.h"
 
 namespace cellcrush {
@@ -92,11 +93,16 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
     return {};
   }
   if (std::abs(sample.energies.residual) > kLargestEnergyError * turnover) {
+    const bool is_closed = is_past_closing(scene, sample.strain);
     return {RunStatus::Kind::energy_balance,
             "The energy balance has an error of " + percent_of(sample.energies.residual / turnover) +
-                " of the work done at " + moment_of(state.step, state.time) + ": the time integration is unstable" +
+                " of the work done at " + moment_of(state.step, state.time) +
+                (is_closed ? ", at strain " + to_text(std::round(1e3 * sample.strain) / 1e3) +
+                                 ", past that at which the lattice is closed"
+                           : ": the time integration is unstable") +
                 fastest_place(scene, state) + ".",
-            "Use a shorter numerics.time_step_s."};
+            is_closed ? "End the run where the lattice is closed: leave out loading.end_strain."
+                      : "Use a shorter numerics.time_step_s."};
   }
   if (-sample.energies.contact > kLargestEnergyError * turnover) {
     return {RunStatus::Kind::contact_energy,

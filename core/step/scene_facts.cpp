@@ -54,24 +54,19 @@ std::string search_text(const Scene& scene) {
   return "by buckets in space, as requested (contact.search).";
 }
 
-std::string requested_step_text(const Scene& scene) {
-  if (!scene.section.force_based || scene.schedule.time_step < kCycleStepFraction * scene.stable_step) {
-    return "as requested (numerics.time_step_s).";
-  }
-  return "as requested (numerics.time_step_s), and more than 0.7 of the stability limit: vibrations of force-based "
-         "elements can grow and make heat, above all in slow crushes.";
-}
-
 std::string step_text(const Scene& scene) {
   switch (scene.schedule.bound) {
-    case StepBound::asked_for: return requested_step_text(scene);
+    case StepBound::asked_for: return "as requested (numerics.time_step_s).";
     case StepBound::elements:
       return to_text(scene.section.force_based ? kForceBasedStepFraction : kStepFraction) +
              " of the stability limit of the lightest, stiffest element or pair of elements.";
-    case StepBound::plate_travel: return "the time in which the plate moves by 0.08 of the thinnest wall's thickness.";
+    case StepBound::plate_travel:
+      return "the time in which the plate moves by " + to_text(kTravelPerStep) +
+             " of the thinnest wall's thickness or " + to_text(kTurnPerStep) + " of the shortest element's length.";
     case StepBound::approach:
-      return "the time in which beams approach each other by 0.08 of the thinnest one's thickness, at the speed that "
-             "contacts are made for (contact.impact_speed_m_per_s).";
+      return "the time in which beams approach each other by " + to_text(kTravelPerStep) +
+             " of the thinnest one's thickness, at the speed that contacts are made for "
+             "(contact.impact_speed_m_per_s).";
     case StepBound::contacts: return "0.9 of the stability limit of a row of the lightest particles between contacts.";
     case StepBound::stacked_walls: break;
   }

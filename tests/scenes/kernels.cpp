@@ -24,9 +24,9 @@ scenes::ElementDeformation reverse(const Vector2& span, const Vector2& axis, dou
   return {number(deformation.stretch), number(deformation.rotation_start), number(deformation.rotation_end)};
 }
 
-double share_of_modulus(const Scene& scene, double length) {
+double share_of_modulus(const Scene& scene, double shortening) {
   const CrossSection<One> section(scene, WallBlock{.walls = 1, .elements = 2}, 0);
-  return number(section.modulus_share(length, 1.0 / length, section.thickening(length)));
+  return number(section.modulus_share(shortening, section.thickening(shortening)));
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -56,7 +56,7 @@ double modulus_share(double length, double undeformed, double thickness, bool in
   scene.walls.thickness = {thickness};
   scene.walls.undeformed_length = {undeformed};
   scene.materials.resize(1);
-  return HWY_DYNAMIC_DISPATCH(share_of_modulus)(scene, length);
+  return HWY_DYNAMIC_DISPATCH(share_of_modulus)(scene, undeformed / length);
 }
 
 }  // namespace scenes

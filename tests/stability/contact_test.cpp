@@ -5,6 +5,7 @@
 
 #include "cellcrush/state.h"
 #include "contact/touch/force_laws.h"
+#include "scene/time_step.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "step/advance_step.h"
@@ -54,16 +55,16 @@ TEST(Tunnelling, AStepTooLongForTheSpeedHopsOverAWall) {
   Flight hop(100.0, 0.16 * kReach, 2.1 * kReach);
   EXPECT_LT(hop.height(true), -5.0);
   EXPECT_EQ(hop.state.contact_totals.deepest_penetration, 0.0) << "no contact was seen, so nothing can tell";
-  EXPECT_GT(Flight(100.0, 0.16 * kReach, 0.08 * kReach).height(true), 5.0);  // the chosen step of lattices
+  EXPECT_GT(Flight(100.0, 0.16 * kReach, kTravelPerStep * kReach).height(true), 5.0);  // the chosen step of lattices
 }
 
-// Between plates the chosen step cannot hop: the plate moves by 0.08 of the thinnest wall.
+// Between plates the chosen step cannot hop: the plate moves by kTravelPerStep of the thinnest wall.
 TEST(Tunnelling, TheChosenStepOfALatticeFollowsTheSpeed) {
   for (const double speed : {100.0, 200.0, 400.0, 1000.0}) {
     SceneSpec spec = scenes::hexagon_specimen(4, 3);
     spec.loading.speed_m_per_s = speed;
     const auto scene = scenes::build(spec);
-    EXPECT_LE(1e3 * speed * scene->schedule.time_step, 0.08 * 0.3464 * (1.0 + 1e-9)) << speed;
+    EXPECT_LE(1e3 * speed * scene->schedule.time_step, kTravelPerStep * 0.3464 * (1.0 + 1e-9)) << speed;
   }
 }
 

@@ -78,17 +78,12 @@ TEST(StepBeyondTheLimit, HidesItsEnergyAsPlasticHeatAndOnlyTheLedgerShowsIt) {
   EXPECT_LT(sound.summary.energy_error_relative, 0.01);
   EXPECT_TRUE(sound.summary.warnings.empty());
 
-  const auto scene = specimen("hexagon", 100.0, 1.005);
+  const auto scene = specimen("hexagon", 100.0, 1.002);
   const State state = unwatched(scene);
   for (const Vector2& velocity : state.velocity) {
     EXPECT_LT(velocity.norm(), 10.0 * scene->plates.speed);
   }
-  const WatchedRun drifting(scene);
-  EXPECT_EQ(drifting.status.kind, Kind::finished);
-  EXPECT_NEAR(*drifting.summary.plateau_stress_impact, *sound.summary.plateau_stress_impact,
-              0.15 * *sound.summary.plateau_stress_impact);
-  EXPECT_TRUE(drifting.warns_of(Warning::Kind::energy_drift)) << drifting.summary.energy_error_relative;
-  scenes::record_figure("residual in %", 100.0 * drifting.summary.energy_error_relative, 1);
+  EXPECT_EQ(WatchedRun(scene).status.kind, Kind::energy_balance);
 }
 
 // Neither does the plastic work over the mean of both yield surfaces of hardening walls hide it.
@@ -112,8 +107,8 @@ TEST(StepBeyondTheLimit, OfAnElasticStructureGrowsWithoutBound) {
   scene->materials.front().yield_stress = 1e30;
   scene->contact.present = scene->plates.present = false;
   scenes::stir(*scene, kStir);
-  scene->schedule.step_count = 2000;
-  scene->schedule.sample_interval = 500;
+  scene->schedule.step_count = 40;
+  scene->schedule.sample_interval = 10;
   double fastest = 0.0;
   for (const Vector2& velocity : unwatched(scene).velocity) {
     fastest = std::max(fastest, velocity.norm());
@@ -199,25 +194,24 @@ void strike_joints(Scene& scene) {
   }
 }
 
-// At more than 1 / sqrt(2) of the stable step, modes that turn the joints repeat after four steps. Once walls have
-// yielded in such a cycle, it feeds itself and spreads; at less, the same blow dies out.
-TEST(CycleOfFourSteps, FeedsItselfBeyondAQuarterOfAPeriodInAStep) {
-  for (const int elements : {1, 2}) {
-    const auto struck = [elements](double share) {
-      const auto scene = specimen("hexagon", 4.0, share, 0.2, 0.12, elements);
-      strike_joints(*scene);
-      return WatchedRun(scene);
-    };
-    EXPECT_EQ(struck(0.74).status.kind, Kind::energy_balance) << elements;
-    for (const double share : {0.70, kForceBasedStepFraction}) {
-      const WatchedRun sound = struck(share);
-      EXPECT_EQ(sound.status.kind, Kind::finished) << sound.status.message;
-      const Sample& end = sound.samples.back();
-      const auto after = std::find_if(sound.samples.begin(), sound.samples.end(),
-                                      [](const Sample& sample) { return sample.strain > 0.11; });
-      ASSERT_NE(after, sound.samples.end());
-      EXPECT_NEAR(end.energies.residual, after->energies.residual, 0.002 * end.energies.external)
-          << elements << " " << share;
+// At more than 1 / sqrt(2) of the stable step, modes that turn the joints repeat after four steps. End forces that do
+// other work than the sections feed walls that yield in such a cycle; those of E5h do not.
+TEST(CycleOfFourSteps, DiesOutUpToNineTenthsOfTheStableStep) {
+  const auto struck = [](const char* lattice, int elements, double share) {
+    const auto scene = specimen(lattice, 4.0, share, 0.2, 0.12, elements);
+    strike_joints(*scene);
+    return WatchedRun(scene);
+  };
+  for (const auto& [lattice, elements] :
+       {std::pair("hexagon", 1), {"hexagon", 2}, {"hexagon", 8}, {"square", 4}, {"triangle", 4}}) {
+    for (const double share : {kForceBasedStepFraction, 0.9}) {
+      SCOPED_TRACE(::testing::Message() << lattice << ", " << elements << " elements, " << share);
+      const WatchedRun run = struck(lattice, elements, share);
+      EXPECT_EQ(run.status.kind, Kind::finished) << run.status.message;
+      const Sample& end = run.samples.back();
+      const auto after = std::ranges::find_if(run.samples, [](const Sample& sample) { return sample.strain > 0.11; });
+      ASSERT_NE(after, run.samples.end());
+      EXPECT_NEAR(end.energies.residual, after->energies.residual, 0.002 * end.energies.external);
     }
   }
 }

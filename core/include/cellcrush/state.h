@@ -12,6 +12,10 @@
 
 namespace cellcrush {
 
+/// Forces of a unit that an element keeps (E5h): its axial force and outer moment, and at the first element the moment
+/// that the elements of the unit share.
+inline constexpr std::size_t kEndForces = 3;
+
 /// History of the fibres and sections of elements, in numbers of type T. E elements of F fibres and P sections, in the
 /// order of beam/element_place.h. MPa.
 template <class T>
@@ -27,6 +31,8 @@ struct FibreHistory {
   LaneVector<T> section_axial;   ///< E x P, n: sums over the stresses of the section
   LaneVector<T> section_moment;  ///< E x P, m
   LaneVector<Bits> yielding;     ///< E, bit f: fibre f yielded in the last step
+  LaneVector<T> end_force;       ///< E x kEndForces, of the unit
+  LaneVector<T> owed;            ///< E, MPa^2, at the first element of a unit: what its work still misses (E5h)
 };
 
 /// Contact force on a particle, N. The two parts stand side by side because the same loops write both.
@@ -109,7 +115,8 @@ struct State {
   LaneVector<Vector2> axis;             ///< E, unit vector from start to end
   LaneVector<double> length;            ///< E
   LaneVector<double> inverse_length;    ///< E, 1/mm
-  LaneVector<double> thickening;        ///< E, what half of the thickness has grown by (E5f); empty at constant area
+  LaneVector<double> shortening;        ///< E, l_0 / L, at least 1; L is the length without elastic strain (E5c)
+  LaneVector<double> thickening;        ///< E, growth of half the thickness in contact (E5f); empty at constant area
   LaneVector<double> thickening_slope;  ///< E, its derivative by the length; empty at constant area
   LaneVector<double> radius_growth;     ///< N, what the radius of the ball has grown by (E5f); empty at constant area
   FibreHistory<double> fibres;          ///< empty where they are in single precision
@@ -165,18 +172,20 @@ template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
          reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
-         length, inverse_length, thickening, thickening_slope, radius_growth, fibres, single_fibres, wall_force,
-         wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step, contact_force,
-         friction_force, impact_friction, support_friction, impact_force, support_force, rigid_wall_friction,
-         rigid_wall_force, contact_totals, fastest_step, plate_drive, ledger, derived_steps, derived_tiles] = state;
+         length, inverse_length, shortening, thickening, thickening_slope, radius_growth, fibres, single_fibres,
+         wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
+         contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
+         rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, ledger, derived_steps,
+         derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
-    auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding] = history;
-    list(stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding);
+    auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding, end_force, owed] =
+        history;
+    list(stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding, end_force, owed);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
        reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
-       length, inverse_length, thickening, thickening_slope, radius_growth);
+       length, inverse_length, shortening, thickening, thickening_slope, radius_growth);
   list_fibres(fibres);
   list_fibres(single_fibres);
   list(wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment);

@@ -92,7 +92,7 @@ std::vector<HeldWalls> held_walls() {
   SceneSpec hexagons = scenes::spec_of({"hexagon", 100.0, 0.3}, 5, 4);
   scenes::cells_of(hexagons).wall_thickness_mm = 0.5;
   scenes::cells_of(hexagons).own["vertical_wall_thickness_mm"] = 0.35;
-  std::vector<HeldWalls> all = {HeldWalls(squashed_squares(), 1200), HeldWalls(hexagons, 750)};
+  std::vector<HeldWalls> all = {HeldWalls(squashed_squares(), 800), HeldWalls(hexagons, 640)};
   EXPECT_GT(*std::ranges::max_element(all.front().state.radius_growth), 0.05);
   return all;
 }
@@ -196,7 +196,7 @@ TEST(Thickening, ForcesOfContactsAreTheGradientOfTheirEnergyWhileWallsGrow) {
     spec.material.plane = plane;
     spec.contact.damping_ratio = 0.0;
     const auto scene = scenes::build(spec);
-    const State state = scenes::state_after(*scene, 1200);
+    const State state = scenes::state_after(*scene, 800);
     const TouchMemory& touching = state.contacts.front().touching;
     std::size_t grown = 0;
     for (std::size_t t = 0; t < touching.count(); ++t) {

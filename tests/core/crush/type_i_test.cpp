@@ -42,9 +42,10 @@ CountedCrush crush(SceneSpec spec) {
 void expect_sound_contact(const CountedCrush& crush) {
   EXPECT_EQ(crush.crossings, 0u);
   EXPECT_LT(crush.deepest_birth, 0.14);
-  // In the first samples the work is small, and a bounce of a few steps makes 0.5 % of it.
+  // The first work is that of one blow, in which all joints leave the plate in the same step. That step gives back up
+  // to k (V dt)^2 / 8 more than the contact had stored: 0.5 to 0.8 % of the blow, by the phase of the step.
   for (const Sample& sample : crush.samples) {
-    const double most = sample.strain < 0.003 ? 0.007 : 0.005;
+    const double most = sample.strain < 0.003 ? 0.01 : 0.005;
     EXPECT_GE(sample.energies.contact, -most * sample.energies.external) << "at strain " << sample.strain;
   }
 }

@@ -98,7 +98,7 @@ std::vector<Case> cases() {
           {"KinematicHardening", with_hardening(specimen("hexagon", 4, 3), 0.0), 800},
           {"MixedHardeningAndMassDamping", damped(with_hardening(specimen("hexagon", 5, 4), 0.4)), 1000},
           {"ThickWallsAlongY", thick_walls_along_y(), 600},
-          {"RigidRow", rigid_row(), 440},
+          {"RigidRow", rigid_row(), 370},
           {"SoftContacts", soft_contacts(), 800, 0.0005},
           {"OneElementAWall", elements_per_wall(specimen("hexagon", 5, 4), 1), 550},
           {"ThreeElementsAWall", elements_per_wall(specimen("hexagon", 4, 3), 3), 1000}};

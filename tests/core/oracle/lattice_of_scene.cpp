@@ -24,20 +24,37 @@ struct RowIndex {
   }
 };
 
-RowIndex row_index_of(const Scene& scene, std::size_t element) {
-  const auto has = [&](const WallBlock& block) {
+/// REQUIRES: the element is of no rigid body.
+const WallBlock& block_of(const Scene& scene, std::size_t element) {
+  return *std::ranges::find_if(scene.walls.blocks, [&](const WallBlock& block) {
     return element < static_cast<std::size_t>(block.first_element + block.walls * block.elements);
-  };
-  const WallBlock& block = *std::find_if(scene.walls.blocks.begin(), scene.walls.blocks.end(), has);
+  });
+}
+
+RowIndex row_index_of(const WallBlock& block, std::size_t element) {
   const auto walls = static_cast<std::size_t>(block.walls);
   const std::size_t lane = (element - static_cast<std::size_t>(block.first_element)) % walls;
   return {element - lane, walls, lane};
 }
 
+/// The forces of a unit that its elements keep, in the order of the oracle. `first`: row of its first element.
+template <class T>
+std::vector<double> end_forces_of(const FibreHistory<T>& memory, const RowIndex& first, bool is_pair) {
+  const auto kept = [&](std::size_t element, std::size_t i) -> double {
+    const RowIndex row = {first.first + element * first.walls, first.walls, first.lane};
+    return memory.end_force[row.of(kEndForces, i)];
+  };
+  if (is_pair) {
+    return {kept(0, 0), kept(1, 0), kept(0, 1), kept(0, 2), kept(1, 1)};
+  }
+  return {kept(0, 0), kept(0, 1), kept(0, 2)};
+}
+
 template <class T>
 void read_history(const Scene& scene, const FibreHistory<T>& memory, std::size_t element,
                   reference::ElementHistory& history) {
-  const RowIndex row = row_index_of(scene, element);
+  const WallBlock& block = block_of(scene, element);
+  const RowIndex row = row_index_of(block, element);
   for (std::size_t f = 0; f < history.fibres.size(); ++f) {
     const std::size_t i = row.of(scene.fibre_count(), f);
     history.fibres[f].stress = memory.stress[i];
@@ -58,6 +75,12 @@ void read_history(const Scene& scene, const FibreHistory<T>& memory, std::size_t
     history.yields[f] = has_bit(f);
   }
   history.yielded_before = has_bit(8 * sizeof(typename FibreHistory<T>::Bits) - 1);
+  const std::size_t place = (row.first - static_cast<std::size_t>(block.first_element)) / row.walls;  // in the wall
+  if (!block.has_pairs() || place % 2 == 0) {
+    const std::vector<double> forces = end_forces_of(memory, row, block.has_pairs());
+    history.end_forces = Eigen::VectorXd::Map(forces.data(), static_cast<Eigen::Index>(forces.size()));
+    history.owed = memory.owed[element] / material_of(scene, scene.elements[element]).modulus;
+  }
 }
 
 /// False of the elements of rigid bodies, which have no blocks.
@@ -96,6 +119,7 @@ reference::ElementHistory element_history_of(const Scene& scene, const State& st
       reference::undeformed(element_rule_of(scene), scene.position[given.start], scene.position[given.end]);
   history.axis = state.axis[element];
   history.length = state.length[element];
+  history.plastic_length /= state.shortening[element];
   scene.single_fibres ? read_history(scene, state.single_fibres, element, history)
                       : read_history(scene, state.fibres, element, history);
   return history;

@@ -12,6 +12,7 @@
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
 #include "energy/ledger.h"
+#include "scene/time_step.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
@@ -229,7 +230,7 @@ TEST(CrossingBars, StiffnessAndStepFollowTheSpeedOfApproach) {
   const double lightest = *std::ranges::min_element(fast->mass);
   const double rate = 1e3 * kSpeed / (0.16 * kThickness);  // V sqrt(m / k) = 0.16 h
   EXPECT_NEAR(fast->contact.stiffness, lightest * rate * rate, 1e-9 * fast->contact.stiffness);
-  EXPECT_NEAR(fast->schedule.time_step, 0.08 * kThickness / (1e3 * kSpeed), 1e-12 * fast->schedule.time_step);
+  EXPECT_NEAR(fast->schedule.time_step, kTravelPerStep * kThickness / (1e3 * kSpeed), 1e-12 * fast->schedule.time_step);
   EXPECT_EQ(fast->schedule.bound, StepBound::approach);
   SceneSpec both = bars(45.0, kPlace, 0.5 * kSpeed);  // the same speed of approach, shared
   for (const int node : {0, 1}) both.loads.initial_velocities.push_back({node, 0.0, 0.5 * kSpeed, 0.0});

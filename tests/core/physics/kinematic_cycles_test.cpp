@@ -103,23 +103,21 @@ class BilinearBar {
 
 double value_at(const FrameLattice::TimeFunction& points, double time) { return TimeFunction{points}.value_at(time); }
 
-/// Strain of a bar (E5): nominal while it is longer than before loading, logarithmic while it is shorter.
-double strain_of(double elongation) { return elongation > 0.0 ? elongation : std::log1p(elongation); }
-
-/// Worst error over the yield stress of the stress of a bar between +-`amplitude` of elongation over length. The area
-/// is kept in tension and the volume in compression: N = sigma V / min(l, l_0).
+/// Worst error over the yield stress of the stress of a bar of constant area between +-`amplitude` of elongation over
+/// length.
 double worst_stress_error(double isotropic_fraction, double amplitude) {
   FrameLattice frame;
   const auto points = cycles_of(amplitude * kLength);
   frame.supports = {{0, true, true, true}, {1, false, true, true}};
   frame.motions = {{1, Component::x, points}};
   BilinearBar bar(isotropic_fraction);
-  const auto turn = [&](double side) { bar.turn_at(strain_of(side * amplitude)); };
+  const auto turn = [&](double side) { bar.turn_at(side * amplitude); };
   double worst = 0.0;
-  run(cycled(std::move(frame), isotropic_fraction), turn, [&](double time, double force, double) {
-    const double stretch = value_at(points, time) / kLength;
-    const double stress = force / kThickness * (1.0 + std::min(stretch, 0.0));
-    worst = std::max(worst, std::abs(stress - bar.stress_at(strain_of(stretch))) / kYieldStress);
+  SceneSpec spec = cycled(std::move(frame), isotropic_fraction);
+  spec.section.area_rule = SectionSpec::AreaRule::constant_area;
+  run(spec, turn, [&](double time, double force, double) {
+    const double stress = bar.stress_at(value_at(points, time) / kLength);
+    worst = std::max(worst, std::abs(force / kThickness - stress) / kYieldStress);
   });
   return worst;
 }

@@ -67,9 +67,8 @@ TEST(PenaltyBounce, DampingTakesEnergyAndNeverPulls) {
   EXPECT_LT(damped.energy_ratio, 0.45);
 }
 
-// The default stiffness, two of the lightest particles: k = m (V / 0.16 h)^2. At 100 m/s the elements bound the step,
-// at 200 m/s V dt = 0.08 h. The dampers of the contacts take up what such a bounce makes: a whole crush makes none
-// (ContactSoundness).
+// The default stiffness, two of the lightest particles: k = m (V / 0.16 h)^2, and V dt = 0.09 h. The dampers
+// of the contacts take up what such a bounce makes: a whole crush makes none (ContactSoundness).
 TEST(PenaltyBounce, OfTheLightestPairAtTheChosenStepIsWithinThirteenPercent) {
   for (const double speed : {100.0, 200.0}) {
     SceneSpec spec = scenes::hexagon_specimen(4, 3);
@@ -79,7 +78,6 @@ TEST(PenaltyBounce, OfTheLightestPairAtTheChosenStepIsWithinThirteenPercent) {
     const double omega = std::sqrt(scene->contact.stiffness * 2.0 / lightest);
     const double omega_step = omega * scene->schedule.time_step;
     const double travel = 1e3 * speed * scene->schedule.time_step / scene->contact.thinnest;  // in a step
-    EXPECT_EQ(scene->schedule.bound, speed == 100.0 ? StepBound::elements : StepBound::plate_travel);
     EXPECT_NEAR(omega_step, std::sqrt(2.0) * travel / 0.16, 1e-3) << speed;
     double mass = 0.0;
     double stiffness = 0.0;
@@ -165,15 +163,17 @@ struct Groove {
   }
 };
 
-// The tip bounces from leg to leg and again and again touches both.
+// The tip bounces from leg to leg and again and again touches both. Where the other leg comes nearer within a step, the
+// push turns a step late: an error of first order in the step, of either sign, up to 4 % in one such event at a tenth
+// of the stable step.
 TEST(Groove, LosslessContactTakesAndMakesNoEnergyAndNeverPushesTwice) {
   for (const double opening : {90.0, 120.0, 160.0}) {
-    Groove groove(opening, 0.0, 0.1);
-    EXPECT_LT(groove.advance(20e-3), 1.0 + 1e-9) << opening;
+    Groove groove(opening, 0.0, 0.025);
+    EXPECT_LT(groove.advance(12e-3), 1.0 + 1e-9) << opening;
     const Energies energies = evaluate_energies(*groove.scene, groove.state);
     EXPECT_LT(std::abs(energies.residual), 1e-3 * groove.state.ledger.initial) << opening;
     scenes::record_bound("energy error",
-                         (energies.contact - groove.state.contact_totals.stored) / groove.state.ledger.initial, 5e-3);
+                         (energies.contact - groove.state.contact_totals.stored) / groove.state.ledger.initial, 1e-3);
   }
 }
 

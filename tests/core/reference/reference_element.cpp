@@ -7,41 +7,49 @@
 namespace cellcrush::reference {
 namespace {
 
-/// An element over a step: its motion without the rigid part, and its section at the end.
+/// An element over a step: its motion without the rigid part, and what follows from L at its start.
 struct DeformedElement {
-  DeformedElement(const ElementRule& rule, const MovedElement& moved) : material(moved.data.material) {
+  DeformedElement(const ElementRule& rule, const MovedElement& moved)
+      : data(moved.data), material(moved.data.material) {
     const ElementEnds& ends = moved.ends;
     const ElementHistory& history = *moved.history;
     const Vector span = ends.end - ends.start;
     length = span.norm();
     axis = span / length;
-    mean_length = strained_length(rule, moved.data, 0.5 * (history.length + length));   // E5
+    plastic_length = history.plastic_length;
+    strained = strained_length(rule, moved.data, plastic_length);                       // E5
     stretch = length - history.length;                                                  // Eq. 15
     const double turn = std::atan2(cross(history.axis, axis), history.axis.dot(axis));  // Eq. 9, E3
     turn_start = ends.turn_start - turn;                                                // Eq. 14, E4
     turn_end = ends.turn_end - turn;                                                    // Eq. 14, E4
-    const SquashedBar bar = squash(rule, moved.data, length);
-    area = bar.area;
     volume = volume_of(moved.data);
-    material.modulus = bar.modulus;
-    slope_of_modulus = bar.slope;
-    const double thickness_before =
-        moved.data.thickness + 2.0 * thickening_of(rule, moved.data, history.length).growth;  // E5f
-    thickness = moved.data.thickness + 2.0 * thickening_of(rule, moved.data, length).growth;
-    mean_thickness = 0.5 * (thickness_before + thickness);
+    material.modulus = squashed_modulus(rule, moved.data, plastic_length);
+    thickness = moved.data.thickness + 2.0 * thickening_of(rule, moved.data, plastic_length).growth;  // E5f
   }
 
-  Material material;        // with the modulus of the squashed element
-  double thickness;         // h at the end of the step
-  double mean_thickness;    // over the step
-  double slope_of_modulus;  // d ln E_l / dl
+  /// Takes the elastic strain of the axial stress n off the length (E5c): the new L, and the area.
+  void shorten(const ElementRule& rule, double n) {
+    const double yield = data.material.yield_stress;
+    double elastic_strain = n / data.material.modulus;
+    if (plastic_length < 0.95 * data.undeformed_length) {
+      const double modulus = std::max(material.modulus, std::min(20.0 * yield, data.material.modulus));
+      elastic_strain = std::max(n / modulus + yield * (1.0 / modulus - 1.0 / data.material.modulus), -0.5);
+    }
+    plastic_length = std::min(length / (1.0 + elastic_strain), data.undeformed_length);
+    area = volume / strained_length(rule, data, plastic_length);
+  }
+
+  ElementData data;
+  Material material;  // with the modulus of the squashed element
+  double thickness;   // h
   Vector axis;
   double length;
-  double mean_length;  // L_m
-  double stretch;      // Delta
-  double turn_start;   // theta_1
-  double turn_end;     // theta_2
-  double area;
+  double plastic_length;  // L: at the start of the step, then at its end
+  double strained;        // over which strains are taken
+  double stretch;         // Delta
+  double turn_start;      // theta_1
+  double turn_end;        // theta_2
+  double area = 0.0;      // at the end of the step
   double volume;
 };
 
@@ -52,45 +60,45 @@ struct EndStresses {
   double right;
 };
 
-/// Nodal forces of an element from its axial force and its end moments (Eq. 31, 32, E7). Where the modulus falls with
-/// the length, the axial force has the derivative of the energy stored by these forces by the length (E5g).
-ElementForces nodal_forces(const DeformedElement& element, double axial, double moment_start, double moment_end,
-                           const EndStresses& stresses, double plastic_work) {
+/// Nodal forces of an element from its axial force and its end moments (Eq. 31, 32, E7). What these forces store as the
+/// modulus falls is taken from the plastic work (E5g).
+ElementForces nodal_forces(const ElementRule& rule, const DeformedElement& element, double axial, double moment_start,
+                           double moment_end, const EndStresses& stresses, double plastic_work) {
   const auto& [n, left, right] = stresses;
-  const double energy =
-      element.volume / (2.0 * element.material.modulus) * (n * n + (left * left + left * right + right * right) / 3.0);
-  axial -= energy * element.slope_of_modulus;
+  const double squares = n * n + (left * left + left * right + right * right) / 3.0;
+  const double modulus = squashed_modulus(rule, element.data, element.plastic_length);
+  const double stored = element.volume * squares / 2.0 * (1.0 / modulus - 1.0 / element.material.modulus);
   const double shear = -(moment_start + moment_end) / element.length;
   const Vector force_on_end = axial * element.axis + shear * turned_left(element.axis);
-  return {force_on_end, moment_start, moment_end, plastic_work};
+  return {force_on_end, moment_start, moment_end, plastic_work - stored};
 }
 
 /// The displacement-based element: the curvature is linear (Eq. 27, E5a).
-ElementForces respond_to_curvature(const ElementRule& rule, const DeformedElement& element, ElementHistory& history) {
-  double axial = 0.0;
+ElementForces respond_to_curvature(const ElementRule& rule, DeformedElement& element, ElementHistory& history) {
+  double axial = 0.0;  // over A, as the moments
   double moment_start = 0.0;
   double moment_end = 0.0;
   double plastic_work = 0.0;
   for (std::size_t i = 0; i < rule.sections.size(); ++i) {
     const auto [s, section_weight] = rule.sections[i];
     const double curvature =
-        ((4.0 - 6.0 * s) * element.turn_start + (2.0 - 6.0 * s) * element.turn_end) / element.mean_length;
+        ((4.0 - 6.0 * s) * element.turn_start + (2.0 - 6.0 * s) * element.turn_end) / element.strained;
     for (std::size_t j = 0; j < rule.points.size(); ++j) {
       const double arm = rule.points[j].position * element.thickness;  // y
-      const double mean_arm = rule.points[j].position * element.mean_thickness;
       Fibre& fibre = history.fibres[i * rule.points.size() + j];
-      const double strain = element.stretch / element.mean_length + mean_arm * curvature;  // E5
+      const double strain = element.stretch / element.strained + arm * curvature;  // E5
       const Flow flow = return_fibre(element.material, strain, fibre);
       const double part = section_weight * rule.points[j].weight;
-      axial += part * element.area * fibre.stress;                                 // Eq. 28, E7
-      moment_start += part * element.area * (4.0 - 6.0 * s) * arm * fibre.stress;  // Eq. 28, E7
-      moment_end += part * element.area * (2.0 - 6.0 * s) * arm * fibre.stress;    // Eq. 28, E7
-      plastic_work += part * element.volume * flow.work;                           // E10
+      axial += part * fibre.stress;                                 // Eq. 28, E7
+      moment_start += part * (4.0 - 6.0 * s) * arm * fibre.stress;  // Eq. 28, E7
+      moment_end += part * (2.0 - 6.0 * s) * arm * fibre.stress;    // Eq. 28, E7
+      plastic_work += part * element.volume * flow.work;            // E10
     }
   }
-  const double moment_area = element.area * element.thickness / std::sqrt(12.0);
-  return nodal_forces(element, axial, moment_start, moment_end,
-                      {axial / element.area, moment_start / moment_area, -moment_end / moment_area}, plastic_work);
+  element.shorten(rule, axial);
+  const double gyration = element.thickness / std::sqrt(12.0);
+  return nodal_forces(rule, element, element.area * axial, element.area * moment_start, element.area * moment_end,
+                      {axial, moment_start / gyration, -moment_end / gyration}, plastic_work);
 }
 
 /// One step of a unit of force-based elements (E5b, E5d). Its forces are the axial force of each element over A, then
@@ -98,7 +106,7 @@ ElementForces respond_to_curvature(const ElementRule& rule, const DeformedElemen
 /// linear between its nodes.
 class ForceBasedStep {
  public:
-  ForceBasedStep(const ElementRule& rule, const std::vector<DeformedElement>& elements,
+  ForceBasedStep(const ElementRule& rule, std::vector<DeformedElement>& elements,
                  const std::vector<MovedElement>& moved)
       : rule_(rule), elements_(elements), plastic_work_(elements.size(), 0.0) {
     for (const MovedElement& element : moved) {
@@ -107,12 +115,22 @@ class ForceBasedStep {
   }
 
   std::vector<ElementForces> advance() {
+    if (histories_.front()->end_forces.size() == 0) {
+      histories_.front()->end_forces = no_strains();
+    }
     const bool had_yielded = any_yields();
-    move_fibres(strains_of_sections());
+    const std::vector<OfSection> before = borne();
+    const std::vector<OfSection> strains = strains_of_sections();
+    move_fibres(strains);
     for (ElementHistory* history : histories_) {
       history->yielded_before = had_yielded;
     }
-    return nodal_forces_of(balance(no_strains(), yielding_sections(), borne()));
+    Eigen::VectorXd forces = balance(no_strains(), yielding_sections(), borne());
+    if (had_yielded || any_yields()) {
+      forces += work_exact_correction(forces, before, strains);
+    }
+    histories_.front()->end_forces = forces;
+    return nodal_forces_of(forces);
   }
 
  private:
@@ -136,8 +154,8 @@ class ForceBasedStep {
     return all;
   }
 
-  /// gamma = h / sqrt(12), of the thickness over the step
-  [[nodiscard]] double mean_gyration(std::size_t e) const { return elements_[e].mean_thickness / std::sqrt(12.0); }
+  /// gamma = h / sqrt(12)
+  [[nodiscard]] double gyration(std::size_t e) const { return elements_[e].thickness / std::sqrt(12.0); }
 
   /// eta = y / gamma
   [[nodiscard]] double arm(std::size_t j) const { return rule_.points[j].position * std::sqrt(12.0); }
@@ -156,16 +174,15 @@ class ForceBasedStep {
   [[nodiscard]] Eigen::VectorXd strains_of_unit() const {
     Eigen::VectorXd strains = no_strains();
     for (std::size_t e = 0; e < elements_.size(); ++e) {
-      strains[static_cast<Eigen::Index>(e)] = elements_[e].stretch / elements_[e].mean_length;
+      strains[static_cast<Eigen::Index>(e)] = elements_[e].stretch / elements_[e].strained;
     }
     const std::size_t last = elements_.size() - 1;
-    strains[moment(0)] = mean_gyration(0) * elements_.front().turn_start / elements_.front().mean_length;
-    strains[moment(last + 1)] = -mean_gyration(last) * elements_.back().turn_end / elements_.back().mean_length;
+    strains[moment(0)] = gyration(0) * elements_.front().turn_start / elements_.front().strained;
+    strains[moment(last + 1)] = -gyration(last) * elements_.back().turn_end / elements_.back().strained;
     for (std::size_t node = 1; node <= last; ++node) {
       const DeformedElement& before = elements_[node - 1];
       const DeformedElement& after = elements_[node];
-      const double over_length =
-          0.5 * (mean_gyration(node - 1) / before.mean_length + mean_gyration(node) / after.mean_length);
+      const double over_length = 0.5 * (gyration(node - 1) / before.strained + gyration(node) / after.strained);
       strains[moment(node)] = over_length * (after.turn_start - before.turn_end);
     }
     return strains;
@@ -195,7 +212,7 @@ class ForceBasedStep {
   [[nodiscard]] Eigen::Matrix2d flexibility(const Place& at, const IsSoft& is_soft) const {
     const Material& material = elements_[at.element].material;
     const double hardening = material.hardening_modulus / (material.modulus + material.hardening_modulus);  // E_T / E
-    const double tangent = 0.01 + hardening;
+    const double tangent = 0.02 + hardening;
     Eigen::Matrix2d stiffness = Eigen::Matrix2d::Identity();
     for (std::size_t j = 0; j < rule_.points.size(); ++j) {
       if (is_soft(fibre(at, j))) {
@@ -312,6 +329,30 @@ class ForceBasedStep {
     }
   }
 
+  /// Half of what the work of the sections is more than that of the end forces, as a multiple of the forces with which
+  /// an elastic unit takes up the strains; the rest is owed to the next step (E5h).
+  [[nodiscard]] Eigen::VectorXd work_exact_correction(const Eigen::VectorXd& forces,
+                                                      const std::vector<OfSection>& borne_before,
+                                                      const std::vector<OfSection>& strains) const {
+    ElementHistory& history = *histories_.front();
+    const std::vector<OfSection> borne_now = borne();
+    const std::vector<Place> all = places();
+    double work = 0.0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      work += rule_.sections[all[k].section].weight * (borne_before[k] + borne_now[k]).dot(strains[k]);
+    }
+    const Eigen::VectorXd ends = strains_of_unit();
+    const std::vector<OfSection> nothing(all.size(), OfSection::Zero());
+    const Eigen::VectorXd elastic = balance(ends, elastic_sections(), nothing);
+    const double missing = work - (history.end_forces + forces).dot(ends) + history.owed;
+    const double whole = elastic.dot(ends);
+    const Material& material = elements_.front().data.material;
+    const double least = 1e-9 * material.yield_stress * material.yield_stress / material.modulus;
+    const double share = std::clamp(0.5 * missing / std::max(whole, least), -0.3, 0.3);
+    history.owed = missing - share * whole;
+    return share * elastic;
+  }
+
   /// A gamma of the section at a node: the mean of both elements that meet there.
   [[nodiscard]] double moment_area_at(std::size_t node) const {
     const DeformedElement& before = elements_[node == 0 ? node : node - 1];
@@ -319,14 +360,17 @@ class ForceBasedStep {
     return 0.5 * (before.area * before.thickness + after.area * after.thickness) / std::sqrt(12.0);
   }
 
-  [[nodiscard]] std::vector<ElementForces> nodal_forces_of(const Eigen::VectorXd& forces) const {
+  [[nodiscard]] std::vector<ElementForces> nodal_forces_of(const Eigen::VectorXd& forces) {
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      elements_[e].shorten(rule_, forces[static_cast<Eigen::Index>(e)]);
+    }
     std::vector<ElementForces> all;
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       const DeformedElement& element = elements_[e];
       const double axial = element.area * forces[static_cast<Eigen::Index>(e)];  // N = A n
       const double moment_start = moment_area_at(e) * forces[moment(e)];         // M = A gamma m
       const double moment_end = -moment_area_at(e + 1) * forces[moment(e + 1)];
-      all.push_back(nodal_forces(element, axial, moment_start, moment_end,
+      all.push_back(nodal_forces(rule_, element, axial, moment_start, moment_end,
                                  {axial / element.area, forces[moment(e)], forces[moment(e + 1)]},
                                  element.volume * plastic_work_[e]));
     }
@@ -334,7 +378,7 @@ class ForceBasedStep {
   }
 
   const ElementRule& rule_;
-  const std::vector<DeformedElement>& elements_;
+  std::vector<DeformedElement>& elements_;
   std::vector<ElementHistory*> histories_;
   std::vector<double> plastic_work_;  // of each element, over its volume
 };
@@ -345,6 +389,7 @@ ElementHistory undeformed(const ElementRule& rule, const Vector& start, const Ve
   const Vector span = end - start;
   ElementHistory history;
   history.length = span.norm();
+  history.plastic_length = history.length;
   history.axis = span / span.norm();
   history.fibres.resize(rule.sections.size() * rule.points.size());
   history.borne.assign(rule.sections.size(), Eigen::Vector2d::Zero());
@@ -379,17 +424,18 @@ std::vector<ElementForces> advance_unit(const ElementRule& rule, const std::vect
   for (std::size_t e = 0; e < unit.size(); ++e) {
     unit[e].history->axis = elements[e].axis;
     unit[e].history->length = elements[e].length;
+    unit[e].history->plastic_length = elements[e].plastic_length;
   }
   return forces;
 }
 
 double elastic_energy(const ElementRule& rule, const ElementData& data, const ElementHistory& history) {
-  const SquashedBar bar = squash(rule, data, history.length);
+  const double modulus = squashed_modulus(rule, data, history.plastic_length);
   double energy = 0.0;
   for (std::size_t f = 0; f < history.fibres.size(); ++f) {
     const double weight = rule.sections[f / rule.points.size()].weight * rule.points[f % rule.points.size()].weight;
     const double stress = history.fibres[f].stress;
-    energy += weight * volume_of(data) * stress * stress / (2.0 * bar.modulus);  // E10
+    energy += weight * volume_of(data) * stress * stress / (2.0 * modulus);  // E10
   }
   return energy;
 }

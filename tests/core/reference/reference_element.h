@@ -62,14 +62,17 @@ struct ElementData {
 
 /// History of an element.
 struct ElementHistory {
-  Vector axis;                ///< e_a
-  double length = 0.0;        ///< l_a
-  std::vector<Fibre> fibres;  ///< section by section
+  Vector axis;                  ///< e_a
+  double length = 0.0;          ///< l_a
+  double plastic_length = 0.0;  ///< L, without elastic strain (E5c)
+  std::vector<Fibre> fibres;    ///< section by section
 
   // Of a force-based element.
   std::vector<Eigen::Vector2d> borne;  ///< of each section: n = N / A and m = M / (A gamma), MPa
   std::vector<bool> yields;            ///< of each fibre: whether it yielded in the newest step
   bool yielded_before = false;         ///< whether any fibre of the unit did in the step before that
+  Eigen::VectorXd end_forces;          ///< of the unit, at its first element (E5h)
+  double owed = 0.0;                   ///< MPa, at its first element: what the work of the end forces misses
 };
 ElementHistory undeformed(const ElementRule& rule, const Vector& start, const Vector& end);
 
@@ -103,8 +106,8 @@ std::vector<std::vector<int>> units_of(const ElementRule& rule, const std::vecto
 /// A step of the elements of a unit: Eq. 7-15 and 22-32. The turn of the common node of two is not used.
 std::vector<ElementForces> advance_unit(const ElementRule& rule, const std::vector<MovedElement>& unit);
 
-/// What half of the thickness of an element of the length `length` has grown by (E5f), and its derivative by the
-/// length.
+/// What half of the thickness of an element has grown by (E5f), and its derivative by the length: L in bending, l in
+/// contact.
 struct Thickening {
   double growth = 0.0;  ///< mm
   double slope = 0.0;
@@ -114,19 +117,13 @@ Thickening thickening_of(const ElementRule& rule, const ElementData& data, doubl
 /// Energy stored by the stresses, N mm (E10).
 double elastic_energy(const ElementRule& rule, const ElementData& data, const ElementHistory& history);
 
-/// L of E5c: the length over which strains are taken.
-double strained_length(const ElementRule& rule, const ElementData& data, double length);
+/// The length over which strains are taken (E5).
+double strained_length(const ElementRule& rule, const ElementData& data, double plastic_length);
 
 /// V_0, mm^3.
 double volume_of(const ElementData& data);
 
-/// Area and modulus of an element of the length l, which may be squashed (E5c).
-struct SquashedBar {
-  double area;
-  double modulus;
-  double slope;  // d ln E_l / dl
-};
-
-SquashedBar squash(const ElementRule& rule, const ElementData& data, double length);
+/// E_l of E5c, MPa.
+double squashed_modulus(const ElementRule& rule, const ElementData& data, double plastic_length);
 
 }  // namespace cellcrush::reference

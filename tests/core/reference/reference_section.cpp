@@ -24,47 +24,35 @@ Flow return_fibre(const Material& material, double strain_increment, Fibre& fibr
   return {increment, 0.5 * (begin + fibre.stress) * increment};
 }
 
-double strained_length(const ElementRule& rule, const ElementData& data, double length) {
-  return rule.constant_area ? data.undeformed_length : std::min(length, data.undeformed_length);
+double strained_length(const ElementRule& rule, const ElementData& data, double plastic_length) {
+  return rule.constant_area ? data.undeformed_length : plastic_length;
 }
 
 double volume_of(const ElementData& data) { return data.depth * data.thickness * data.undeformed_length; }
 
 namespace {
 
-/// The square of the greatest frequency times that of l / c, and its derivative by l.
-struct Frequency {
-  double squared;
-  double slope;
-};
-
-Frequency bending_frequency(const ElementData& data, double length) {
+/// The square of the greatest frequency times that of l / c.
+double bending_frequency(const ElementData& data, double length) {
   const double g = data.thickness * data.thickness / 12.0 / (length * length);
-  const double slope_of_g = -2.0 * g / length;
   if (!data.in_pair) {
-    return {3.0 * (1.0 + 4.0 * g), 12.0 * slope_of_g};  // E11
+    return 3.0 * (1.0 + 4.0 * g);  // E11
   }
   const double a = 4.0 + 48.0 * g;  // E11c
-  const double root = std::sqrt(a * a - 192.0 * g);
-  return {(a + root) / 2.0, (48.0 + (48.0 * a - 96.0) / root) * slope_of_g / 2.0};
+  return (a + std::sqrt(a * a - 192.0 * g)) / 2.0;
 }
 
 }  // namespace
 
-SquashedBar squash(const ElementRule& rule, const ElementData& data, double length) {
-  const double area = volume_of(data) / strained_length(rule, data, length);
+double squashed_modulus(const ElementRule& rule, const ElementData& data, double plastic_length) {
   const double bound = 0.95 * data.undeformed_length;
-  if (length >= bound) {
-    return {area, data.material.modulus, 0.0};
+  if (plastic_length >= bound) {
+    return data.material.modulus;
   }
   const double power = rule.constant_area ? 0.0 : 2.0;
-  const Thickening thickening = thickening_of(rule, data, length);
-  const double thickness = 1.0 + 2.0 * thickening.growth / data.thickness;  // h / h_0
-  const Frequency now = bending_frequency(data, length);
-  const double modulus = data.material.modulus * std::pow(length / bound, power) / (thickness * thickness) *
-                         bending_frequency(data, bound).squared / now.squared;
-  const double of_thickness = 2.0 * 2.0 * thickening.slope / data.thickness / thickness;
-  return {area, modulus, power / length - now.slope / now.squared - of_thickness};
+  const double thickness = 1.0 + 2.0 * thickening_of(rule, data, plastic_length).growth / data.thickness;  // h / h_0
+  return data.material.modulus * std::pow(plastic_length / bound, power) / (thickness * thickness) *
+         bending_frequency(data, bound) / bending_frequency(data, plastic_length);
 }
 
 Thickening thickening_of(const ElementRule& rule, const ElementData& data, double length) {
