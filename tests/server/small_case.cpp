@@ -28,7 +28,8 @@ v1::Case tiny_case() {
 
 v1::Case case_of_seconds() {
   return with_text(small_case(), R"(
-    lattice { hexagon { columns: 12 rows: 8 } } loading { speed_m_per_s: 5 }
+    lattice { hexagon { columns: 12 rows: 8 } }
+    loading { speed_m_per_s: 5 end_time_s: 0.007 } numerics { time_step_s: 2.8e-7 }
     output { sample_count: 200 frame_count: 20 })");
 }
 
