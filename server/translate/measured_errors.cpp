@@ -1,12 +1,18 @@
 #include "translate/measured_errors.h"
 
+#include <google/protobuf/util/field_comparator.h>
+#include <google/protobuf/util/message_differencer.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "cellcrush/fidelity.h"
+#include "cellcrush/sample.h"
 #include "translate/case_to_spec.h"
 #include "translate/presets.h"
 #include "translate/spec_to_case.h"
@@ -63,9 +69,11 @@ const std::vector<MeasuredRow>& measured_rows() {
   return kRows;
 }
 
-/// What a spec shares with the preset that was measured: equal up to rounding.
+/// What a spec shares with the preset that was measured is equal up to rounding.
+constexpr double kRounding = 0.01;
+
 bool is_near(double one, double other) {
-  return std::abs(one - other) <= 0.01 * std::max(std::abs(one), std::abs(other));
+  return std::abs(one - other) <= kRounding * std::max(std::abs(one), std::abs(other));
 }
 
 /// Whether the numbers that only their kind has are alike, over the thickness of the walls.
@@ -102,9 +110,82 @@ std::pair<double, double> speeds_of(const Specimen& specimen) {
   return range;
 }
 
+/// Greatest amplitude of the imperfection over the side of the cells with which the errors were measured: 0.01 mm.
+constexpr double kMeasuredAmplitude = 0.0025;
+
+// Fields in which a measured case may differ: what names, divides or stores a crush; and fields that are compared
+// otherwise below. Any other field, also a new one, keeps the errors from holding.
+constexpr std::string_view kFreeFields[] = {
+    "title",
+    "depth_mm",
+    "elements_per_wall",
+    "output",
+    "numerics.fidelity",
+    "numerics.threads",
+    "numerics.fibre_precision",
+    "contact.search",
+    "lattice",
+    "lattice.imperfection.seed",
+    "section.axial_points",
+    "section.depth_points",
+    "loading.speed_m_per_s",
+    "loading.quasi_static",
+    "loading.kinetic_share",
+    "loading.direction",
+    "loading.end_strain",
+};
+
+/// Collects the paths of the fields in which two cases differ.
+class FieldCollector : public google::protobuf::util::MessageDifferencer::Reporter {
+ public:
+  using Path = std::vector<google::protobuf::util::MessageDifferencer::SpecificField>;
+  using Message = google::protobuf::Message;
+
+  void ReportAdded(const Message&, const Message&, const Path& path) override { add(path); }
+  void ReportDeleted(const Message&, const Message&, const Path& path) override { add(path); }
+  void ReportModified(const Message&, const Message&, const Path& path) override {
+    const auto& field = *path.back().field;
+    const bool has_fields = field.message_type() != nullptr && !field.is_repeated();  // which are reported themselves
+    if (!has_fields) add(path);
+  }
+
+  std::vector<std::string> fields;
+
+ private:
+  void add(const Path& path) {
+    std::string field;
+    for (const auto& part : path) {
+      field += (field.empty() ? "" : ".") + part.field->name();
+      if (part.field->is_repeated() || std::ranges::find(kFreeFields, field) != std::end(kFreeFields)) break;
+    }
+    const bool is_known = std::ranges::find(fields, field) != fields.end();
+    if (!is_known && std::ranges::find(kFreeFields, field) == std::end(kFreeFields)) fields.push_back(field);
+  }
+};
+
+/// Fields other than the free ones in which two specs differ by more than rounding.
+std::vector<std::string> other_fields(const SceneSpec& spec, const SceneSpec& measured) {
+  FieldCollector collector;
+  google::protobuf::util::DefaultFieldComparator comparator;
+  comparator.set_float_comparison(google::protobuf::util::DefaultFieldComparator::APPROXIMATE);
+  comparator.SetDefaultFractionAndMargin(kRounding, 0.0);
+  google::protobuf::util::MessageDifferencer differencer;
+  differencer.set_field_comparator(&comparator);
+  differencer.ReportDifferencesTo(&collector);
+  differencer.Compare(to_case(measured), to_case(spec));
+  const bool hardens = spec.material.hardening_modulus_mpa != 0.0 || measured.material.hardening_modulus_mpa != 0.0;
+  const bool in_plane_strain = spec.material.plane == MaterialSpec::Plane::strain;
+  std::erase_if(collector.fields, [&](const std::string& field) {
+    return (!hardens && field == "material.isotropic_fraction") ||
+           (!in_plane_strain && field == "material.poissons_ratio");
+  });
+  return collector.fields;
+}
+
 /// Nothing if they are different lattices.
 std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, const SceneSpec& spec) {
-  const SceneSpec& measured = find_preset(specimen.preset)->spec;
+  SceneSpec measured = find_preset(specimen.preset)->spec;
+  measured.section = {};  // all were measured with the default elements
   const auto* cells = std::get_if<RegularLattice>(&spec.lattice);
   const auto& its = std::get<RegularLattice>(measured.lattice);
   if (cells == nullptr || cells->kind != its.kind) return std::nullopt;
@@ -120,23 +201,18 @@ std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, 
              !has_near_own_numbers(*cells, its),
          lattice + "wall_thickness_mm");
   add_if(!spec.inclusions.rows.empty(), "lattice.inclusions");
-  const MaterialSpec& material = spec.material;
-  add_if(!is_near(*material.youngs_modulus_mpa, *measured.material.youngs_modulus_mpa), "material.youngs_modulus_mpa");
-  add_if(!is_near(*material.yield_stress_mpa, *measured.material.yield_stress_mpa), "material.yield_stress_mpa");
-  add_if(!is_near(*material.density_kg_per_m3, *measured.material.density_kg_per_m3), "material.density_kg_per_m3");
-  const bool hardens = material.hardening_modulus_mpa != 0.0 || measured.material.hardening_modulus_mpa != 0.0;
-  for (const LawParameter& parameter : kLawParameters) {
-    const bool acts = hardens || parameter.value != &LawParameters::isotropic_fraction;
-    add_if(acts && !is_near(material.*parameter.value, measured.material.*parameter.value),
-           std::string("material.") + parameter.name);
-  }
+  add_if(spec.imperfection.amplitude_mm > (1.0 + kRounding) * kMeasuredAmplitude * *cells->side_mm,
+         "lattice.imperfection.amplitude_mm");
+  add_if(spec.imperfection.bow_mm != measured.imperfection.bow_mm, "lattice.imperfection.bow_mm");
+  add_if(spec.section.axial_count() != measured.section.axial_count(), "section.axial_points");
+  add_if(spec.section.depth_count() != measured.section.depth_count(), "section.depth_points");
   add_if(spec.loading.direction != specimen.direction, "loading.direction");
   const auto [lowest, highest] = speeds_of(specimen);
   const double speed = spec.loading.speed_m_per_s.value_or(0.0);
   add_if(speed < lowest || speed > highest,
          spec.loading.quasi_static ? "loading.quasi_static" : "loading.speed_m_per_s");
-  add_if(spec.contact.friction != measured.contact.friction, "contact.friction");
-  add_if(spec.plates.friction != measured.plates.friction, "plates.friction");
+  add_if(spec.loading.end_strain.value_or(1.0) < Summary::kPlateauHigh, "loading.end_strain");
+  std::ranges::copy(other_fields(spec, measured), std::back_inserter(fields));
   return fields;
 }
 
@@ -176,16 +252,6 @@ std::string words_of(const std::vector<MeasuredRow>& rows) {
   return words + rows.back().speed + " m/s";
 }
 
-/// Those in which a spec differs from the specimen from which it differs least.
-std::vector<std::string> fields_beside_specimens(const SceneSpec& spec) {
-  std::optional<std::vector<std::string>> fewest;
-  for (const Specimen& specimen : measured_specimens()) {
-    const auto fields = fields_beside(specimen, spec);
-    if (fields && (!fewest || fields->size() < fewest->size())) fewest = fields;
-  }
-  return fewest.value_or(std::vector<std::string>{"lattice"});
-}
-
 void write_errors(const SceneSpec& spec, v1::FidelityForecast& out) {
   const std::vector<std::string> beside = fields_beside_measured(spec);
   out.mutable_given_fields()->Assign(beside.begin(), beside.end());
@@ -202,20 +268,12 @@ void write_errors(const SceneSpec& spec, v1::FidelityForecast& out) {
 }  // namespace
 
 std::vector<std::string> fields_beside_measured(const SceneSpec& spec) {
-  std::vector<std::string> fields = fields_beside_specimens(spec);
-  const SceneSpec plain;
-  const bool is_force_based = spec.section.formulation == SectionSpec::Formulation::force_based;
-  const auto add_if = [&fields](bool other, const char* field) {
-    if (other) fields.emplace_back(field);
-  };
-  add_if(!is_force_based, "section.formulation");
-  add_if(spec.section.depth_rule != plain.section.depth_rule, "section.depth_rule");
-  add_if(spec.section.area_rule != plain.section.area_rule, "section.area_rule");
-  add_if(is_force_based && spec.section.axial_count() != plain.section.axial_count(), "section.axial_points");
-  add_if(is_force_based && spec.section.depth_count() != plain.section.depth_count(), "section.depth_points");
-  add_if(spec.numerics.mass_scaling != plain.numerics.mass_scaling, "numerics.mass_scaling");
-  add_if(spec.numerics.rotary_scaling != plain.numerics.rotary_scaling, "numerics.rotary_scaling");
-  return fields;
+  std::optional<std::vector<std::string>> fewest;
+  for (const Specimen& specimen : measured_specimens()) {
+    const auto fields = fields_beside(specimen, spec);
+    if (fields && (!fewest || fields->size() < fewest->size())) fewest = fields;
+  }
+  return fewest.value_or(std::vector<std::string>{"lattice"});
 }
 
 std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int elements_per_wall) {

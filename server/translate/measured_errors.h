@@ -18,8 +18,9 @@ struct MeasuredError {
 };
 
 /// Fields that keep all measured errors from holding for a spec: those in which it differs from the specimen from which
-/// it differs least, and those of the elements. Empty if it is one of the specimens, or the same lattice with more
-/// cells.
+/// it differs least. Empty if it is one of the specimens, or the same lattice with more cells; also with a smaller
+/// imperfection, another mesh or an end past the plateau. Any other field counts, also one that the errors may not
+/// depend on.
 std::vector<std::string> fields_beside_measured(const SceneSpec& spec);
 
 /// Errors of a spec that differs in no such field, with a mesh. Between two measured speeds the larger error counts.

@@ -16,6 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
+using ::testing::UnorderedElementsAre;
 using translate::fields_beside_measured;
 using translate::measured_errors_of;
 using translate::MeasuredError;
@@ -131,8 +132,45 @@ TEST(MeasuredErrors, NoneIsToldOfWhatWasNotMeasured) {
   spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
   spec.numerics.rotary_scaling = 3.0;
   EXPECT_THAT(fields_beside_measured(spec),
-              ElementsAre("lattice.hexagon.wall_thickness_mm", "material.hardening_modulus_mpa",
-                          "loading.speed_m_per_s", "section.depth_rule", "numerics.rotary_scaling"));
+              UnorderedElementsAre("lattice.hexagon.wall_thickness_mm", "material.hardening_modulus_mpa",
+                                   "loading.speed_m_per_s", "section.depth_rule", "numerics.rotary_scaling"));
+}
+
+TEST(MeasuredErrors, NoneIsToldWhereAnyFieldThatMovesThePlateauDiffers) {
+  const auto field_beside = [](const auto& change) {
+    SceneSpec spec = scenes::preset("type-i");
+    change(spec);
+    const std::vector<std::string> fields = fields_beside_measured(spec);
+    return fields.size() == 1 ? fields.front() : std::to_string(fields.size()) + " fields";
+  };
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.loading.end_strain = 0.3; }), "loading.end_strain");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.loading.end_time_s = 1e-4; }), "loading.end_time_s");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.loading.ramp_strain = 0.3; }), "loading.ramp_strain");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.numerics.mass_damping_per_s = 5000.0; }),
+            "numerics.mass_damping_per_s");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.numerics.time_step_s = 3.5e-7; }), "numerics.time_step_s");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.material.plane = MaterialSpec::Plane::strain; }), "material.plane");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.imperfection.amplitude_mm = 0.4; }),
+            "lattice.imperfection.amplitude_mm");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.imperfection.bow_mm = 0.1; }), "lattice.imperfection.bow_mm");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.contact.friction = 0.1; }), "contact.friction");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.contact.stiffness_factor = 0.02; }), "contact.stiffness_factor");
+  EXPECT_EQ(field_beside([](SceneSpec& spec) { spec.loads.rigid_walls.emplace_back(); }), "loading.rigid_walls");
+}
+
+TEST(MeasuredErrors, HoldWhateverNamesDividesOrStoresACrush) {
+  SceneSpec spec = scenes::preset("type-i");
+  spec.title = "Another";
+  spec.depth_mm = 7.0;
+  spec.elements_per_wall = 4;
+  spec.imperfection = {0.01, 8};
+  spec.loading.end_strain = 0.45;
+  spec.material.poissons_ratio = 0.3;
+  spec.numerics.threads = 2;
+  spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
+  spec.section.axial_points = 4;
+  spec.output.sample_count = 20;
+  EXPECT_THAT(fields_beside_measured(spec), IsEmpty());
 }
 
 // A mesh that the case itself gives and that was measured has its error too; another has none.
