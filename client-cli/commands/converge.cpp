@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "case_file/case_source.h"
 #include "columns/result_columns.h"
@@ -17,10 +20,11 @@ namespace cellcrush::client {
 namespace {
 
 constexpr const char* kAmplitude = "lattice.imperfection.amplitude_mm";
+constexpr int kMostElements = 64;  // of a wall
 
 struct ConvergeOptions {
   CaseOptions scene;
-  std::vector<int> meshes = {2, 4, 8};
+  std::vector<int> meshes;
   int seeds = 5;
   double wanted_error = 0.05;
   bool only_cost = false;
@@ -28,7 +32,22 @@ struct ConvergeOptions {
   std::string request_id;
 };
 
-v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection& connection) {
+/// The mesh that a case has by itself, half of it and twice as fine; of one element a wall, up to four.
+std::vector<int> meshes_about_the_default(const v1::Case& of, Connection& connection) {
+  v1::CheckCaseRequest request;
+  *request.mutable_case_() = of;
+  const auto check = connection.call(connection.cases(), &v1::Cases::Stub::CheckCase, request, kCheckPatience);
+  if (!check.problems().empty()) {
+    v1::ProblemList problems;
+    *problems.mutable_problems() = check.problems();
+    throw problems_error(std::move(problems));
+  }
+  const int own = check.completed_case().elements_per_wall();
+  const int middle = std::clamp(own, 2, kMostElements / 2);
+  return {middle / 2, middle, 2 * middle};
+}
+
+v1::CreateSweepRequest build_request(ConvergeOptions& options, Connection& connection) {
   v1::CreateSweepRequest request;
   v1::Sweep& sweep = *request.mutable_sweep();
   sweep.set_executor(options.executor);
@@ -41,6 +60,7 @@ v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection&
                     "scatter by --seeds 1",
                     kAmplitude));
   }
+  if (options.meshes.empty()) options.meshes = meshes_about_the_default(sweep.case_(), connection);
   v1::SweepAxis& meshes = *sweep.add_axes();
   meshes.set_field("elements_per_wall");
   for (const int elements : options.meshes) meshes.mutable_list()->add_values(elements);
@@ -62,7 +82,7 @@ ExitCode show_estimates(Session& session, const std::string& name, double wanted
   return ExitCode::done;
 }
 
-ExitCode run_converge(Session& session, const ConvergeOptions& options) {
+ExitCode run_converge(Session& session, ConvergeOptions options) {
   if (names_sweep(options.scene.source)) return show_estimates(session, options.scene.source, options.wanted_error);
   Connection& connection = session.connection();
   v1::CreateSweepRequest request = build_request(options, connection);
@@ -101,9 +121,9 @@ void add_converge_command(CLI::App& app, Session& session) {
   converge->get_option("CASE")->description(
       "A case file, - for stdin, or preset:NAME; or sweeps/NAME, to print the estimates of a sweep over meshes again");
   add_option(*converge, kCaseOptions, "--meshes", options->meshes,
-             "Elements per wall of the meshes to compare (default: 2,4,8)")
+             "Elements per wall of the meshes to compare (default: those of the case, half as many and twice as many)")
       ->delimiter(',')
-      ->check(CLI::Range(1, 64));
+      ->check(CLI::Range(1, kMostElements));
   add_option(*converge, kCaseOptions, "--seeds", options->seeds,
              "Number of runs with each mesh, with seeds 1 to N of the imperfection (default: 5)")
       ->check(CLI::Range(1, 100));

@@ -8,6 +8,7 @@
 namespace cellcrush::client::testing {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 v1::Convergence convergence() {
@@ -28,6 +29,7 @@ Script converge_script() {
   script.sweeps = make_sweep_script({v1::Job::SUCCEEDED, v1::Job::SUCCEEDED});
   script.sweeps.sweep.set_predicted_seconds(12.0);
   script.sweeps.convergence = convergence();
+  script.check.mutable_completed_case()->set_elements_per_wall(8);
   return script;
 }
 
@@ -62,6 +64,33 @@ TEST(Converge, ForItsCostAloneNothingIsQueued) {
   const auto creates = server.asked().sweeps.creates;
   ASSERT_EQ(creates.size(), 1U);
   EXPECT_TRUE(creates[0].validate_only());
+}
+
+TEST(Converge, ComparesTheMeshOfTheCaseWithHalfOfItAndTwice) {
+  Script script = converge_script();
+  const auto meshes_about = [&script](int elements) {
+    script.check.mutable_completed_case()->set_elements_per_wall(elements);
+    const FakeServer server(script);
+    EXPECT_EQ(server.run(kCase).exit_code, 0);
+    EXPECT_EQ(server.asked().checked.lattice().imperfection().amplitude_mm(), 0.01);
+    const auto values = server.asked().sweeps.creates.back().sweep().axes(0).list().values();
+    return std::vector<double>(values.begin(), values.end());
+  };
+  EXPECT_THAT(meshes_about(8), ElementsAre(4.0, 8.0, 16.0));
+  EXPECT_THAT(meshes_about(1), ElementsAre(1.0, 2.0, 4.0));
+  EXPECT_THAT(meshes_about(64), ElementsAre(16.0, 32.0, 64.0));
+}
+
+TEST(Converge, ACaseWithProblemsIsRefusedWithThem) {
+  Script script = converge_script();
+  auto& problem = *script.check.add_problems();
+  problem.set_field("depth_mm");
+  problem.set_message("is missing");
+  const FakeServer server(std::move(script));
+  const ProgramResult refused = server.run(kCase);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("depth_mm"));
+  EXPECT_TRUE(server.asked().sweeps.creates.empty());
 }
 
 TEST(Converge, WithoutAnImperfectionSeedsAreRefusedWithARemedy) {
