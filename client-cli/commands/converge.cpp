@@ -32,7 +32,8 @@ struct ConvergeOptions {
   std::string request_id;
 };
 
-/// The mesh that a case has by itself, half of it and twice as fine; of one element a wall, up to four.
+/// Three meshes, each twice as fine as the one before, with the one that a case has by itself in the middle; or first,
+/// since walls of one element fold onto each other, or last.
 std::vector<int> meshes_about_the_default(const v1::Case& of, Connection& connection) {
   v1::CheckCaseRequest request;
   *request.mutable_case_() = of;
@@ -43,8 +44,9 @@ std::vector<int> meshes_about_the_default(const v1::Case& of, Connection& connec
     throw problems_error(std::move(problems));
   }
   const int own = check.completed_case().elements_per_wall();
-  const int middle = std::clamp(own, 2, kMostElements / 2);
-  return {middle / 2, middle, 2 * middle};
+  if (own < 4) return {own, 2 * own, 4 * own};
+  if (own > kMostElements / 2) return {own / 4, own / 2, own};
+  return {own / 2, own, 2 * own};
 }
 
 v1::CreateSweepRequest build_request(ConvergeOptions& options, Connection& connection) {
@@ -121,7 +123,7 @@ void add_converge_command(CLI::App& app, Session& session) {
   converge->get_option("CASE")->description(
       "A case file, - for stdin, or preset:NAME; or sweeps/NAME, to print the estimates of a sweep over meshes again");
   add_option(*converge, kCaseOptions, "--meshes", options->meshes,
-             "Elements per wall of the meshes to compare (default: those of the case, half as many and twice as many)")
+             "Elements per wall of the meshes to compare (default: those of the case, and twice or half as many)")
       ->delimiter(',')
       ->check(CLI::Range(1, kMostElements));
   add_option(*converge, kCaseOptions, "--seeds", options->seeds,

@@ -66,7 +66,7 @@ TEST(Converge, ForItsCostAloneNothingIsQueued) {
   EXPECT_TRUE(creates[0].validate_only());
 }
 
-TEST(Converge, ComparesTheMeshOfTheCaseWithHalfOfItAndTwice) {
+TEST(Converge, ComparesMeshesAboutThatOfTheCase) {
   Script script = converge_script();
   const auto meshes_about = [&script](int elements) {
     script.check.mutable_completed_case()->set_elements_per_wall(elements);
@@ -77,7 +77,8 @@ TEST(Converge, ComparesTheMeshOfTheCaseWithHalfOfItAndTwice) {
     return std::vector<double>(values.begin(), values.end());
   };
   EXPECT_THAT(meshes_about(8), ElementsAre(4.0, 8.0, 16.0));
-  EXPECT_THAT(meshes_about(1), ElementsAre(1.0, 2.0, 4.0));
+  EXPECT_THAT(meshes_about(2), ElementsAre(2.0, 4.0, 8.0));
+  EXPECT_THAT(meshes_about(3), ElementsAre(3.0, 6.0, 12.0));
   EXPECT_THAT(meshes_about(64), ElementsAre(16.0, 32.0, 64.0));
 }
 
