@@ -69,6 +69,10 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
                                                 : "not reached",
              of_theory ? number_text(summary.theory().densification_strain()) : "",
              of_theory ? "1 - 1.4 relative density" : ""});
+  if (summary.has_other_rise_strain()) {
+    table.add({"other lasting rise of the stress", number_text(summary.other_rise_strain()), "",
+               printable(summary.other_rise_words())});
+  }
   if (summary.has_plateau_stress_to_densification_mpa()) {
     table.add({"plateau stress to densification", stress_text(summary.plateau_stress_to_densification_mpa())});
   }

@@ -5,6 +5,7 @@
 #include "cellcrush/simulation.h"
 #include "measure/curve.h"
 #include "measure/inertia.h"
+#include "measure/lasting_rise.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
 #include "scene/solid_area.h"
@@ -214,8 +215,11 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
   if (summary.plateau_stress_support) {
     summary.front = summarize_front(scene, samples, *summary.plateau_stress_support);
   }
-  summary.densification_strain = find_densification(curve_of_both_plates(samples));
-  if (summary.densification_strain) {
+  const std::optional<LastingRise> rise = find_lasting_rise(scene, samples);
+  if (rise && rise->kind != RiseKind::densification) {
+    summary.other_rise = rise;
+  } else if (rise) {
+    summary.densification_strain = rise->strain;
     summary.plateau_stress_to_densification = impact.mean(0.0, *summary.densification_strain);
     summary.solid_fraction_at_densification = solid_fraction_at(scene, *summary.densification_strain);
   }

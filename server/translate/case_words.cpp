@@ -215,6 +215,15 @@ const char* words_of(v1::Summary::CrushMode mode) {
   }
 }
 
+const char* words_of(v1::Summary::OtherRise rise) {
+  switch (rise) {
+    case v1::Summary::OTHER_RISE_HARDENING: return "hardening of the walls";
+    case v1::Summary::OTHER_RISE_SECOND_COLLAPSE: return "second collapse";
+    case v1::Summary::OTHER_RISE_STIFFENING: return "stiffening of the lattice";
+    default: return "";
+  }
+}
+
 std::string end_words_of(const v1::Summary& summary) {
   switch (summary.end()) {
     case v1::Summary::END_STRAIN: return "at the end strain";
@@ -238,6 +247,7 @@ void add_words(v1::Job& job) {
   v1::Summary& summary = *job.mutable_summary();
   summary.set_crush_mode_words(words_of(summary.crush_mode()));
   summary.set_end_words(end_words_of(summary));
+  summary.set_other_rise_words(words_of(summary.other_rise()));
 }
 
 void add_words(v1::ListJobsResponse& jobs) {

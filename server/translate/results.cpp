@@ -82,6 +82,16 @@ v1::Summary::CrushMode to_proto(CrushMode mode) {
   return v1::Summary::CRUSH_MODE_UNSPECIFIED;
 }
 
+v1::Summary::OtherRise to_proto(RiseKind kind) {
+  switch (kind) {
+    case RiseKind::densification: return v1::Summary::OTHER_RISE_UNSPECIFIED;
+    case RiseKind::hardening: return v1::Summary::OTHER_RISE_HARDENING;
+    case RiseKind::second_collapse: return v1::Summary::OTHER_RISE_SECOND_COLLAPSE;
+    case RiseKind::stiffening: return v1::Summary::OTHER_RISE_STIFFENING;
+  }
+  return v1::Summary::OTHER_RISE_UNSPECIFIED;
+}
+
 v1::StageTimes to_proto(const std::array<double, kStageCount>& seconds) {
   v1::StageTimes out;
   const auto set = setter_of(out);
@@ -198,6 +208,10 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& 
   out.set_plateau_window_low(Summary::kPlateauLow);
   out.set_plateau_window_high(Summary::kPlateauHigh);
   if (summary.densification_strain) out.set_densification_strain(*summary.densification_strain);
+  if (summary.other_rise) {
+    out.set_other_rise(to_proto(summary.other_rise->kind));
+    out.set_other_rise_strain(summary.other_rise->strain);
+  }
   if (summary.plateau_stress_to_densification)
     out.set_plateau_stress_to_densification_mpa(*summary.plateau_stress_to_densification);
   out.set_absorbed_energy_mj(summary.absorbed_energy);

@@ -286,7 +286,7 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       // Of a job to be updated: of these, the daemon reads its name only.
       "Job.name", "Job.LabelsEntry.key", "Job.LabelsEntry.value", "Job.cause_message", "Job.executor", "Job.owner",
       "Job.place", "Job.remedy", "Job.retry_of", "Job.sweep", "Job.title", "Summary.crush_mode_words",
-      "Summary.end_words",
+      "Summary.end_words", "Summary.other_rise_words",
       "Warning.message", "Warning.remedy",
       // Of a sweep: paths of fields in a case, and what the daemon writes itself and takes from nobody.
       "SweepAxis.field", "SweepPoint.FieldsEntry.key", "Sweep.name", "Sweep.jobs", "Sweep.owner",

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "measure/curve.h"
+#include "measure/lasting_rise.h"
 
 namespace cellcrush::validation {
 namespace {
@@ -73,7 +74,7 @@ std::vector<Peak> find_salient_peaks(std::span<const Sample> samples, double las
 Course find_course(std::span<const Sample> samples) {
   const Curve curve(samples, &Sample::stress_impact);
   const Sample& last = samples.back();
-  const auto onset = find_densification(curve_of_both_plates(samples));
+  const auto onset = find_onset(curve_of_both_plates(samples));
   Course course;
   course.densified = onset.has_value();
   course.densification = onset.value_or(last.strain);

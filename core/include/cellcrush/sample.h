@@ -40,6 +40,20 @@ enum class CrushMode {
   mixed,  ///< none of these
 };
 
+/// What a lasting rise of the stress is; measure/lasting_rise.h has the definitions.
+enum class RiseKind {
+  densification,    ///< of a dense lattice
+  hardening,        ///< of walls whose material hardens, without a collapse before
+  second_collapse,  ///< of a lattice that has collapsed before: folded rows fold once more
+  stiffening,       ///< none of these: the geometry of the lattice
+};
+
+/// A rise of the stress after the plateau that lasts to the end of the run.
+struct LastingRise {
+  RiseKind kind = RiseKind::densification;
+  double strain = 0.0;  ///< onset
+};
+
 /// The jump across the front of a fast crush, from the motion of the cells; measure/layers.h defines when there is one.
 struct Front {
   double position = 0.0;         ///< mm of the undeformed length, from the impact end
@@ -207,7 +221,8 @@ struct Summary {
   std::optional<double> inertia_share;
   std::optional<double> plateau_stress_impact;  ///< MPa; absent if the run ended before the end of the range
   std::optional<double> plateau_stress_support;
-  std::optional<double> densification_strain;             ///< onset; absent without a lasting rise (measure/curve.h)
+  std::optional<double> densification_strain;             ///< onset; absent without a lasting rise of a dense lattice
+  std::optional<LastingRise> other_rise;                  ///< one that is not densification
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate
   std::optional<double> solid_fraction_at_densification;  ///< Sample::solid_fraction there
   double absorbed_energy = 0.0;  ///< N mm, work of the impact plate up to 50 % strain or valid_to_strain
