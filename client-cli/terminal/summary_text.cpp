@@ -65,6 +65,7 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   const bool of_theory = theory && summary.theory().densification_strain() > 0.0;
   table.add({"densification strain",
              summary.has_densification_strain() ? number_text(summary.densification_strain())
+             : summary.has_other_rise_strain()  ? "none"
              : has_closed(summary)              ? "closed before"
                                                 : "not reached",
              of_theory ? number_text(summary.theory().densification_strain()) : "",

@@ -72,6 +72,8 @@ v1::Summary read_summary(hid_t file) {
     out.set_shock_error_relative(read_number_attribute(file, "theory_shock_error_relative"));
   v1::Summary::CrushMode mode{};
   if (v1::Summary::CrushMode_Parse("CRUSH_MODE_" + text_or_empty(file, "crush_mode"), &mode)) out.set_crush_mode(mode);
+  v1::Summary::OtherRise rise{};
+  if (v1::Summary::OtherRise_Parse("OTHER_RISE_" + text_or_empty(file, "other_rise"), &rise)) out.set_other_rise(rise);
   read_part(file, "theory_", out, &v1::Summary::mutable_theory);
   read_part(file, "front_", out, &v1::Summary::mutable_front);
   read_part(file, "quasi_static_", out, &v1::Summary::mutable_quasi_static);

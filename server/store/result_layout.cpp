@@ -96,6 +96,11 @@ std::string mode_name(v1::Summary::CrushMode mode) {
   return v1::Summary::CrushMode_Name(mode).substr(kPrefix);
 }
 
+std::string rise_name(v1::Summary::OtherRise rise) {
+  constexpr std::size_t kPrefix = std::string_view("OTHER_RISE_").size();
+  return v1::Summary::OtherRise_Name(rise).substr(kPrefix);
+}
+
 // An attribute for each double of the message that is present.
 void write_numbers(hid_t file, const std::string& prefix, const google::protobuf::Message& message) {
   const auto& descriptor = *message.GetDescriptor();
@@ -110,6 +115,8 @@ void write_numbers(hid_t file, const std::string& prefix, const google::protobuf
 
 void write_collapse(hid_t file, const v1::Summary& summary) {
   write_attribute(file, "crush_mode", mode_name(summary.crush_mode()));
+  if (summary.other_rise() != v1::Summary::OTHER_RISE_UNSPECIFIED)
+    write_attribute(file, "other_rise", rise_name(summary.other_rise()));
   if (summary.has_shock_error_relative())
     write_attribute(file, "theory_shock_error_relative", summary.shock_error_relative());
   if (summary.has_front()) write_numbers(file, "front_", summary.front());

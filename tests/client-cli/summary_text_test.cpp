@@ -44,6 +44,15 @@ TEST(SummaryText, SaysHowSteadyASlowCrushWasAndNothingOfAFastOne) {
   EXPECT_THAT(summary_text(job, 120), Not(HasSubstr("plate stress difference")));
 }
 
+TEST(SummaryText, NamesALastingRiseThatIsNotDensification) {
+  const auto job = from_text<v1::Job>(R"(words { plates: true } summary {
+    other_rise: OTHER_RISE_SECOND_COLLAPSE other_rise_strain: 0.798 other_rise_words: "second collapse" })");
+  const std::string text = summary_text(job, 120);
+  EXPECT_THAT(text, ContainsRegex("densification strain +none"));
+  EXPECT_THAT(text, ContainsRegex("other lasting rise of the stress +0.798 +second collapse"));
+  EXPECT_THAT(summary_text(from_text<v1::Job>("words { plates: true } summary {}"), 120), Not(HasSubstr("rise")));
+}
+
 TEST(SummaryText, NamesWarningsWithTheirRemedies) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("summary {}"), 120), Not(HasSubstr("Warning")));
   const std::string text = summary_text(from_text<v1::Job>(R"(summary { warnings { kind: DEEP_PENETRATION

@@ -76,6 +76,7 @@ class ResultFileTest : public ::testing::Test {
     }
     const auto summary = testing::from_text<v1::Summary>(R"(
       plateau_stress_impact_mpa: 3.25 step_count: 12345 energy_error_relative: 0.01 crush_mode: CRUSH_MODE_V
+      other_rise: OTHER_RISE_SECOND_COLLAPSE other_rise_strain: 0.7
       front { shock_mpa: 3.3 } ledger { contact_damping_mj: 7.5 } stage_times { find_contacts_s: 0.25 })");
     v1::Job job = testing::from_text<v1::Job>(R"(name: "jobs/7" state: SUCCEEDED owner: "ann" attempt: 1)");
     *job.mutable_case_() = testing::small_case();
@@ -148,6 +149,8 @@ TEST_F(ResultFileTest, SaysWhatItIsAndWhatCameOut) {
   EXPECT_EQ(number_attribute(file_.id(), "plateau_stress_impact_mpa"), 3.25);
   EXPECT_GT(H5Aexists(file_.id(), "energy_error_relative"), 0);
   EXPECT_EQ(reader.text_attribute("crush_mode"), "V");
+  EXPECT_EQ(reader.text_attribute("other_rise"), "SECOND_COLLAPSE");
+  EXPECT_EQ(number_attribute(file_.id(), "other_rise_strain"), 0.7);
   EXPECT_EQ(number_attribute(file_.id(), "front_shock_mpa"), 3.3);
   EXPECT_EQ(number_attribute(file_.id(), "ledger_contact_damping_mj"), 7.5);
   EXPECT_EQ(number_attribute(file_.id(), "stage_find_contacts_s"), 0.25);

@@ -319,6 +319,7 @@ TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
   summary.theory.shock = 2.2;
   summary.crush_mode = CrushMode::v;
   summary.crush_mode_strain = 0.12;
+  summary.other_rise = LastingRise{RiseKind::second_collapse, 0.71};
   summary.front = FrontSummary{{0.0, 0.9, 0.1, 1e5, 2e3, 1.1, 1.05}, 0.4, 1.9, 0.75};
   summary.quasi_static = QuasiStatic{0.01, 0.02, 0.003};
   Sample last;
@@ -329,6 +330,8 @@ TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
   const auto out = translate::to_proto(summary, last, {1.5, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}});
   EXPECT_EQ(out.crush_mode(), v1::Summary::CRUSH_MODE_V);
   EXPECT_EQ(out.crush_mode_strain(), 0.12);
+  EXPECT_EQ(out.other_rise(), v1::Summary::OTHER_RISE_SECOND_COLLAPSE);
+  EXPECT_EQ(out.other_rise_strain(), 0.71);
   EXPECT_NEAR(out.shock_error_relative(), 0.1, 1e-12);
   EXPECT_NEAR(out.front().shock_error_relative(), -0.05, 1e-12);
   EXPECT_EQ(out.front().velocity_behind_m_per_s(), 100.0);

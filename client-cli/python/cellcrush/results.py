@@ -44,6 +44,7 @@ class Results(ABC):
         for label, name, unit in (("plateau at the impact plate", "plateau_stress_impact_mpa", "MPa"),
                                   ("plateau at the support plate", "plateau_stress_support_mpa", "MPa"),
                                   ("densification strain", "densification_strain", ""),
+                                  ("other lasting rise of the stress", "other_rise_strain", ""),
                                   ("valid to strain", "valid_to_strain", ""),
                                   ("inertia's share of the work", "inertia_share", "")):
             value = getattr(self.summary, name)

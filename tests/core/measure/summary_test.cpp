@@ -1,18 +1,24 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cellcrush/convergence.h"
 #include "cellcrush/simulation.h"
 #include "measure/curve.h"
+#include "measure/lasting_rise.h"
 #include "measure/theory.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 
 namespace cellcrush {
 namespace {
@@ -150,9 +156,12 @@ TEST_F(SummaryTest, SolidFractionAtDensificationFollowsFromTheStrain) {
   std::vector<Sample> samples = steady_samples();
   for (Sample& sample : samples) {
     if (sample.strain > 0.5) sample.stress_impact = sample.stress_support = 1.0 + 50.0 * (sample.strain - 0.5);
+    sample.densest_layer.solid_fraction = 0.5;
+    sample.contact_count = static_cast<std::int64_t>(scene_->walls.start.size());
   }
   const Summary summary = summarize(*scene_, samples);
   ASSERT_TRUE(summary.densification_strain && summary.solid_fraction_at_densification);
+  EXPECT_FALSE(summary.other_rise);
   EXPECT_NEAR(*summary.solid_fraction_at_densification,
               scene_->solid_area / (scene_->length * scene_->width * (1.0 - *summary.densification_strain)), 1e-12);
 }
@@ -237,7 +246,7 @@ std::vector<Sample> drawn(const Stress& impact, const Stress& support, double en
 }
 
 std::optional<double> onset_of(std::span<const Sample> samples) {
-  return find_densification(curve_of_both_plates(samples));
+  return find_onset(curve_of_both_plates(samples));
 }
 
 std::optional<double> onset_of(const Stress& both, double end, int count = 800) {
@@ -304,6 +313,96 @@ TEST(Densification, IsNotReachedByAPlateauNorByARunThatEndsInARise) {
   EXPECT_FALSE(onset_of([](double) { return 0.0; }, 0.8));
   EXPECT_FALSE(onset_of(flat_then_steep(0.1), 0.19)) << "before the plateau is looked for";
   EXPECT_FALSE(onset_of([](double e) { return std::sin(20.0 * e); }, 0.8)) << "stresses of both signs";
+}
+
+TEST(Densification, BeginsWhereTheLatticeIsDense) {
+  const Curve curve = curve_of_both_plates(drawn(flat_then_steep(0.6), flat_then_steep(0.6), 0.8));
+  const auto dense_from = [&](double strain) { return find_rise(curve, [=](double e) { return e >= strain; }); };
+  EXPECT_NEAR(dense_from(0.3)->onset, 0.6, 0.008) << "by the curve";
+  EXPECT_NEAR(dense_from(0.7)->onset, 0.7, 0.002);
+  EXPECT_TRUE(dense_from(0.7)->is_dense);
+  EXPECT_FALSE(dense_from(0.9)->is_dense);
+  EXPECT_NEAR(dense_from(0.9)->onset, 0.6, 0.008) << "of the other rise, by the curve";
+  EXPECT_FALSE(dense_from(0.9)->has_fallen);
+}
+
+TEST(Densification, OfALatticeThatCollapsedBeforeIsTold) {
+  const Stress falls = [](double e) { return e > 0.4 && e < 0.5 ? 0.8 : flat_then_steep(0.6)(e); };
+  const auto rise = find_rise(curve_of_both_plates(drawn(falls, falls, 0.8)), [](double) { return false; });
+  ASSERT_TRUE(rise);
+  EXPECT_TRUE(rise->has_fallen);
+}
+
+/// Lasting rises of hexagons of 4 mm, by what they are.
+struct NamedRise {
+  const char* name;
+  int columns;
+  double slenderness;  // h/L
+  double hardening;    // MPa
+  LoadingSpec::Direction direction;
+  double speed;  // m/s
+  double end;
+  RiseKind kind;
+};
+class LastingRiseOfACrush : public testing::TestWithParam<NamedRise> {};
+
+TEST_P(LastingRiseOfACrush, IsDensificationOnlyIfItIsDense) {
+  const NamedRise& of = GetParam();
+  SceneSpec spec = scenes::hexagon_specimen(of.columns, 7);
+  spec.lattice = scenes::hexagons(of.columns, 7, 4.0, 4.0 * of.slenderness, 4.0 * of.slenderness);
+  spec.material.hardening_modulus_mpa = of.hardening;
+  spec.imperfection = {.amplitude_mm = 0.01, .seed = 1};
+  spec.loading.direction = of.direction;
+  spec.loading.speed_m_per_s = of.speed;
+  spec.loading.end_strain = of.end;
+  const auto scene = scenes::build(spec);
+  const std::vector<Sample> samples = scenes::run_frame(spec);
+  const auto by_curve = onset_of(samples);
+  ASSERT_TRUE(by_curve) << "the curve cannot tell";
+  const Summary summary = summarize(*scene, samples);
+  ASSERT_NE(summary.densification_strain.has_value(), summary.other_rise.has_value());
+  if (of.kind == RiseKind::densification) {
+    ASSERT_TRUE(summary.densification_strain);
+    EXPECT_NEAR(*summary.densification_strain, *by_curve, 1e-12);
+    EXPECT_GE(*summary.solid_fraction_at_densification, kDenseLattice);
+    scenes::record_figure(of.name + std::string(": solid fraction at densification"),
+                          *summary.solid_fraction_at_densification, 2);
+    return;
+  }
+  ASSERT_TRUE(summary.other_rise);
+  EXPECT_EQ(summary.other_rise->kind, of.kind);
+  EXPECT_NEAR(summary.other_rise->strain, *by_curve, 1e-12);
+  EXPECT_FALSE(summary.plateau_stress_to_densification);
+  const auto at = std::ranges::lower_bound(samples, *by_curve, {}, &Sample::strain);
+  scenes::record_figure(of.name + std::string(": contacts per wall at the rise"),
+                        static_cast<double>(at->contact_count) / static_cast<double>(scene->walls.start.size()), 2);
+  scenes::record_figure(of.name + std::string(": solid fraction at the rise"), at->solid_fraction, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, LastingRiseOfACrush,
+    testing::Values(NamedRise{"thick hexagons", 20, 0.0866, 0.0, LoadingSpec::Direction::y, 10.0, 0.86,
+                              RiseKind::densification},
+                    NamedRise{"hardening hexagons", 12, 0.05, 6900.0, LoadingSpec::Direction::x, 20.0, 0.8,
+                              RiseKind::hardening},
+                    NamedRise{"thin hexagons", 12, 0.02, 0.0, LoadingSpec::Direction::y, 10.0, 0.8,
+                              RiseKind::second_collapse}),
+    [](const testing::TestParamInfo<NamedRise>& of) {
+      const std::string name = of.param.name;
+      return name.substr(0, name.find(' '));
+    });
+
+TEST(LastingRise, WithoutHardeningAndCollapseIsStiffening) {
+  SceneSpec spec = scenes::hexagon_specimen(12, 7);
+  std::vector<Sample> samples = drawn(flat_then_steep(0.6), flat_then_steep(0.6), 0.8);
+  for (Sample& sample : samples) sample.densest_layer.solid_fraction = 0.5;  // dense, but no walls touch
+  EXPECT_EQ(find_lasting_rise(*scenes::build(spec), samples)->kind, RiseKind::stiffening);
+  spec.material.hardening_modulus_mpa = 690.0;
+  EXPECT_EQ(find_lasting_rise(*scenes::build(spec), samples)->kind, RiseKind::hardening);
+  for (Sample& sample : samples) sample.contact_count = 1000;
+  EXPECT_EQ(find_lasting_rise(*scenes::build(spec), samples)->kind, RiseKind::densification);
+  for (Sample& sample : samples) sample.densest_layer.solid_fraction = 0.14;
+  EXPECT_EQ(find_lasting_rise(*scenes::build(spec), samples)->kind, RiseKind::hardening) << "no layer is dense";
 }
 
 /// A crush of a small specimen.

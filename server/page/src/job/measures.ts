@@ -18,7 +18,7 @@ export interface Measure {
 function pathsOf(schema: DescMessage, prefix = ""): string[] {
   return schema.fields.flatMap((field) => {
     if (field.fieldKind === "message") return pathsOf(field.message, `${prefix}${field.name}.`);
-    return field.fieldKind === "scalar" && field.name !== "crush_mode_words" ? [prefix + field.name] : [];
+    return field.fieldKind === "scalar" && !field.name.endsWith("_words") ? [prefix + field.name] : [];
   });
 }
 
@@ -36,7 +36,7 @@ const kWords: Record<string, string> = {
   plateau_stress_impact_mpa: "Impact plateau", plateau_stress_support_mpa: "Support plateau",
   "theory.shock_mpa": "Shock theory (Eq. 51)", "theory.gibson_ashby_mpa": "Gibson-Ashby",
   densification_strain: "Densification strain", valid_to_strain: "Valid to strain",
-  absorbed_energy_mj: "Absorbed energy",
+  other_rise_strain: "Other lasting rise of the stress", absorbed_energy_mj: "Absorbed energy",
   energy_error_relative: "Ledger error", plateau_stress_to_densification_mpa: "Mean stress to densification",
   "front.shock_mpa": "Shock theory, measured jumps (Eq. 52)",
   "theory.densification_strain": "Densification strain, theory",

@@ -27,8 +27,12 @@ export function resultsList(s: Summary, note: string): HTMLElement {
     add("Plateau stress, support plate", "plateau_stress_support_mpa", quantity(s.plateauStressSupportMpa, "MPa"),
         compared(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby"));
     add("Densification strain", "densification_strain", strainText(s.densificationStrain),
-        s.densificationStrain === undefined ? "no lasting rise of the stress before the lattice closed or the run ended"
-          : "");
+        s.densificationStrain !== undefined ? ""
+          : s.otherRiseStrain !== undefined ? "the lasting rise of the stress is another"
+          : "no lasting rise of the stress before the lattice closed or the run ended");
+    if (s.otherRiseStrain !== undefined) {
+      add("Other lasting rise", "other_rise_strain", strainText(s.otherRiseStrain), s.otherRiseWords);
+    }
   }
   if (s.validToStrain !== undefined) {
     add("Valid to strain", "valid_to_strain", strainText(s.validToStrain),
