@@ -55,11 +55,13 @@ PlateCurves smoothed(const PlateCurves& raw) {
 double last_strain(const PlateCurves& curves) { return curves.strain.empty() ? 0.0 : curves.strain.back(); }
 
 // The upper end of the stress axis. It follows the plateau: neither the first wave, which is far higher in a fast
-// crush, nor the stress after densification.
+// crush, nor the stress after a lasting rise.
 double find_top(const JobHistory& history, const PlateCurves& smooth) {
   constexpr double kFirstWave = 0.1;
   const v1::Summary& summary = history.job.summary();
-  const double solid = std::min(summary.has_densification_strain() ? summary.densification_strain() : 0.65,
+  const double solid = std::min(summary.has_densification_strain() ? summary.densification_strain()
+                                : summary.has_other_rise_strain()  ? summary.other_rise_strain()
+                                                                   : 0.65,
                                 summary.has_valid_to_strain() ? summary.valid_to_strain() : 1.0);
   std::vector<double> crushing;
   for (std::size_t i = 0; i < smooth.strain.size(); ++i) {
@@ -91,11 +93,14 @@ void add_closed_band(Chart& chart, const v1::Summary& summary, double end) {
     chart.bands.push_back({summary.valid_to_strain(), end, "closed"});
 }
 
-// Densification, and the first of each kind of warning that puts the result in doubt.
+// Densification or another lasting rise, and the first of each kind of warning that puts the result in doubt.
 void add_marks(Chart& chart, const v1::Summary& summary, const Colour& colour) {
   if (summary.has_densification_strain()) {
     const double strain = summary.densification_strain();
     chart.marks.push_back({strain, "densification " + number_text(strain, 2), colour});
+  } else if (summary.has_other_rise_strain()) {
+    const double strain = summary.other_rise_strain();
+    chart.marks.push_back({strain, summary.other_rise_words() + " " + number_text(strain, 2), colour});
   }
   for (const v1::Warning& warning : summary.warnings()) {
     // Borders cost time only; a chart of one job has a band where it is closed.

@@ -213,6 +213,10 @@ TEST(JobChart, TheStressAxisFollowsThePlateauAndAnArrowSaysHowHighTheFirstWaveGo
   ASSERT_FALSE(chart.bands.empty());
   EXPECT_EQ(chart.bands.back().text, "closed");
   EXPECT_NEAR(chart.bands.back().from, 0.72, 1e-12);
+  summary.clear_densification_strain();
+  summary.set_other_rise_strain(0.62);
+  summary.set_other_rise_words("second collapse");
+  EXPECT_EQ(build_job_chart(history).marks[0].text, "second collapse 0.62");
   EXPECT_NEAR(chart.bands.back().to, 0.8, 1e-12);
   EXPECT_THAT(chart.note, HasSubstr("Eq. 52: no front"));
   EXPECT_GT(chart.y.high, 3.4);

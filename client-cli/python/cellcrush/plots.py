@@ -94,6 +94,9 @@ def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None,
     if summary.densification_strain is not None:
         ax.axvline(summary.densification_strain, color=GREY, linewidth=0.6, linestyle=":",
                    label=f"densification {summary.densification_strain:.3g}")
+    if summary.other_rise_strain is not None:
+        ax.axvline(summary.other_rise_strain, color=GREY, linewidth=0.6, linestyle=":",
+                   label=f"{summary.other_rise_words} {summary.other_rise_strain:.3g}")
     _, end = ax.get_xlim()
     if summary.valid_to_strain is not None and summary.valid_to_strain < end:
         ax.axvspan(summary.valid_to_strain, end, color=GREY, alpha=0.15, linewidth=0, label="closed")

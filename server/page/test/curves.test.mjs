@@ -39,6 +39,8 @@ test("a chart of stresses marks densification and where it is in doubt", () => {
   const summary = create(SummarySchema, { densificationStrain: 0.6, warnings });
   assert.deepEqual(stressChart([], strainAxis(0.8), summary, undefined, "").marks,
                    [{ at: 0.6, label: "densification" }, { at: 0.3, label: "in doubt: walls neck" }]);
+  const other = create(SummarySchema, { otherRiseStrain: 0.7, otherRiseWords: "second collapse" });
+  assert.deepEqual(stressChart([], strainAxis(0.8), other, undefined, "").marks, [{ at: 0.7, label: "second collapse" }]);
 });
 
 test("numbers have three significant digits, times a unit", () => {

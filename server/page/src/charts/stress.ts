@@ -23,7 +23,7 @@ export function smoothedStress(samples: Sample[], axis: Axis): StressCurves {
 /** The upper end of the stress axis: it follows the plateau, not the first wave nor the densified specimen. */
 export function stressTop(smooth: StressCurves, summary: Summary | undefined, theory: Theory | undefined): number {
   const last = smooth.strain[smooth.strain.length - 1] ?? 0;
-  const solid = Math.min(summary?.densificationStrain ?? 0.65, summary?.validToStrain ?? 1);
+  const solid = Math.min(summary?.densificationStrain ?? summary?.otherRiseStrain ?? 0.65, summary?.validToStrain ?? 1);
   const crushing: number[] = [];
   smooth.strain.forEach((strain, i) => {
     const inFirstWave = strain < kFirstWave && last > 2 * kFirstWave;
@@ -60,10 +60,13 @@ export function closedBands(samples: Sample[], axis: Axis, summary: Summary | un
   return last > from ? [{ from, to: last, label: "closed" }] : [];
 }
 
-/** Densification, and where warnings put the result in doubt. */
+/** Densification or another lasting rise, and where warnings put the result in doubt. */
 function marksOf(summary: Summary | undefined): Mark[] {
   const densification = summary?.densificationStrain;
   const marks: Mark[] = densification === undefined ? [] : [{ at: densification, label: "densification" }];
+  if (summary?.otherRiseStrain !== undefined) {
+    marks.push({ at: summary.otherRiseStrain, label: summary.otherRiseWords });
+  }
   for (const { kind, strain } of summary?.warnings ?? []) {
     // Borders cost time only; what is closed is a band.
     if (kind === Warning_Kind.BORDERS_NEAR || kind === Warning_Kind.CLOSED || strain <= 0) continue;
