@@ -139,6 +139,16 @@ void add_inertia_row(Table& table, const v1::Summary& summary) {
              "largest kinetic energy on the plateau"});
 }
 
+void add_fibre_strain_row(Table& table, const v1::Summary& summary, bool plates) {
+  if (!summary.has_fibre_strain()) return;
+  const v1::FibreStrain& found = summary.fibre_strain();
+  const std::string when = plates ? fmt::format("strain {:.3g}", found.nominal_strain())
+                                  : quantity_text(found.time_s(), "s");
+  table.add({"largest fibre strain", percent_text(found.largest(), 2), "",
+             fmt::format("wall {}, at ({:.4g}, {:.4g}) mm before loading, at {}", found.wall(), found.x_mm(),
+                         found.y_mm(), when)});
+}
+
 std::string warning_text(const v1::Warning& warning, int width) {
   return wrapped(fmt::format("Warning ({}): {}", v1::Warning::Kind_Name(warning.kind()), printable(warning.message())),
                  width, "  ", "    ") +
@@ -177,6 +187,7 @@ std::string summary_text(const v1::Job& job, int width) {
     add_quasi_static_rows(table, summary);
     add_inertia_row(table, summary);
   }
+  add_fibre_strain_row(table, summary, plates);
   if (summary.has_valid_to_time_s()) {
     table.add(
         {"valid to time", quantity_text(summary.valid_to_time_s(), "s"), "", "the frame is closed from there on"});

@@ -12,6 +12,7 @@
 #include "contact/contact_search.h"
 #include "energy/ledger.h"
 #include "measure/crush_mode.h"
+#include "measure/fibre_strain.h"
 #include "measure/layers.h"
 #include "measure/warnings.h"
 #include "scene/solid_area.h"
@@ -209,6 +210,9 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.energy_contact_stored = state.contact_totals.stored;
   sample.deepest_penetration = state.contact_totals.deepest_penetration;
   sample.contact_count = state.contact_totals.count;
+  const WallStrain largest = find_largest_fibre_strain(scene, state);
+  sample.largest_fibre_strain = largest.strain;
+  sample.most_strained_wall = largest.wall;
   find_warnings(scene, state, sample);
   measure_watched(scene, state, sample);
   measure_rigid_walls(scene, state, sample);
@@ -231,6 +235,7 @@ void make_frame(const Scene& scene, const State& state, int index, FieldFrame& f
     frame.plastic_fraction[place.element] = static_cast<float>(
         scene.single_fibres ? yielded.of(state.single_fibres, place) : yielded.of(state.fibres, place));
   });
+  evaluate_fibre_strains(scene, state, frame.fibre_strain);
 }
 
 }  // namespace cellcrush

@@ -66,7 +66,8 @@ class Sampler {
   double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 
-/// Overwrites a frame with the positions and, for each element, the fraction of the section area that has yielded.
+/// Overwrites a frame with the positions, the fraction of the section area of each element that has yielded, and the
+/// largest fibre strain of each wall.
 /// REQUIRES: the frame is empty or of the same scene.
 void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame);
 

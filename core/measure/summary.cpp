@@ -105,9 +105,21 @@ std::optional<QuasiStatic> find_quasi_static(std::span<const Sample> samples, co
   return found;
 }
 
-/// The samples until the lattice is closed.
-std::span<const Sample> before_closing(const Scene& scene, std::span<const Sample> samples) {
-  const auto past = [&scene](const Sample& sample) { return is_past_closing(scene, sample.strain); };
+std::optional<LargestFibreStrain> find_fibre_strain(const Scene& scene, std::span<const Sample> samples) {
+  const auto most = std::ranges::max_element(samples, {}, &Sample::largest_fibre_strain);
+  if (most == samples.end() || !(most->largest_fibre_strain > 0.0)) return std::nullopt;
+  const auto wall = static_cast<std::size_t>(most->most_strained_wall);
+  const Vector2 middle = 0.5 * (scene.position[scene.walls.start[wall]] + scene.position[scene.walls.end[wall]]);
+  return LargestFibreStrain{most->largest_fibre_strain, most->most_strained_wall, middle.x(), middle.y(), most->strain,
+                            most->time};
+}
+
+/// The samples until the lattice is closed, or the frame at `closed_step`.
+std::span<const Sample> before_closing(const Scene& scene, std::span<const Sample> samples,
+                                       std::optional<std::int64_t> closed_step) {
+  const auto past = [&](const Sample& sample) {
+    return scene.plates.present ? is_past_closing(scene, sample.strain) : closed_step && sample.step >= *closed_step;
+  };
   const auto end = std::ranges::find_if(samples, past);
   return samples.first(static_cast<std::size_t>(end - samples.begin()));
 }
@@ -197,15 +209,15 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
   summary.energy_error_relative = energy_error_of(all);
   summary.warnings = collect_warnings(scene, all);
   summary.inertia_share = find_inertia_share(scene, all);
-  if (!scene.plates.present) {
-    const auto closed = std::ranges::find(summary.warnings, Warning::Kind::closed, &Warning::kind);
-    if (closed != summary.warnings.end()) {
-      summary.valid_to_time = static_cast<double>(closed->step) * scene.schedule.time_step;
-    }
-    return summary;
+  std::optional<std::int64_t> closed_step;
+  const auto closed = std::ranges::find(summary.warnings, Warning::Kind::closed, &Warning::kind);
+  if (!scene.plates.present && closed != summary.warnings.end()) {
+    closed_step = closed->step;
+    summary.valid_to_time = static_cast<double>(closed->step) * scene.schedule.time_step;
   }
-  const std::span<const Sample> samples = before_closing(scene, all);
-  if (samples.empty()) {
+  const std::span<const Sample> samples = before_closing(scene, all, closed_step);
+  summary.fibre_strain = find_fibre_strain(scene, samples);
+  if (!scene.plates.present || samples.empty()) {
     return summary;
   }
   const Curve impact(samples, &Sample::stress_impact);

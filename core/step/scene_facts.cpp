@@ -1,3 +1,6 @@
+#include <numeric>
+
+#include "beam/element_place.h"
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
@@ -123,6 +126,7 @@ SceneFacts facts_of(const Scene& scene) {
   SceneFacts facts;
   facts.particle_count = static_cast<std::int64_t>(scene.particle_count());
   facts.element_count = static_cast<std::int64_t>(scene.element_count());
+  facts.wall_count = static_cast<std::int64_t>(scene.wall_count());
   facts.mass = scene.total_mass;
   facts.relative_density = relative_density_of(scene);
   facts.length = scene.length;
@@ -152,6 +156,10 @@ MeshView mesh_of(const Scene& scene) {
     mesh.element_nodes.push_back(element.end);
     mesh.thickness.push_back(static_cast<float>(element.thickness));
   }
+  mesh.element_wall.resize(scene.element_count());
+  visit_elements(scene, [&mesh](const ElementPlace& place, int wall) { mesh.element_wall[place.element] = wall; });
+  std::iota(mesh.element_wall.begin() + scene.rigid.first_element, mesh.element_wall.end(),
+            static_cast<int>(scene.walls.start.size()));
   mesh.length = scene.length;
   mesh.width = scene.width;
   mesh.impact_plate = scene.plates.impact_face;

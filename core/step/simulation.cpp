@@ -39,6 +39,7 @@ struct Simulation::Impl {
     visit(last_good.strain);
     visit(last_good.position);
     visit(last_good.plastic_fraction);
+    visit(last_good.fibre_strain);
     visit(last_good_step);
     visit(rest);
   }
@@ -96,7 +97,7 @@ struct Simulation::Impl {
 namespace {
 
 // Changes with what follows it in a checkpoint.
-constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720008;
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720009;
 
 /// Sizes of the lists that equal scenes have alike.
 std::array<std::size_t, 8> shape_of(const State& state) {

@@ -34,12 +34,12 @@ class CaseCalls {
     out.set_predicted_seconds(parts_.step_cost * static_cast<double>(out.element_count()) *
                               static_cast<double>(out.step_count()));
     translate::add_fidelities(request.case_(), parts_.step_cost, check);
-    out.set_predicted_bytes(store::predicted_result_bytes(out.particle_count(), out.element_count(), check.sample_count,
-                                                          check.frame_count));
+    out.set_predicted_bytes(store::predicted_result_bytes(out.particle_count(), out.element_count(), check.wall_count,
+                                                          check.sample_count, check.frame_count));
     // While it runs, a job has its newest checkpoint, the one before and the one being written.
     constexpr std::int64_t kCheckpoints = 3;
     out.set_predicted_disk_bytes(out.predicted_bytes() + kCheckpoints * check.checkpoint_bytes +
-                                 store::predicted_report_bytes(out.particle_count(), out.element_count(),
+                                 store::predicted_report_bytes(out.particle_count(), out.element_count(), check.wall_count,
                                                                check.sample_count, check.frame_count));
     return std::move(out);
   }

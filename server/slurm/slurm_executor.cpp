@@ -37,8 +37,8 @@ std::uint64_t most_bytes_of(const v1::Case& submitted, const translate::CaseChec
   const std::int64_t parts =
       frame.watched_nodes_size() + frame.rigid_walls_size() + submitted.loading().rigid_walls_size();
   const std::int64_t samples = spec.output.sample_count;
-  const std::int64_t files = store::predicted_result_bytes(2 * verdict.element_count, verdict.element_count, samples,
-                                                           spec.output.frame_count) +
+  const std::int64_t files = store::predicted_result_bytes(2 * verdict.element_count, verdict.element_count,
+                                                           verdict.element_count, samples, spec.output.frame_count) +
                              samples * parts * kPartOfSample;
   return static_cast<std::uint64_t>(kForecastFactor * files + verdict.most_memory_bytes + kForecastBeside);
 }

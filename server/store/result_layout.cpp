@@ -120,6 +120,10 @@ void write_collapse(hid_t file, const v1::Summary& summary) {
   if (summary.has_shock_error_relative())
     write_attribute(file, "theory_shock_error_relative", summary.shock_error_relative());
   if (summary.has_front()) write_numbers(file, "front_", summary.front());
+  if (summary.has_fibre_strain()) {
+    write_numbers(file, "fibre_strain_", summary.fibre_strain());
+    write_attribute(file, "fibre_strain_wall", static_cast<std::int64_t>(summary.fibre_strain().wall()));
+  }
   if (summary.has_quasi_static()) write_numbers(file, "quasi_static_", summary.quasi_static());
 }
 

@@ -62,6 +62,10 @@ v1::Mesh ResultReader::mesh() const {
            *out.mutable_thickness_mm());
   read_all(open_result_dataset(file_.id(), "mesh/position_mm", H5T_IEEE_F32LE, 2), H5T_NATIVE_FLOAT,
            *out.mutable_position_mm());
+  if (has("mesh/element_wall")) {  // a file of an earlier version lacks it
+    read_all(open_result_dataset(file_.id(), "mesh/element_wall", H5T_STD_I32LE, 1), H5T_NATIVE_INT32,
+             *out.mutable_element_wall());
+  }
   out.set_particle_count(out.position_mm_size() / 2);
   const auto is_particle = [&out](int node) { return node >= 0 && node < out.particle_count(); };
   if (out.element_nodes_size() != 2 * out.thickness_mm_size() || !std::ranges::all_of(out.element_nodes(), is_particle))
@@ -127,6 +131,10 @@ v1::FieldFrame ResultReader::frame(int index) const {
   read_row(open_result_dataset(file_.id(), "frames/position_mm", H5T_IEEE_F32LE, 3), row, *out.mutable_position_mm());
   read_row(open_result_dataset(file_.id(), "frames/plastic_fraction", H5T_IEEE_F32LE, 2), row,
            *out.mutable_plastic_fraction());
+  if (has("frames/fibre_strain")) {
+    read_row(open_result_dataset(file_.id(), "frames/fibre_strain", H5T_IEEE_F32LE, 2), row,
+             *out.mutable_fibre_strain());
+  }
   return out;
 }
 

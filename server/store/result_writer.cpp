@@ -37,7 +37,8 @@ std::string as_lines(const std::vector<std::string>& sentences) {
 ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& mesh)
     : path_(path),
       particle_count_(static_cast<hsize_t>(mesh.particle_count())),
-      element_count_(static_cast<hsize_t>(mesh.thickness_mm_size())) {
+      element_count_(static_cast<hsize_t>(mesh.thickness_mm_size())),
+      wall_count_(mesh.element_wall().empty() ? 0 : std::ranges::max(mesh.element_wall()) + hsize_t{1}) {
   silence_hdf5();
   const std::string what = "Creating " + path.string();
   const Hdf5Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
@@ -56,15 +57,21 @@ void ResultWriter::make_frames() {
                                          {1, std::min<hsize_t>(particle_count_, kFrameChunkItems), 2});
   frame_plastic_ = make_growing_dataset(file_.id(), "frames/plastic_fraction", H5T_IEEE_F32LE, {element_count_},
                                         {1, std::min<hsize_t>(element_count_, kFrameChunkItems)});
+  frame_fibre_strain_ = make_growing_dataset(file_.id(), "frames/fibre_strain", H5T_IEEE_F32LE, {wall_count_},
+                                             {1, std::min<hsize_t>(wall_count_, kFrameChunkItems)});
   make_scale(frame_time_.id(), "time_s");
   attach_scales(frame_strain_.id(), {frame_time_.id()});
   attach_scales(frame_position_.id(), {frame_time_.id(), particles_.id(), axes_.id()});
   attach_scales(frame_plastic_.id(), {frame_time_.id(), elements_.id()});
+  attach_scales(frame_fibre_strain_.id(), {frame_time_.id(), walls_.id()});
   describe(frame_time_.id(), "s", "simulated time of the frame; frame 0 is the undeformed lattice");
   describe(frame_strain_.id(), "", "nominal strain of the frame");
   describe(frame_position_.id(), "mm", "positions of the particles");
   describe(frame_plastic_.id(), "", "fraction of each element's section that has yielded");
-  for (auto* field : {&frame_position_, &frame_plastic_}) write_attribute(field->id(), "coordinates", "strain");
+  describe(frame_fibre_strain_.id(), "",
+           "largest magnitude of the strain, elastic and plastic, in the outer fibres of each wall");
+  for (auto* field : {&frame_position_, &frame_plastic_, &frame_fibre_strain_})
+    write_attribute(field->id(), "coordinates", "strain");
 }
 
 void ResultWriter::write_mesh(const v1::Mesh& mesh) {
@@ -72,6 +79,7 @@ void ResultWriter::write_mesh(const v1::Mesh& mesh) {
                      "Creating the group mesh");
   particles_ = make_dimension(file_.id(), "particle", particle_count_, "dimension scale without values");
   elements_ = make_dimension(file_.id(), "element", element_count_, "dimension scale without values");
+  walls_ = make_dimension(file_.id(), "wall", wall_count_, "dimension scale without values");
   const Hdf5Handle ends =
       make_dimension(file_.id(), "end", 2, "dimension scale without values: start and end of an element");
   axes_ = write_dataset(file_.id(), "axis", H5T_C_S1, {2}, "xy");
@@ -85,6 +93,10 @@ void ResultWriter::write_mesh(const v1::Mesh& mesh) {
       write_dataset(mesh_.id(), "thickness_mm", H5T_NATIVE_FLOAT, {element_count_}, mesh.thickness_mm().data());
   attach_scales(thickness.id(), {elements_.id()});
   describe(thickness.id(), "mm", "thickness of each element");
+  const auto walls =
+      write_dataset(mesh_.id(), "element_wall", H5T_NATIVE_INT32, {element_count_}, mesh.element_wall().data());
+  attach_scales(walls.id(), {elements_.id()});
+  describe(walls.id(), "", "number, from 0, of the wall of each element");
   write_attribute(mesh_.id(), "length_mm", mesh.length_mm());
   write_attribute(mesh_.id(), "width_mm", mesh.width_mm());
   write_attribute(mesh_.id(), "impact_plate_mm", mesh.impact_plate_mm());
@@ -136,6 +148,7 @@ void ResultWriter::add_frame(const v1::FieldFrame& frame) {
   append_rows(frame_strain_.id(), H5T_NATIVE_DOUBLE, 1, &strain);
   append_rows(frame_position_.id(), H5T_NATIVE_FLOAT, 1, frame.position_mm().data());
   append_rows(frame_plastic_.id(), H5T_NATIVE_FLOAT, 1, frame.plastic_fraction().data());
+  append_rows(frame_fibre_strain_.id(), H5T_NATIVE_FLOAT, 1, frame.fibre_strain().data());
   if (!std::exchange(has_positions_, true)) write_positions(frame);
 }
 
@@ -171,8 +184,8 @@ void ResultWriter::finish(const ResultHeader& header) {
   write_summary_attributes(file_.id(), header.job.summary());
   const std::string what = "Closing the result";
   for (auto& column : columns_) column.second.close(what);
-  for (auto* part :
-       {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &mesh_, &particles_, &elements_, &axes_}) {
+  for (auto* part : {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &frame_fibre_strain_, &mesh_,
+                     &particles_, &elements_, &walls_, &axes_}) {
     part->close(what);
   }
   check_hdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), what);
@@ -180,22 +193,22 @@ void ResultWriter::finish(const ResultHeader& header) {
   seal_result(path_);
 }
 
-std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
-                                    std::int64_t frames) {
+std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t walls,
+                                    std::int64_t samples, std::int64_t frames) {
   constexpr std::int64_t kStructure = 120'000;
   const std::int64_t history = static_cast<std::int64_t>(history_columns().size()) * 8 * samples;
-  const std::int64_t mesh = 2 * 4 * particles + 3 * 4 * elements;
-  const std::int64_t per_frame = 2 * 8 + 2 * 4 * particles + 4 * elements;
+  const std::int64_t mesh = 2 * 4 * particles + 4 * 4 * elements;
+  const std::int64_t per_frame = 2 * 8 + 2 * 4 * particles + 4 * elements + 4 * walls;
   // Deflated, mesh and frames take 0.43 to 0.6 of that in crushes to 20 to 80 % strain.
   return kStructure + history + (mesh + frames * per_frame) / 2;
 }
 
-std::int64_t predicted_report_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
-                                    std::int64_t frames) {
-  constexpr std::int64_t kSample = 430;  // as a message and in the binary form; measured
-  const std::int64_t positions_and_numbers = 2 * 4 * particles + 4 * elements;
-  const std::int64_t nodes = 2 * 3 * elements;
-  return kSample * samples + nodes + (frames + 1) * positions_and_numbers;
+std::int64_t predicted_report_bytes(std::int64_t particles, std::int64_t elements, std::int64_t walls,
+                                    std::int64_t samples, std::int64_t frames) {
+  constexpr std::int64_t kSample = 460;  // as a message and in the binary form; measured
+  const std::int64_t positions_and_numbers = 2 * 4 * particles + 4 * elements + 4 * walls;
+  const std::int64_t nodes_and_walls = 3 * 3 * elements;
+  return kSample * samples + nodes_and_walls + (frames + 1) * positions_and_numbers;
 }
 
 }  // namespace cellcrush::store

@@ -48,26 +48,29 @@ class ResultWriter {
   std::filesystem::path path_;
   hsize_t particle_count_;
   hsize_t element_count_;
+  hsize_t wall_count_;
   Hdf5Handle file_;
   Hdf5Handle mesh_;
-  Hdf5Handle particles_;  ///< a dimension, as the next two
+  Hdf5Handle particles_;  ///< a dimension, as the next three
   Hdf5Handle elements_;
+  Hdf5Handle walls_;
   Hdf5Handle axes_;
   std::vector<std::pair<HistoryColumn, Hdf5Handle>> columns_;  ///< in the order of history_columns
   Hdf5Handle frame_time_;
   Hdf5Handle frame_strain_;
   Hdf5Handle frame_position_;
   Hdf5Handle frame_plastic_;
+  Hdf5Handle frame_fibre_strain_;
   std::vector<v1::Sample> gathered_;
   bool has_positions_ = false;
 };
 
 /// Size of a result: its datasets as they are usually compressed, and the structure of the file.
-std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
-                                    std::int64_t frames);
+std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t walls,
+                                    std::int64_t samples, std::int64_t frames);
 
 /// Size of the reports of the same run.
-std::int64_t predicted_report_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
-                                    std::int64_t frames);
+std::int64_t predicted_report_bytes(std::int64_t particles, std::int64_t elements, std::int64_t walls,
+                                    std::int64_t samples, std::int64_t frames);
 
 }  // namespace cellcrush::store

@@ -156,6 +156,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   auto& walls = completed.lattice().has_frame() ? *completed.mutable_lattice()->mutable_frame()->mutable_rigid_walls()
                                                 : *completed.mutable_loading()->mutable_rigid_walls();
   for (int i = 0; i < walls.size(); ++i) walls[i].set_id(rigid_walls_of(submitted)[i].id());
+  out.wall_count = facts.wall_count;
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;
   out.checkpoint_bytes = checkpoint_of_run(spec, *scene);

@@ -46,6 +46,17 @@ v1::QuasiStatic to_proto(const QuasiStatic& quasi_static) {
   return out;
 }
 
+v1::FibreStrain to_proto(const LargestFibreStrain& fibre_strain) {
+  v1::FibreStrain out;
+  out.set_largest(fibre_strain.largest);
+  out.set_wall(fibre_strain.wall);
+  out.set_x_mm(fibre_strain.x);
+  out.set_y_mm(fibre_strain.y);
+  out.set_nominal_strain(fibre_strain.strain);
+  out.set_time_s(fibre_strain.time);
+  return out;
+}
+
 v1::Warning::Kind to_proto(Warning::Kind kind) {
   switch (kind) {
     case Warning::Kind::deep_penetration: return v1::Warning::DEEP_PENETRATION;
@@ -162,6 +173,7 @@ v1::FieldFrame to_proto(const FieldFrame& frame) {
   out.set_strain(frame.strain);
   out.mutable_position_mm()->Assign(frame.position.begin(), frame.position.end());
   out.mutable_plastic_fraction()->Assign(frame.plastic_fraction.begin(), frame.plastic_fraction.end());
+  out.mutable_fibre_strain()->Assign(frame.fibre_strain.begin(), frame.fibre_strain.end());
   return out;
 }
 
@@ -171,6 +183,7 @@ v1::Mesh to_proto(const MeshView& mesh) {
   out.mutable_position_mm()->Assign(mesh.position.begin(), mesh.position.end());
   out.mutable_element_nodes()->Assign(mesh.element_nodes.begin(), mesh.element_nodes.end());
   out.mutable_thickness_mm()->Assign(mesh.thickness.begin(), mesh.thickness.end());
+  out.mutable_element_wall()->Assign(mesh.element_wall.begin(), mesh.element_wall.end());
   out.set_length_mm(mesh.length);
   out.set_width_mm(mesh.width);
   out.set_impact_plate_mm(mesh.impact_plate);
@@ -228,6 +241,7 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& 
   if (const auto error = summary.shock_error()) out.set_shock_error_relative(*error);
   if (summary.solid_fraction_at_densification)
     out.set_solid_fraction_at_densification(*summary.solid_fraction_at_densification);
+  if (summary.fibre_strain) *out.mutable_fibre_strain() = to_proto(*summary.fibre_strain);
   if (summary.quasi_static) *out.mutable_quasi_static() = to_proto(*summary.quasi_static);
   *out.mutable_ledger() = ledger_of(last);
   *out.mutable_stage_times() = to_proto(time.stages);

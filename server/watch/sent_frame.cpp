@@ -162,6 +162,7 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
   std::vector<v1::FrameChunk> out;
   int positions = 0;
   int fractions = 0;
+  int strains = 0;
   std::size_t packed = 0;
   do {
     Room room(std::max<std::size_t>(chunk_bytes, sizeof(float)));
@@ -171,6 +172,7 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
     part.set_strain(frame.strain());
     room.take(frame.position_mm(), positions, *part.mutable_position_mm());
     room.take(frame.plastic_fraction(), fractions, *part.mutable_plastic_fraction());
+    room.take(frame.fibre_strain(), strains, *part.mutable_fibre_strain());
     if (!frame.has_packed()) continue;
     part.mutable_packed()->set_quantum_mm(frame.packed().quantum_mm());
     part.mutable_packed()->set_particle_count(frame.packed().particle_count());
@@ -178,7 +180,7 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
     part.mutable_packed()->set_predicted_by_elements(frame.packed().predicted_by_elements());
     room.take(frame.packed().data(), packed, *part.mutable_packed()->mutable_data());
   } while (positions < frame.position_mm_size() || fractions < frame.plastic_fraction_size() ||
-           packed < frame.packed().data().size());
+           strains < frame.fibre_strain_size() || packed < frame.packed().data().size());
   number_parts(out);
   return out;
 }
@@ -195,6 +197,7 @@ std::vector<v1::MeshChunk> chunks_of(const v1::Mesh& mesh, std::size_t chunk_byt
   int nodes = 0;
   int thicknesses = 0;
   int positions = 0;
+  int walls = 0;
   do {
     Room room(std::max<std::size_t>(chunk_bytes, sizeof(float)));
     v1::Mesh& part = *out.emplace_back().mutable_mesh();
@@ -202,8 +205,9 @@ std::vector<v1::MeshChunk> chunks_of(const v1::Mesh& mesh, std::size_t chunk_byt
     room.take(mesh.element_nodes(), nodes, *part.mutable_element_nodes());
     room.take(mesh.thickness_mm(), thicknesses, *part.mutable_thickness_mm());
     room.take(mesh.position_mm(), positions, *part.mutable_position_mm());
+    room.take(mesh.element_wall(), walls, *part.mutable_element_wall());
   } while (nodes < mesh.element_nodes_size() || thicknesses < mesh.thickness_mm_size() ||
-           positions < mesh.position_mm_size());
+           positions < mesh.position_mm_size() || walls < mesh.element_wall_size());
   number_parts(out);
   return out;
 }

@@ -53,6 +53,16 @@ TEST(SummaryText, NamesALastingRiseThatIsNotDensification) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("words { plates: true } summary {}"), 120), Not(HasSubstr("rise")));
 }
 
+TEST(SummaryText, SaysWhereAndWhenAFibreWasStrainedMost) {
+  auto job = from_text<v1::Job>(R"(words { plates: true } summary { fibre_strain {
+    largest: 0.1234 wall: 17 x_mm: 3.5 y_mm: 12.25 nominal_strain: 0.31 time_s: 0.002 } })");
+  EXPECT_THAT(summary_text(job, 140),
+              ContainsRegex("largest fibre strain +12.34 % +wall 17, at .3.5, 12.25. mm before loading, at strain 0.31"));
+  job.mutable_words()->set_plates(false);
+  EXPECT_THAT(summary_text(job, 140), ContainsRegex("12.34 % .*mm before loading, at 2.00 ms"));
+  EXPECT_THAT(summary_text(from_text<v1::Job>("summary {}"), 140), Not(HasSubstr("fibre")));
+}
+
 TEST(SummaryText, NamesWarningsWithTheirRemedies) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("summary {}"), 120), Not(HasSubstr("Warning")));
   const std::string text = summary_text(from_text<v1::Job>(R"(summary { warnings { kind: DEEP_PENETRATION

@@ -17,7 +17,8 @@ constexpr int kSamples = 5;
 constexpr int kFrames = 3;
 
 v1::Mesh mesh_of_two() {
-  return testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25]");
+  return testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25] "
+                                    "element_wall: [0, 1]");
 }
 
 v1::Sample sample_at(int step) {
@@ -92,6 +93,7 @@ void write_result(const std::filesystem::path& path) {
     frame.set_strain(0.1 * i);
     for (int k = 0; k < 6; ++k) frame.add_position_mm(static_cast<float>(k));
     for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(0.5F);
+    for (int k = 0; k < 2; ++k) frame.add_fibre_strain(0.01F);
     writer.add_frame(frame);
   }
   writer.finish({job_of(testing::small_case()), "1.0", "scalar", 1, 1e-6, {"Walls are beams."}});

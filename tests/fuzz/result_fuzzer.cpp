@@ -52,10 +52,11 @@ struct Part {
   bool is_double = true;
 };
 
-const std::array<Part, 9> kParts = {{{"/frames/time_s", {3}},
+const std::array<Part, 10> kParts = {{{"/frames/time_s", {3}},
                                      {"/frames/strain", {3}},
                                      {"/frames/position_mm", {3, 3, 2}, false},
                                      {"/frames/plastic_fraction", {3, 2}, false},
+                                     {"/frames/fibre_strain", {3, 2}, false},
                                      {"/frames", {3}},
                                      {"/history/time_s", {5}},
                                      {"/history/front_strain_behind", {5}},
@@ -235,6 +236,7 @@ void expect_own(const v1::FieldFrame& frame) {
   expect_own(frame.strain());
   for (const float value : frame.position_mm()) expect_own(static_cast<double>(value));
   for (const float value : frame.plastic_fraction()) expect_own(static_cast<double>(value));
+  for (const float value : frame.fibre_strain()) expect_own(static_cast<double>(value));
 }
 
 template <class Reading>

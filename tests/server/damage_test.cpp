@@ -70,6 +70,7 @@ class DamageTest : public JournalTest {
     out.set_particle_count(2);
     for (const int node : {0, 1}) out.add_element_nodes(node);
     out.add_thickness_mm(0.5F);
+    out.add_element_wall(0);
     out.set_length_mm(10.0);
     return out;
   }
@@ -88,6 +89,7 @@ class DamageTest : public JournalTest {
     v1::FieldFrame frame;
     for (int i = 0; i < 4; ++i) frame.add_position_mm(static_cast<float>(i));
     frame.add_plastic_fraction(0.25F);
+    frame.add_fibre_strain(0.01F);
     writer.add_frame(frame);
     for (int step = 1; step <= 40; ++step) writer.add_sample(full_sample(step));
     v1::Job described = reader_->find_job(job)->job;

@@ -25,6 +25,7 @@ v1::Mesh mesh_of(int particles) {
       out.add_element_nodes(i);
       out.add_element_nodes(i + apart);
       out.add_thickness_mm(0.1F * static_cast<float>(1 + i % 7));
+      out.add_element_wall(i / 2);
     }
   }
   for (int i = 0; i < particles; ++i) {
@@ -45,6 +46,7 @@ v1::FieldFrame frame_of(const v1::Mesh& mesh, double largest) {
   for (int i = 0; i < mesh.position_mm_size(); ++i)
     out.add_position_mm(mesh.position_mm(i) + (i < mesh.position_mm_size() / 4 ? moved(random) : 0.0F));
   for (int i = 0; i < mesh.thickness_mm_size(); ++i) out.add_plastic_fraction(i % 11 == 0 ? 0.3F : 0.0F);
+  for (int i = 0; i < mesh.thickness_mm_size() / 2; ++i) out.add_fibre_strain(0.1F * static_cast<float>(i % 5));
   return out;
 }
 

@@ -53,7 +53,8 @@ class ResultFileTest : public ::testing::Test {
   void SetUp() override {
     std::filesystem::create_directories(path_.parent_path());
     const auto mesh =
-        testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25]");
+        testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25] "
+                                     "element_wall: [0, 1]");
     ResultWriter writer(path_, mesh);
     for (int i = 0; i < kSamples; ++i) {
       v1::Sample sample;
@@ -72,6 +73,7 @@ class ResultFileTest : public ::testing::Test {
       frame.set_strain(0.1 * i);
       for (int k = 0; k < 6; ++k) frame.add_position_mm(static_cast<float>(100 * i + k));
       for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(static_cast<float>(i) / 4.0F);
+      for (int k = 0; k < 2; ++k) frame.add_fibre_strain(0.01F * static_cast<float>(i + k));
       writer.add_frame(frame);
     }
     const auto summary = testing::from_text<v1::Summary>(R"(
@@ -91,7 +93,7 @@ class ResultFileTest : public ::testing::Test {
 };
 
 TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
-  const std::map<std::string, hsize_t> extents = {{"S", kSamples}, {"N", 3}, {"E", 2}, {"F", 4}, {"2", 2}};
+  const std::map<std::string, hsize_t> extents = {{"S", kSamples}, {"N", 3}, {"E", 2}, {"W", 2}, {"F", 4}, {"2", 2}};
   const std::map<std::string, hid_t> types = {{"float64", H5T_IEEE_F64LE},
                                               {"float32", H5T_IEEE_F32LE},
                                               {"int64", H5T_STD_I64LE},
@@ -101,7 +103,7 @@ TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
   std::set<std::string> found;
   for (std::string line; std::getline(file, line);) {
     std::smatch row;
-    if (!std::regex_match(line, row, std::regex(R"(\| `(/[a-z_/]+)` \| ([SNEF2, ]+) \| (\w+) \| (.*) \|)"))) continue;
+    if (!std::regex_match(line, row, std::regex(R"(\| `(/[a-z_/]+)` \| ([SNEWF2, ]+) \| (\w+) \| (.*) \|)"))) continue;
     found.insert(row[1]);
     std::vector<hsize_t> wanted;
     std::istringstream words(row[2]);
@@ -173,6 +175,7 @@ TEST_F(ResultFileTest, IsReadBackAsItWasWritten) {
   EXPECT_EQ(frame.index(), 2);
   EXPECT_EQ(frame.position_mm(5), 205.0F);
   EXPECT_EQ(frame.plastic_fraction(0), 0.5F);
+  EXPECT_EQ(frame.fibre_strain(1), 0.03F);
 }
 
 // Groups of HDF5 are in the order of their names, samples in that of the case.
@@ -180,7 +183,8 @@ TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
   const v1::Case submitted = testing::with_text(
       testing::small_case(), R"(lattice { frame { watched_nodes: ["b", "a"] rigid_walls { id: "floor" } } })");
   std::vector<v1::Sample> samples(kSamples);
-  const auto mesh = testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1] thickness_mm: 0.5");
+  const auto mesh = testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1] thickness_mm: 0.5 "
+                                               "element_wall: 0");
   ResultWriter writer(path_ = folder_.path() / "frame.h5", mesh);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].set_step(static_cast<std::int64_t>(i));
@@ -205,7 +209,7 @@ TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
 }
 
 TEST_F(ResultFileTest, ThePredictedSizeIsNotPassedAndNotFarOff) {
-  const auto predicted = predicted_result_bytes(3, 2, kSamples, 4);
+  const auto predicted = predicted_result_bytes(3, 2, 2, kSamples, 4);
   const auto real = static_cast<std::int64_t>(std::filesystem::file_size(path_));
   EXPECT_LT(real, predicted);
   EXPECT_GT(16 * real, predicted);

@@ -54,6 +54,7 @@ class Mesh:
     position_mm: Array  # (N, 2), before loading
     element_nodes: Array  # (E, 2), numbers of particles
     thickness_mm: Array  # (E)
+    element_wall: Array  # (E), number of the wall of each element; all 0 in results of earlier versions
     length_mm: float  # of the undeformed lattice along the crush
     width_mm: float  # and across
     impact_plate_mm: float  # face of the plate along the crush, before loading
@@ -73,6 +74,7 @@ class Frames:
     strain: Array  # (F)
     position_mm: Array  # (F, N, 2), float32
     plastic_fraction: Array  # (F, E), float32: fraction of each element's section that has yielded
+    fibre_strain: Array  # (F, W), float32: largest strain of each wall; no walls in results of earlier versions
 
     def __len__(self) -> int:
         return len(self.time_s)
@@ -91,16 +93,19 @@ def mesh_from(chunks: Iterable[MeshChunk]) -> Mesh:
         whole.MergeFrom(chunk.mesh)
     return Mesh(np.array(whole.position_mm, np.float32).reshape(-1, 2),
                 np.array(whole.element_nodes, np.int32).reshape(-1, 2), np.array(whole.thickness_mm, np.float32),
+                np.array(whole.element_wall or [0] * len(whole.thickness_mm), np.int32),
                 whole.length_mm, whole.width_mm, whole.impact_plate_mm, whole.support_plate_mm, whole.along_y)
 
 
 def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:
     """Frames, each from all of its chunks."""
-    positions = [np.concatenate([np.array(c.frame.position_mm, np.float32) for c in chunks]) for chunks in frames]
-    plastic = [np.concatenate([np.array(c.frame.plastic_fraction, np.float32) for c in chunks]) for chunks in frames]
+    def whole(field: str) -> List[Array]:
+        return [np.concatenate([np.array(getattr(c.frame, field), np.float32) for c in chunks]) for chunks in frames]
+
     return Frames(np.array([chunks[0].frame.time_s for chunks in frames]),
                   np.array([chunks[0].frame.strain for chunks in frames]),
-                  np.array([p.reshape(-1, 2) for p in positions]), np.array(plastic))
+                  np.array([p.reshape(-1, 2) for p in whole("position_mm")]), np.array(whole("plastic_fraction")),
+                  np.array(whole("fibre_strain")))
 
 
 _NUMBERS = (FieldDescriptor.TYPE_DOUBLE, FieldDescriptor.TYPE_INT64)

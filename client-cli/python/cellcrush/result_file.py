@@ -91,10 +91,13 @@ class ResultFile(Results):
             for name, column in history.items():
                 self._samples[name] = column
             mesh, frames = file["mesh"], file["frames"]
-            self._mesh = Mesh(mesh["position_mm"][()], mesh["beam_nodes"][()], mesh["thickness_mm"][()],
+            walls = mesh["element_wall"][()] if "element_wall" in mesh else np.zeros(len(mesh["beam_nodes"]), np.int32)
+            strain = frames["fibre_strain"][()] if "fibre_strain" in frames else np.zeros((len(frames["time_s"]), 0),
+                                                                                          np.float32)
+            self._mesh = Mesh(mesh["position_mm"][()], mesh["beam_nodes"][()], mesh["thickness_mm"][()], walls,
                               **{name: mesh.attrs[name] for name in mesh.attrs if name in Mesh.__annotations__})
             self._frames = Frames(frames["time_s"][()], frames["strain"][()], frames["position_mm"][()],
-                                  frames["plastic_fraction"][()])
+                                  frames["plastic_fraction"][()], strain)
         self.case = parse_case(self.attributes["case"], str(path))
         self.title = self.case.title
         self.summary = Values(_summary(self.attributes))

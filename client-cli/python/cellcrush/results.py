@@ -50,6 +50,8 @@ class Results(ABC):
             value = getattr(self.summary, name)
             if value is not None:
                 rows.append((label, f"{value:.4g} {unit}".rstrip()))
+        if self.summary.fibre_strain:
+            rows.append(("largest fibre strain", f"{self.summary.fibre_strain.largest:.4g}"))
         return rows
 
     def history(self) -> "pandas.DataFrame":
@@ -67,8 +69,10 @@ class Results(ABC):
             "frame_time_s": ("frame", frames.time_s), "frame_strain": ("frame", frames.strain),
             "position_mm": (("frame", "particle", "axis"), frames.position_mm),
             "plastic_fraction": (("frame", "element"), frames.plastic_fraction),
+            "fibre_strain": (("frame", "wall"), frames.fibre_strain),
             "undeformed_position_mm": (("particle", "axis"), mesh.position_mm),
             "element_nodes": (("element", "end"), mesh.element_nodes), "thickness_mm": ("element", mesh.thickness_mm),
+            "element_wall": ("element", mesh.element_wall),
         })
         dataset: "xarray.Dataset" = build(
             {name: (*value, {"units": unit_of(name)} if unit_of(name) else {}) for name, value in variables.items()},

@@ -112,6 +112,10 @@ struct Sample {
   /// left (scene/solid_area.h). 0 without either.
   double solid_fraction = 0.0;
   double collapsed_fraction = 0.0;  ///< fraction of the cells that have collapsed (measure/crush_mode.h)
+  /// Greatest magnitude of the strain, elastic and plastic, in the outer fibres of all walls now
+  /// (measure/fibre_strain.h).
+  double largest_fibre_strain = 0.0;
+  std::int64_t most_strained_wall = 0;  ///< which has it, into Scene::walls
   /// Of the cells that have collapsed by now, in samples in which it was evaluated.
   CrushMode crush_mode = CrushMode::none;
   std::optional<Front> front;
@@ -155,6 +159,8 @@ void visit_columns(S& sample, const Visitor& visit) {
   visit("contact_count", sample.contact_count, 1.0);
   visit("solid_fraction", sample.solid_fraction, 1.0);
   visit("collapsed_fraction", sample.collapsed_fraction, 1.0);
+  visit("largest_fibre_strain", sample.largest_fibre_strain, 1.0);
+  visit("most_strained_wall", sample.most_strained_wall, 1.0);
 }
 
 /// Samples in their memory representation, for the same build. A run that is resumed from a checkpoint needs those
@@ -171,6 +177,7 @@ struct FieldFrame {
   double strain = 0.0;
   std::vector<float> position;          ///< mm, x0 y0 x1 y1 ... of N particles
   std::vector<float> plastic_fraction;  ///< E elements, fraction of the section area that has yielded
+  std::vector<float> fibre_strain;      ///< of all walls (Scene::wall_count), as Sample::largest_fibre_strain
 };
 
 /// Closed-form solutions to compare a result with.
@@ -193,6 +200,16 @@ struct QuasiStatic {
   double plate_difference_greatest = 0.0;  ///< the same, greatest over windows of 5 % strain
   /// Greatest ratio of kinetic energy to plastic work, once plastic work exceeds elastic energy.
   double kinetic_share = 0.0;
+};
+
+/// The largest fibre strain of a run at one of its samples, up to where its result is valid.
+struct LargestFibreStrain {
+  double largest = 0.0;
+  std::int64_t wall = 0;  ///< into Scene::walls
+  double x = 0.0;         ///< mm, middle between the ends of the wall before loading
+  double y = 0.0;
+  double strain = 0.0;  ///< nominal; 0 for a frame
+  double time = 0.0;    ///< s
 };
 
 /// What ends a run that nothing stops.
@@ -235,6 +252,7 @@ struct Summary {
   std::optional<double> crush_mode_strain;  ///< strain of the first evaluation that found it
   std::optional<FrontSummary> front;        ///< absent unless half of the samples in the plateau range have a front
   std::optional<QuasiStatic> quasi_static;  ///< absent if the run ended before the end of its first window
+  std::optional<LargestFibreStrain> fibre_strain;  ///< absent if no wall was strained
   Theory theory;
   std::vector<Warning> warnings;  ///< of all samples and of the ledger, in order of steps
 

@@ -333,6 +333,8 @@ struct Scene {
   [[nodiscard]] bool is_loaded() const { return !loads.empty() || !element_loads.empty() || !gravity.isZero(); }
   [[nodiscard]] std::size_t particle_count() const { return position.size(); }
   [[nodiscard]] std::size_t element_count() const { return elements.size(); }
+  /// All walls: those of `walls`, then those of rigid bodies, which are an element each.
+  [[nodiscard]] std::size_t wall_count() const { return walls.start.size() + elements.size() - rigid.first_element; }
   [[nodiscard]] std::size_t fibre_count() const { return section.fibre_count(); }
 };
 

@@ -39,6 +39,7 @@ SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene);
 struct SceneFacts {
   std::int64_t particle_count = 0;
   std::int64_t element_count = 0;
+  std::int64_t wall_count = 0;
   double mass = 0.0;                      ///< tonne, of all walls
   double relative_density = 0.0;          ///< mass over that of the solid envelope
   double length = 0.0;                    ///< envelope along the crush
@@ -62,6 +63,7 @@ struct MeshView {
   std::vector<float> position;     ///< x0 y0 x1 y1 ... of N particles before loading, mm
   std::vector<int> element_nodes;  ///< start0 end0 start1 end1 ... of E elements
   std::vector<float> thickness;    ///< mm, of E elements
+  std::vector<int> element_wall;   ///< of E elements: number of its wall (Scene::wall_count)
   double length = 0.0;             ///< envelope along the crush, mm
   double width = 0.0;
   double impact_plate = 0.0;  ///< the plates' faces before loading, along the crush, mm

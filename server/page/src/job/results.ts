@@ -66,6 +66,12 @@ export function resultsList(s: Summary, note: string): HTMLElement {
     add("Inertia's share of the work", "inertia_share", percent(s.inertiaShare),
         "largest kinetic energy on the plateau");
   }
+  if (s.fibreStrain) {
+    const { largest, wall, xMm, yMm, nominalStrain, timeS } = s.fibreStrain;
+    const when = nominalStrain ? `strain ${strainText(nominalStrain)}` : quantity(timeS, "s");
+    add("Largest fibre strain", "fibre_strain", percent(largest),
+        `wall ${wall}, at (${number(xMm)}, ${number(yMm)}) mm before loading, at ${when}`);
+  }
   add("Energy ledger error", "energy_error_relative", percent(s.energyErrorRelative, 3));
   add("Deepest penetration", "deepest_penetration", percent(s.deepestPenetration),
       "of the thickness of the thinner wall");
