@@ -61,6 +61,11 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   }
   stress_row("support", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
              summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
+  if (summary.has_peak_stress_mpa()) {
+    table.add({"peak stress, impact plate", quantity_text(summary.peak_stress_mpa(), "MPa"), "",
+               fmt::format("mean over {:.3g} % strain, at {:.3g}", 100 * summary.peak_stress_window(),
+                           summary.peak_stress_strain())});
+  }
   // A file of an earlier version lacks it.
   const bool of_theory = theory && summary.theory().densification_strain() > 0.0;
   table.add({"densification strain",
@@ -142,11 +147,10 @@ void add_inertia_row(Table& table, const v1::Summary& summary) {
 void add_fibre_strain_row(Table& table, const v1::Summary& summary, bool plates) {
   if (!summary.has_fibre_strain()) return;
   const v1::FibreStrain& found = summary.fibre_strain();
-  const std::string when = plates ? fmt::format("strain {:.3g}", found.nominal_strain())
-                                  : quantity_text(found.time_s(), "s");
+  const std::string when =
+      plates ? fmt::format("strain {:.3g}", found.nominal_strain()) : quantity_text(found.time_s(), "s");
   table.add({"largest fibre strain", percent_text(found.largest(), 2), "",
-             fmt::format("wall {}, at ({:.4g}, {:.4g}) mm before loading, at {}", found.wall(), found.x_mm(),
-                         found.y_mm(), when)});
+             fmt::format("wall {} at ({:.3g}, {:.3g}) mm, {}", found.wall(), found.x_mm(), found.y_mm(), when)});
 }
 
 std::string warning_text(const v1::Warning& warning, int width) {

@@ -114,6 +114,15 @@ std::optional<LargestFibreStrain> find_fibre_strain(const Scene& scene, std::spa
                             most->time};
 }
 
+/// The peak up to a strain.
+std::optional<PeakStress> find_peak(std::span<const Sample> samples, double strain) {
+  PeakStress peak;
+  for (const Sample& sample : samples) {
+    if (sample.peak.strain <= strain) peak = sample.peak;
+  }
+  return peak.stress > 0.0 ? std::optional(peak) : std::nullopt;
+}
+
 /// The samples until the lattice is closed, or the frame at `closed_step`.
 std::span<const Sample> before_closing(const Scene& scene, std::span<const Sample> samples,
                                        std::optional<std::int64_t> closed_step) {
@@ -235,6 +244,7 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     summary.plateau_stress_to_densification = impact.mean(0.0, *summary.densification_strain);
     summary.solid_fraction_at_densification = solid_fraction_at(scene, *summary.densification_strain);
   }
+  summary.peak = find_peak(all, summary.densification_strain.value_or(1.0));
   set_crush_mode(samples, summary);
   summary.quasi_static = find_quasi_static(samples, impact, support);
   const double volume = scene.length * scene.width * scene.depth;

@@ -8,6 +8,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "measure/peak_stress.h"
 #include "measure/sampler.h"
 #include "step/advance_step.h"
 #include "step/check_run.h"
@@ -25,6 +26,7 @@ struct Simulation::Impl {
   void start_over() {
     state = make_initial_state(*scene);
     sampler = Sampler(*scene);
+    peak = {};
     rest = {};
     status = {};
     make_frame(*scene, state, 0, last_good);
@@ -35,6 +37,7 @@ struct Simulation::Impl {
   template <class Visitor>
   void visit_beside_state(const Visitor& visit) {
     sampler.visit_memory(visit);
+    peak.visit_memory(visit);
     visit(last_good.time);
     visit(last_good.strain);
     visit(last_good.position);
@@ -58,6 +61,7 @@ struct Simulation::Impl {
       next = std::min(next, (state.step / interval + 1) * interval);
     };
     if (scene->schedule.end_at_rest > 0.0) look_every(RestWatch::interval(scene->schedule));
+    if (scene->plates.present) look_every(PeakWatch::interval(*scene));
     if (!is_controlled(*scene)) return next - state.step;
     look_every(control_interval(scene->schedule));
     return std::min(next - state.step, steps_to_arrival(*scene, state));
@@ -69,6 +73,9 @@ struct Simulation::Impl {
       advance_steps(*scene, state, workspace, steps_to_next_look(end), observer);
       if (scene->schedule.end_at_rest > 0.0 && state.step % RestWatch::interval(scene->schedule) == 0) {
         rest.look(*scene, state);
+      }
+      if (scene->plates.present && state.step % PeakWatch::interval(*scene) == 0) {
+        peak.look(*scene, state);
       }
       if (is_controlled(*scene) && state.step % control_interval(scene->schedule) == 0) {
         control_plate(*scene, state);
@@ -88,6 +95,7 @@ struct Simulation::Impl {
   State state;
   Workspace workspace;
   Sampler sampler;
+  PeakWatch peak;
   RestWatch rest;
   RunStatus status;
   FieldFrame last_good;
@@ -127,6 +135,7 @@ void Simulation::advance(std::int64_t steps, StageObserver* observer) {
 
 Sample Simulation::take_sample() {
   Sample sample = impl_->sampler.take(*impl_->scene, impl_->state);
+  sample.peak = impl_->peak.peak();
   const RunStatus found = check_run(*impl_->scene, impl_->state, sample);
   if (found.kind != RunStatus::Kind::running) {
     impl_->status = found;

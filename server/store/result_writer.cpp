@@ -205,7 +205,7 @@ std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t element
 
 std::int64_t predicted_report_bytes(std::int64_t particles, std::int64_t elements, std::int64_t walls,
                                     std::int64_t samples, std::int64_t frames) {
-  constexpr std::int64_t kSample = 460;  // as a message and in the binary form; measured
+  constexpr std::int64_t kSample = 490;  // as a message and in the binary form; measured
   const std::int64_t positions_and_numbers = 2 * 4 * particles + 4 * elements + 4 * walls;
   const std::int64_t nodes_and_walls = 3 * 3 * elements;
   return kSample * samples + nodes_and_walls + (frames + 1) * positions_and_numbers;

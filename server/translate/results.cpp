@@ -220,6 +220,11 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& 
   if (summary.plateau_stress_support) out.set_plateau_stress_support_mpa(*summary.plateau_stress_support);
   out.set_plateau_window_low(Summary::kPlateauLow);
   out.set_plateau_window_high(Summary::kPlateauHigh);
+  out.set_peak_stress_window(Summary::kPeakWindow);
+  if (summary.peak) {
+    out.set_peak_stress_mpa(summary.peak->stress);
+    out.set_peak_stress_strain(summary.peak->strain);
+  }
   if (summary.densification_strain) out.set_densification_strain(*summary.densification_strain);
   if (summary.other_rise) {
     out.set_other_rise(to_proto(summary.other_rise->kind));

@@ -53,13 +53,21 @@ TEST(SummaryText, NamesALastingRiseThatIsNotDensification) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("words { plates: true } summary {}"), 120), Not(HasSubstr("rise")));
 }
 
+TEST(SummaryText, HasThePeakStressWithItsFilter) {
+  const auto job = from_text<v1::Job>(R"(words { plates: true } summary {
+    peak_stress_mpa: 5.25 peak_stress_strain: 0.012 peak_stress_window: 0.01 })");
+  EXPECT_THAT(summary_text(job, 140),
+              ContainsRegex("peak stress, impact plate +5.25 MPa +mean over 1 % strain, at 0.012"));
+  EXPECT_THAT(summary_text(from_text<v1::Job>("words { plates: true } summary {}"), 140), Not(HasSubstr("peak")));
+}
+
 TEST(SummaryText, SaysWhereAndWhenAFibreWasStrainedMost) {
   auto job = from_text<v1::Job>(R"(words { plates: true } summary { fibre_strain {
     largest: 0.1234 wall: 17 x_mm: 3.5 y_mm: 12.25 nominal_strain: 0.31 time_s: 0.002 } })");
   EXPECT_THAT(summary_text(job, 140),
-              ContainsRegex("largest fibre strain +12.34 % +wall 17, at .3.5, 12.25. mm before loading, at strain 0.31"));
+              ContainsRegex("largest fibre strain +12.34 % +wall 17 at .3.5, 12.2. mm, strain 0.31"));
   job.mutable_words()->set_plates(false);
-  EXPECT_THAT(summary_text(job, 140), ContainsRegex("12.34 % .*mm before loading, at 2.00 ms"));
+  EXPECT_THAT(summary_text(job, 140), ContainsRegex("12.34 % .*mm, 2.00 ms"));
   EXPECT_THAT(summary_text(from_text<v1::Job>("summary {}"), 140), Not(HasSubstr("fibre")));
 }
 

@@ -43,6 +43,7 @@ class Results(ABC):
         rows = []
         for label, name, unit in (("plateau at the impact plate", "plateau_stress_impact_mpa", "MPa"),
                                   ("plateau at the support plate", "plateau_stress_support_mpa", "MPa"),
+                                  ("peak stress", "peak_stress_mpa", "MPa"),
                                   ("densification strain", "densification_strain", ""),
                                   ("other lasting rise of the stress", "other_rise_strain", ""),
                                   ("valid to strain", "valid_to_strain", ""),

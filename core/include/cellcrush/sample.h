@@ -73,6 +73,12 @@ struct DensestLayer {
   double place = 0.0;           ///< mm of the undeformed length, from the impact end: mean of its metal
 };
 
+/// The greatest filtered stress at the impact plate up to some time (measure/peak_stress.h).
+struct PeakStress {
+  double stress = 0.0;  ///< MPa; 0: none yet
+  double strain = 0.0;  ///< nominal, of the middle of its window
+};
+
 /// Something that does not stop a run but that a reader of its result must know. Each kind is reported once, when it is
 /// first seen.
 struct Warning {
@@ -116,6 +122,7 @@ struct Sample {
   /// (measure/fibre_strain.h).
   double largest_fibre_strain = 0.0;
   std::int64_t most_strained_wall = 0;  ///< which has it, into Scene::walls
+  PeakStress peak;                      ///< so far
   /// Of the cells that have collapsed by now, in samples in which it was evaluated.
   CrushMode crush_mode = CrushMode::none;
   std::optional<Front> front;
@@ -161,6 +168,8 @@ void visit_columns(S& sample, const Visitor& visit) {
   visit("collapsed_fraction", sample.collapsed_fraction, 1.0);
   visit("largest_fibre_strain", sample.largest_fibre_strain, 1.0);
   visit("most_strained_wall", sample.most_strained_wall, 1.0);
+  visit("peak_stress_mpa", sample.peak.stress, 1.0);
+  visit("peak_stress_strain", sample.peak.strain, 1.0);
 }
 
 /// Samples in their memory representation, for the same build. A run that is resumed from a checkpoint needs those
@@ -225,6 +234,7 @@ enum class RunEnd {
 struct Summary {
   static constexpr double kPlateauLow = 0.20;  ///< range of nominal strain over which the plateau stress is averaged
   static constexpr double kPlateauHigh = 0.40;
+  static constexpr double kPeakWindow = 0.01;         ///< strain over which the peak stress is a mean
   static constexpr double kQuasiStaticFrom = 0.05;    ///< strain from which the plates are compared
   static constexpr double kQuasiStaticWindow = 0.05;  ///< range of strain of each window of comparison
 
@@ -238,6 +248,8 @@ struct Summary {
   std::optional<double> inertia_share;
   std::optional<double> plateau_stress_impact;  ///< MPa; absent if the run ended before the end of the range
   std::optional<double> plateau_stress_support;
+  /// Up to the onset of densification, or to the end without one; absent before the first window is complete.
+  std::optional<PeakStress> peak;
   std::optional<double> densification_strain;             ///< onset; absent without a lasting rise of a dense lattice
   std::optional<LastingRise> other_rise;                  ///< one that is not densification
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate

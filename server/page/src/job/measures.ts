@@ -45,7 +45,7 @@ const kWords: Record<string, string> = {
 /** Those that tables show until the user chooses others. */
 export const kFirstMeasures = ["plateau_stress_impact_mpa", "plateau_stress_support_mpa", "theory.shock_mpa",
                                "densification_strain", "absorbed_energy_mj", "energy_error_relative"];
-const kConstant = ["plateau_window_low", "plateau_window_high"];
+const kConstant = ["plateau_window_low", "plateau_window_high", "peak_stress_window"];
 
 function measureOf(field: string): Measure {
   const { words, unit } = nameOf(field);

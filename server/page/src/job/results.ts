@@ -26,6 +26,10 @@ export function resultsList(s: Summary, note: string): HTMLElement {
           : compared(impact, theory?.shockMpa, "shock theory (Eq. 51)"));
     add("Plateau stress, support plate", "plateau_stress_support_mpa", quantity(s.plateauStressSupportMpa, "MPa"),
         compared(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby"));
+    if (s.peakStressMpa !== undefined) {
+      add("Peak stress, impact plate", "peak_stress_mpa", quantity(s.peakStressMpa, "MPa"),
+          `mean over ${percent(s.peakStressWindow, 0)} strain, at strain ${strainText(s.peakStressStrain)}`);
+    }
     add("Densification strain", "densification_strain", strainText(s.densificationStrain),
         s.densificationStrain !== undefined ? ""
           : s.otherRiseStrain !== undefined ? "the lasting rise of the stress is another"
