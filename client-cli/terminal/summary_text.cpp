@@ -148,7 +148,7 @@ void add_fibre_strain_row(Table& table, const v1::Summary& summary, bool plates)
   if (!summary.has_fibre_strain()) return;
   const v1::FibreStrain& found = summary.fibre_strain();
   const std::string when =
-      plates ? fmt::format("strain {:.3g}", found.nominal_strain()) : quantity_text(found.time_s(), "s");
+      plates ? fmt::format("strain {:.3g}", found.nominal_strain()) : fmt::format("{:.3g} s", found.time_s());
   table.add({"largest fibre strain", percent_text(found.largest(), 2), "",
              fmt::format("wall {} at ({:.3g}, {:.3g}) mm, {}", found.wall(), found.x_mm(), found.y_mm(), when)});
 }

@@ -74,8 +74,8 @@ class BlockStrains {
     const double start = turn_at_start(left);
     const double end = turn_at_end(right);
     const double between = least_angle(right.turn - left.turn);
-    const double middle = (4.0 * between + 2.0 * (start - end)) /
-                          (1.0 / left.inverse_length + 1.0 / right.inverse_length);
+    const double middle =
+        (4.0 * between + 2.0 * (start - end)) / (1.0 / left.inverse_length + 1.0 / right.inverse_length);
     return std::max({left.outer(3.0 * start * left.inverse_length + 0.5 * middle), left.outer(middle),
                      right.outer(3.0 * end * right.inverse_length - 0.5 * middle), right.outer(middle)});
   }

@@ -63,7 +63,7 @@ class Sampler {
   double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
   bool can_close_between_walls_ = false;  ///< rigid walls face each other, with gaps between them before loading
-  double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
+  double next_check_;                     ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 
 /// Overwrites a frame with the positions, the fraction of the section area of each element that has yielded, and the

@@ -110,8 +110,8 @@ std::optional<LargestFibreStrain> find_fibre_strain(const Scene& scene, std::spa
   if (most == samples.end() || !(most->largest_fibre_strain > 0.0)) return std::nullopt;
   const auto wall = static_cast<std::size_t>(most->most_strained_wall);
   const Vector2 middle = 0.5 * (scene.position[scene.walls.start[wall]] + scene.position[scene.walls.end[wall]]);
-  return LargestFibreStrain{most->largest_fibre_strain, most->most_strained_wall, middle.x(), middle.y(), most->strain,
-                            most->time};
+  return LargestFibreStrain{
+      most->largest_fibre_strain, most->most_strained_wall, middle.x(), middle.y(), most->strain, most->time};
 }
 
 /// The peak up to a strain.

@@ -39,8 +39,9 @@ class CaseCalls {
     // While it runs, a job has its newest checkpoint, the one before and the one being written.
     constexpr std::int64_t kCheckpoints = 3;
     out.set_predicted_disk_bytes(out.predicted_bytes() + kCheckpoints * check.checkpoint_bytes +
-                                 store::predicted_report_bytes(out.particle_count(), out.element_count(), check.wall_count,
-                                                               check.sample_count, check.frame_count));
+                                 store::predicted_report_bytes(out.particle_count(), out.element_count(),
+                                                               check.wall_count, check.sample_count,
+                                                               check.frame_count));
     return std::move(out);
   }
 

@@ -26,7 +26,7 @@ void cut_problems(google::protobuf::RepeatedPtrField<v1::Problem>& problems);
 
 /// The solver's check of a case.
 struct CaseCheck {
-  v1::CheckCaseResponse response;     ///< all but predicted time and disk space, or only problems
+  v1::CheckCaseResponse response;  ///< all but predicted time and disk space, or only problems
   std::int64_t wall_count = 0;
   std::int64_t sample_count = 0;      ///< of the run
   std::int64_t frame_count = 0;       ///< of the run, including the undeformed frame

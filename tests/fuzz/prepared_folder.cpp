@@ -17,8 +17,9 @@ constexpr int kSamples = 5;
 constexpr int kFrames = 3;
 
 v1::Mesh mesh_of_two() {
-  return testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25] "
-                                    "element_wall: [0, 1]");
+  return testing::from_text<v1::Mesh>(
+      "particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25] "
+      "element_wall: [0, 1]");
 }
 
 v1::Sample sample_at(int step) {

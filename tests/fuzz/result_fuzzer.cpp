@@ -53,15 +53,15 @@ struct Part {
 };
 
 const std::array<Part, 10> kParts = {{{"/frames/time_s", {3}},
-                                     {"/frames/strain", {3}},
-                                     {"/frames/position_mm", {3, 3, 2}, false},
-                                     {"/frames/plastic_fraction", {3, 2}, false},
-                                     {"/frames/fibre_strain", {3, 2}, false},
-                                     {"/frames", {3}},
-                                     {"/history/time_s", {5}},
-                                     {"/history/front_strain_behind", {5}},
-                                     {"/history", {5}},
-                                     {"/mesh", {3}}}};
+                                      {"/frames/strain", {3}},
+                                      {"/frames/position_mm", {3, 3, 2}, false},
+                                      {"/frames/plastic_fraction", {3, 2}, false},
+                                      {"/frames/fibre_strain", {3, 2}, false},
+                                      {"/frames", {3}},
+                                      {"/history/time_s", {5}},
+                                      {"/history/front_strain_behind", {5}},
+                                      {"/history", {5}},
+                                      {"/mesh", {3}}}};
 constexpr const char* kOther = "other.h5";
 constexpr const char* kOtherBytes = "other.bin";
 

@@ -52,9 +52,9 @@ class ResultFileTest : public ::testing::Test {
  protected:
   void SetUp() override {
     std::filesystem::create_directories(path_.parent_path());
-    const auto mesh =
-        testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25] "
-                                     "element_wall: [0, 1]");
+    const auto mesh = testing::from_text<v1::Mesh>(
+        "particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25] "
+        "element_wall: [0, 1]");
     ResultWriter writer(path_, mesh);
     for (int i = 0; i < kSamples; ++i) {
       v1::Sample sample;
@@ -183,8 +183,9 @@ TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
   const v1::Case submitted = testing::with_text(
       testing::small_case(), R"(lattice { frame { watched_nodes: ["b", "a"] rigid_walls { id: "floor" } } })");
   std::vector<v1::Sample> samples(kSamples);
-  const auto mesh = testing::from_text<v1::Mesh>("particle_count: 3 element_nodes: [0, 1] thickness_mm: 0.5 "
-                                               "element_wall: 0");
+  const auto mesh = testing::from_text<v1::Mesh>(
+      "particle_count: 3 element_nodes: [0, 1] thickness_mm: 0.5 "
+      "element_wall: 0");
   ResultWriter writer(path_ = folder_.path() / "frame.h5", mesh);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].set_step(static_cast<std::int64_t>(i));

@@ -35,9 +35,10 @@ double strain_on_arc(int elements, double turn, double turned_before) {
   for (int j = 0; j < elements; ++j) {
     const double between = turn / elements;
     const auto at = [&](double x) {
-      return static_cast<std::size_t>(std::ranges::find_if(scene->position, [x](const Vector2& position) {
-                                        return std::abs(position.x() - x) < 1e-6;
-                                      }) - scene->position.begin());
+      return static_cast<std::size_t>(
+          std::ranges::find_if(scene->position,
+                               [x](const Vector2& position) { return std::abs(position.x() - x) < 1e-6; }) -
+          scene->position.begin());
     };
     state.position[at(chord * j)] = place;
     state.rotation[at(chord * j)] = angle;
