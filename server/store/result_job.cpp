@@ -78,6 +78,9 @@ v1::Summary read_summary(hid_t file) {
   read_part(file, "front_", out, &v1::Summary::mutable_front);
   read_part(file, "quasi_static_", out, &v1::Summary::mutable_quasi_static);
   read_part(file, "ledger_", out, &v1::Summary::mutable_ledger);
+  read_part(file, "fibre_strain_", out, &v1::Summary::mutable_fibre_strain);
+  if (has_attribute(file, "fibre_strain_wall"))
+    out.mutable_fibre_strain()->set_wall(static_cast<std::int64_t>(read_number_attribute(file, "fibre_strain_wall")));
   read_part(file, "stage_", out, &v1::Summary::mutable_stage_times);
   read_warnings(file, out);
   return out;

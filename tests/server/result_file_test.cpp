@@ -115,7 +115,7 @@ TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
     EXPECT_FALSE(read_text_attribute(dataset.id(), "units").empty()) << row[1];
   }
   for (const HistoryColumn& column : history_columns()) EXPECT_TRUE(found.contains("/" + column.path));
-  EXPECT_EQ(found.size(), 38U) << "Names never change.";
+  EXPECT_EQ(found.size(), 45U) << "Names never change.";
 }
 
 TEST_F(ResultFileTest, TheHistoryIsExtendibleAndCompressed) {
