@@ -109,6 +109,7 @@ TEST_F(SlurmDaemonTest, ADaemonThatEndsLeavesItsJobsToTheNextOne) {
   std::string waiting;
   auto slow = case_of_seconds();
   slow.mutable_loading()->set_speed_m_per_s(1.0);
+  slow.mutable_loading()->clear_end_time_s();
   {
     Client client = this->client();
     job = create_there(client, slow);

@@ -122,6 +122,7 @@ int SlurmFixture::count_in_log(const std::string& words, int expected) const {
 v1::Case slow_case() {
   v1::Case out = case_of_seconds();
   out.mutable_loading()->set_speed_m_per_s(0.3);
+  out.mutable_loading()->clear_end_time_s();
   return out;
 }
 

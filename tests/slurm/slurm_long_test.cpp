@@ -136,6 +136,7 @@ TEST_F(SlurmLongTest, AJobThatIsLongerThanItsTaskContinuesInTheNextWithTheSameBi
   start_executor(options);
   auto slow = case_of_seconds();
   slow.mutable_loading()->set_speed_m_per_s(0.02);
+  slow.mutable_loading()->clear_end_time_s();
   jobs::WorkerExit exit;
   exit.kind = Kind::stopped;
   int tasks = 0;
