@@ -1,5 +1,6 @@
 #include "bench/variants.h"
 
+#include <charconv>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -60,7 +61,15 @@ std::vector<VariedScene> read_variants(const std::string& file) {
       if (scenes.empty()) refuse("stands before the first scene; begin one with [name] preset words...");
       if (name.find(':') == std::string::npos) refuse("is no variant; write group:label words...");
       if (name.find(',') != std::string::npos) refuse("has a comma, which would part a cell; leave it out.");
-      for (std::size_t i = first; i < scenes.size(); ++i) scenes[i].variants.push_back({name, behind_first(words)});
+      Variant variant = {name, behind_first(words)};
+      std::erase_if(variant.words, [&](const std::string& word) {
+        if (!word.starts_with("seeds=")) return false;
+        const char* end = word.data() + word.size();
+        const auto [read, error] = std::from_chars(word.data() + 6, end, variant.seeds);
+        if (error != std::errc() || read != end || variant.seeds < 2) refuse("has no spread; give seeds=2 or more.");
+        return true;
+      });
+      for (std::size_t i = first; i < scenes.size(); ++i) scenes[i].variants.push_back(variant);
     }
   }
   return scenes;

@@ -1,7 +1,7 @@
 // Time against accuracy of the choices that a crush has. `run` appends a row a crush to a table and leaves out what
 // stands there already, so that it can be stopped and resumed, and two can share the work; `chart` draws a scene of the
 // table, `overview` its support plateau alone.
-//   work_precision run tests/bench/work_precision.txt table.csv [seeds=5] [part=1/2] [scene=NAME]
+//   work_precision run tests/bench/work_precision.txt table.csv [part=1/2] [scene=NAME]
 //   work_precision chart tests/bench/work_precision.txt table.csv picture.svg scene=NAME converged=GROUP:LABEL
 //   work_precision overview tests/bench/work_precision.txt table.csv picture.svg scene=NAME title=WORDS
 
@@ -17,6 +17,7 @@
 #include "validation/crush_run.h"
 #include "validation/crush_table.h"
 #include "validation/options.h"
+#include "validation/provenance.h"
 
 namespace cellcrush::bench {
 namespace {
@@ -47,14 +48,6 @@ struct Crush {
   int seed;
 };
 
-int seeds_in(const Settings& settings) {
-  int seeds = 0;
-  if (std::sscanf(settings["seeds"].c_str(), "%d", &seeds) != 1 || seeds < 2) {
-    throw std::invalid_argument("seeds=" + settings["seeds"] + ": is too few for a spread; give 2 or more.");
-  }
-  return seeds;
-}
-
 /// The crushes of a part: every so many-th one, so that parts are alike. Seeds come last, so that a list that is cut
 /// short has whole variants of few seeds rather than few variants.
 std::vector<Crush> crushes_of(const std::vector<VariedScene>& scenes, const Settings& settings) {
@@ -63,12 +56,17 @@ std::vector<Crush> crushes_of(const std::vector<VariedScene>& scenes, const Sett
   if (std::sscanf(settings["part"].c_str(), "%d/%d", &part, &parts) != 2 || part < 1 || part > parts) {
     throw std::invalid_argument("part=" + settings["part"] + ": is no part; give one such as part=1/2.");
   }
+  int seeds = 0;
+  for (const VariedScene& scene : scenes) {
+    for (const Variant& variant : scene.variants) seeds = std::max(seeds, variant.seeds);
+  }
   std::vector<Crush> crushes;
   int count = 0;
-  for (int seed = 1; seed <= seeds_in(settings); ++seed) {
+  for (int seed = 1; seed <= seeds; ++seed) {
     for (const VariedScene& scene : scenes) {
       if (!settings["scene"].empty() && settings["scene"] != scene.name) continue;
       for (const Variant& variant : scene.variants) {
+        if (seed > variant.seeds) continue;
         if (count++ % parts == part - 1) crushes.push_back({&scene, &variant, seed});
       }
     }
@@ -95,12 +93,14 @@ void run(const std::vector<VariedScene>& scenes, const std::string& table, const
     }
     const validation::Options options = validation::read_options(words_of(*scene, *variant, seed));
     const validation::CrushRun crush = validation::run_crush(options.spec);
-    validation::append_row(table, options, crush,
-                           {{"scene", scene->name},
-                            {"variant", variant->name},
-                            {"seed", std::to_string(seed)},
-                            {"processor_seconds", std::to_string(crush.processor_seconds)},
-                            {"elements", std::to_string(crush.facts.element_count)}});
+    validation::Cells cells = {{"scene", scene->name},
+                               {"variant", variant->name},
+                               {"seed", std::to_string(seed)},
+                               {"processor_seconds", std::to_string(crush.processor_seconds)},
+                               {"elements", std::to_string(crush.facts.element_count)}};
+    const validation::Cells origin = validation::origin_of_a_run();
+    cells.insert(cells.end(), origin.begin(), origin.end());
+    validation::append_row(table, options, crush, cells);
     std::cout << ", " << crush.processor_seconds << " s\n";
   }
 }
@@ -134,7 +134,7 @@ void obey(const std::vector<std::string>& words) {
   if (!runs && !draws) throw std::invalid_argument("work_precision: say what to do.");
   const std::vector<VariedScene> scenes = read_variants(words[1]);
   if (runs) {
-    run(scenes, words[2], Settings({words.begin() + 3, words.end()}, {{"seeds", "5"}, {"part", "1/1"}, {"scene", ""}}));
+    run(scenes, words[2], Settings({words.begin() + 3, words.end()}, {{"part", "1/1"}, {"scene", ""}}));
   } else {
     const Settings settings({words.begin() + 4, words.end()},
                             {{"scene", ""}, {"converged", kConverged}, {"title", ""}});
@@ -156,7 +156,7 @@ int main(int count, char** words) {
   } catch (const std::exception& error) {
     std::cerr
         << error.what()
-        << "\nwork_precision run LIST TABLE.csv [seeds=5] [part=1/1] [scene=NAME]"
+        << "\nwork_precision run LIST TABLE.csv [part=1/1] [scene=NAME]"
            "\nwork_precision chart LIST TABLE.csv PICTURE.svg scene=NAME [converged=GROUP:LABEL]"
            "\nwork_precision overview LIST TABLE.csv PICTURE.svg scene=NAME [converged=GROUP:LABEL] [title=WORDS]\n";
     return 2;

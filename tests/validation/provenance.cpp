@@ -27,13 +27,19 @@ std::string case_hash_of(const SceneSpec& spec) {
 
 }  // namespace
 
-Cells provenance_of(const Options& options) {
-  return {{"command", "validate " + options.preset + (options.changes.empty() ? "" : " ") + options.changes},
-          {"curve", std::filesystem::path(options.curve_file).filename()},
-          {"case_hash", case_hash_of(options.spec)},
-          {"revision", kSourceRevision},
+Cells origin_of_a_run() {
+  return {{"revision", kSourceRevision},
           {"machine", bench::processor_name() + " " + simd_target()},
           {"date", bench::today()}};
+}
+
+Cells provenance_of(const Options& options) {
+  Cells cells = {{"command", "validate " + options.preset + (options.changes.empty() ? "" : " ") + options.changes},
+                 {"curve", std::filesystem::path(options.curve_file).filename()},
+                 {"case_hash", case_hash_of(options.spec)}};
+  const Cells origin = origin_of_a_run();
+  cells.insert(cells.end(), origin.begin(), origin.end());
+  return cells;
 }
 
 }  // namespace cellcrush::validation
