@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -26,7 +25,7 @@ namespace cellcrush::bench {
 namespace {
 
 const std::string kFolder = CELLCRUSH_BENCH_FOLDER;
-const std::string kExample2 = kFolder + "/../validation/example_2_";
+const std::string kExample2 = kFolder + "/../validation/example_2";
 constexpr std::size_t kLeastSeeds = 3;
 constexpr auto kAlongY = LoadingSpec::Direction::y;
 
@@ -41,19 +40,7 @@ Study read_study(const std::string& name) {
 }
 
 /// Example 2: hexagons with 2 elements per wall, squares and triangles with 8 and with 16.
-Study read_example_2() {
-  Study study = {read_variants(kExample2 + "seeds.txt"), read_csv(kExample2 + "seeds.csv")};
-  const Study fine = {read_variants(kExample2 + "mesh.txt"), read_csv(kExample2 + "mesh.csv")};
-  for (VariedScene& scene : study.scenes) {
-    for (const VariedScene& other : fine.scenes) {
-      if (other.name != scene.name) continue;
-      EXPECT_EQ(other.words, scene.words);
-      scene.variants.insert(scene.variants.end(), other.variants.begin(), other.variants.end());
-    }
-  }
-  study.rows.insert(study.rows.end(), fine.rows.begin(), fine.rows.end());
-  return study;
-}
+Study read_example_2() { return {read_variants(kExample2 + ".txt"), read_csv(kExample2 + ".csv")}; }
 
 std::vector<double> values_of(const Study& study, const VariedScene& scene, const Variant& variant,
                               const std::string& column) {
@@ -120,14 +107,26 @@ std::vector<std::string> rows_of_tables() {
   return rows;
 }
 
+const std::string kMeasuredErrors = kFolder + "/../../server/presets/measured_errors.csv";
+
 /// The rows of server/presets/measured_errors.csv, without its line of names.
 std::vector<std::string> measured_rows() {
-  std::ifstream file(kFolder + "/../../server/presets/measured_errors.csv");
+  std::ifstream file(kMeasuredErrors);
   std::vector<std::string> rows;
   std::string line;
   std::getline(file, line);
   while (std::getline(file, line)) rows.push_back(line);
   return rows;
+}
+
+void write_measured_rows(const std::vector<std::string>& rows) {
+  std::string names;
+  std::ifstream before(kMeasuredErrors);
+  std::getline(before, names);
+  before.close();
+  std::ofstream file(kMeasuredErrors);
+  file << names << "\n";
+  for (const std::string& row : rows) file << row << "\n";
 }
 
 double time_of_element_step(const VariedScene& scene, const Variant& variant, const std::vector<CsvRow>& rows) {
@@ -141,13 +140,10 @@ double time_of_element_step(const VariedScene& scene, const Variant& variant, co
   return seconds / element_steps;
 }
 
-// CELLCRUSH_WRITE_ROWS=1 prints the rows instead, for server/presets/measured_errors.csv.
+// CELLCRUSH_WRITE_PAGES=1 writes them.
 TEST(FidelityNumbers, AreThoseOfTheTables) {
   const std::vector<std::string> expected = rows_of_tables();
-  if (std::getenv("CELLCRUSH_WRITE_ROWS") != nullptr) {
-    for (const std::string& row : expected) std::cout << row << "\n";
-    GTEST_SKIP() << "printed";
-  }
+  if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) write_measured_rows(expected);
   EXPECT_EQ(measured_rows(), expected);
 }
 

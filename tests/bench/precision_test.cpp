@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -195,7 +196,7 @@ TEST(PrecisionSeries, DrawAnErrorInsideItsIntervalAsABound) {
 }
 
 TEST_F(PrecisionCharts, OfTheOverviewNameFourSeriesAndTheReference) {
-  // As deploy/work-precision titles it.
+  // As deploy/evidence titles it.
   const std::string title = "Type I crushed at 100 m/s to 41 % strain: error against time";
   draw_overview(file_, scenes_.front(), rows_, kConverged, title);
   const std::string drawn = picture();
@@ -219,6 +220,7 @@ TEST_F(PrecisionCharts, OfAllMeasuresHaveNoTextOnAnother) {
     const std::string drawn = picture();
     expect_no_text_on_another(drawn);
     for (const Variant& variant : scene.variants) {
+      if (std::ranges::none_of(rows_, [&](const CsvRow& row) { return is_of(row, scene, variant); })) continue;
       const std::string label = variant.name == kConverged ? "8" : label_of(variant.name);
       EXPECT_GE(count_of(">" + label, drawn), static_cast<int>(kMeasures.size())) << scene.name << " " << variant.name;
     }

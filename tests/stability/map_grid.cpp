@@ -22,6 +22,13 @@ std::shared_ptr<Scene> specimen(const std::string& lattice, double speed) {
 
 double lightest_of(const Scene& scene) { return *std::min_element(scene.mass.begin(), scene.mass.end()); }
 
+/// What the solver chooses by itself at a speed.
+Point default_at(const std::string& lattice, double speed) {
+  const auto scene = specimen(lattice, speed);
+  return {speed, scene->contact.stiffness * scene->stable_step * scene->stable_step / lightest_of(*scene),
+          scene->schedule.time_step / scene->stable_step};
+}
+
 }  // namespace
 
 std::string name_of(Outcome outcome) {
@@ -31,12 +38,6 @@ std::string name_of(Outcome outcome) {
     case Outcome::lost: break;
   }
   return "lost";
-}
-
-Point default_at(const std::string& lattice, double speed) {
-  const auto scene = specimen(lattice, speed);
-  return {speed, scene->contact.stiffness * scene->stable_step * scene->stable_step / lightest_of(*scene),
-          scene->schedule.time_step / scene->stable_step};
 }
 
 Result crush(const std::string& lattice, const Point& point) {
@@ -86,13 +87,25 @@ std::vector<Result> crush_all(const std::string& lattice, const Grid& grid,
   return results;
 }
 
+std::vector<Result> crush_defaults(const std::string& lattice, const Grid& grid,
+                                   const std::function<void(const Result&)>& told) {
+  std::vector<Result> results;
+  for (const double speed : grid.speeds) {
+    results.push_back(crush(lattice, default_at(lattice, speed)));
+    results.back().is_chosen = true;
+    told(results.back());
+  }
+  return results;
+}
+
 std::string as_csv(const std::vector<Result>& results) {
   std::ostringstream text;
   text.precision(4);
-  text << "speed_m_per_s,penalty,step,outcome,status,energy_error,contact_energy,deepest_penetration,end_strain\n";
+  text << "chosen,speed_m_per_s,penalty,step,outcome,status,energy_error,contact_energy,deepest_penetration,end_"
+          "strain\n";
   for (const Result& result : results) {
-    text << result.point.speed << ',' << result.point.penalty << ',' << result.point.step << ','
-         << name_of(result.outcome) << ',' << scenes::name_of(result.status) << ',' << result.energy_error << ','
+    text << result.is_chosen << ',' << result.point.speed << ',' << result.point.penalty << ',' << result.point.step
+         << ',' << name_of(result.outcome) << ',' << scenes::name_of(result.status) << ',' << result.energy_error << ','
          << result.contact_energy << ',' << result.deepest_penetration << ',' << result.end_strain << '\n';
   }
   return text.str();

@@ -129,7 +129,7 @@ void draw_head(cairo_t* context, const std::string& title) {
 }  // namespace
 
 std::string draw_map(client::PictureFormat format, const Grid& grid, const std::vector<Result>& results,
-                     const std::vector<Point>& defaults, const std::string& title) {
+                     const std::vector<Result>& defaults, const std::string& title) {
   const auto columns = static_cast<double>(grid.steps.size());
   const auto rows = static_cast<double>(grid.penalties.size());
   const double panel_width = kLeft + columns * kCellWidth + 16.0;
@@ -145,7 +145,7 @@ std::string draw_map(client::PictureFormat format, const Grid& grid, const std::
                                                       kHead + static_cast<double>(up) * panel_height + kAbove);
                                     panel.draw_cells(&results[i * grid.penalties.size() * grid.steps.size()]);
                                     panel.draw_labels(grid.speeds[i]);
-                                    panel.draw_default(defaults[i]);
+                                    panel.draw_default(defaults[i].point);
                                   }
                                 });
 }

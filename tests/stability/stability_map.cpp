@@ -21,17 +21,17 @@ void write(const std::filesystem::path& path, const std::string& bytes) {
 
 void draw(const std::filesystem::path& folder, const std::string& lattice) {
   const stability::Grid grid;
-  const auto results = stability::crush_all(lattice, grid, [](const stability::Result& result) {
+  const auto tell = [](const stability::Result& result) {
     std::fprintf(stderr, "%g m/s, penalty %g, step %g: %s\n", result.point.speed, result.point.penalty,
                  result.point.step, name_of(result.outcome).c_str());
-  });
-  std::vector<stability::Point> defaults;
-  for (const double speed : grid.speeds) {
-    defaults.push_back(stability::default_at(lattice, speed));
-  }
+  };
+  const auto results = stability::crush_all(lattice, grid, tell);
+  const auto defaults = stability::crush_defaults(lattice, grid, tell);
+  std::vector<stability::Result> all = results;
+  all.insert(all.end(), defaults.begin(), defaults.end());
   const std::string base = "stability_map_" + lattice;
   const std::string title = "12 x 6 " + lattice + "s crushed to 60 %: where the method holds";
-  write(folder / (base + ".csv"), stability::as_csv(results));
+  write(folder / (base + ".csv"), stability::as_csv(all));
   for (const char* extension : {".svg", ".png"}) {
     const std::filesystem::path file = folder / (base + extension);
     write(file, draw_map(client::picture_format(file), grid, results, defaults, title));

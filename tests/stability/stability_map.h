@@ -26,6 +26,7 @@ struct Point {
 
 struct Result {
   Point point;
+  bool is_chosen = false;  ///< the point is the solver's own choice, not one of the grid
   Outcome outcome = Outcome::stable;
   RunStatus::Kind status = RunStatus::Kind::finished;
   double energy_error = 0.0;    ///< greatest |residual| over the work done
@@ -41,9 +42,6 @@ struct Grid {
   std::vector<double> steps = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.98, 1.02, 1.1};
 };
 
-/// What the solver chooses by itself at a speed.
-Point default_at(const std::string& lattice, double speed);
-
 /// Crushes a specimen of 12 x 6 cells to 60 % strain with the given numerics. `lattice` is "hexagon", "square" or
 /// "triangle".
 Result crush(const std::string& lattice, const Point& point);
@@ -52,12 +50,16 @@ Result crush(const std::string& lattice, const Point& point);
 std::vector<Result> crush_all(const std::string& lattice, const Grid& grid,
                               const std::function<void(const Result&)>& told);
 
+/// The crushes with what the solver chooses by itself, one a speed.
+std::vector<Result> crush_defaults(const std::string& lattice, const Grid& grid,
+                                   const std::function<void(const Result&)>& told);
+
 /// A line of names and a line a result.
 std::string as_csv(const std::vector<Result>& results);
 
 /// The bytes of a picture of a grid: a panel a speed, steps across, penalties up, the energy error in each cell, and a
 /// ring where the solver's own choice lies. REQUIRES: `results` are those of the grid, `defaults` one a speed.
 std::string draw_map(client::PictureFormat format, const Grid& grid, const std::vector<Result>& results,
-                     const std::vector<Point>& defaults, const std::string& title);
+                     const std::vector<Result>& defaults, const std::string& title);
 
 }  // namespace cellcrush::stability

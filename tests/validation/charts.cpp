@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
 #include "bench/csv_table.h"
+#include "cellcrush/fidelity.h"
 #include "chart/colour_map.h"
 #include "chart/smoothing.h"
 #include "validation/course.h"
@@ -46,14 +46,13 @@ std::vector<std::string> words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// Options that change nothing that a plateau depends on but the speed and the mesh.
-const std::set<std::string> kPlain = {"speed", "end_strain", "samples", "frame_count", "elements"};
+/// Options that may differ among crushes that one chart shows; the mesh is asked for.
 const std::set<std::string> kOfSeeds = {"speed",     "end_strain", "samples", "frame_count",
                                         "amplitude", "seed",       "elements"};
 
-bool has_only(const std::vector<std::string>& words, const std::set<std::string>& known) {
+bool is_of_seeds(const std::vector<std::string>& words) {
   return std::all_of(words.begin(), words.end(),
-                     [&](const std::string& word) { return known.contains(word.substr(0, word.find('='))); });
+                     [&](const std::string& word) { return kOfSeeds.contains(word.substr(0, word.find('='))); });
 }
 
 std::vector<double> take(const std::vector<Plateau>& plateaus, double Plateau::*field) {
@@ -75,29 +74,6 @@ std::string fit_text(const std::string& preset, const client::QuadraticFit& fit)
   char text[96];
   std::snprintf(text, sizeof(text), ": %.2f %+.4f V %+.6f V\u00b2", fit.constant, fit.linear, fit.quadratic);
   return preset + text;
-}
-
-std::multimap<double, Plateau> read_rows(const std::vector<std::string>& tables, const std::string& preset,
-                                         const std::set<std::string>& known) {
-  std::multimap<double, Plateau> by_speed;
-  for (const std::string& table : tables) {
-    for (const bench::CsvRow& row : bench::read_csv(table)) {
-      std::vector<std::string> words = words_of(row.at("options"));
-      const double impact = bench::number_in(row, "plateau_stress_impact");
-      if (row.at("preset") != preset || !has_only(words, known) || !std::isfinite(impact)) {
-        continue;
-      }
-      words.insert(words.begin(), preset);
-      const double speed = *read_options(words).spec.loading.speed_m_per_s;
-      by_speed.emplace(speed, Plateau{preset, speed, impact, bench::number_in(row, "plateau_stress_support"),
-                                      bench::number_in(row, "theory_shock"), bench::number_in(row, "front_shock")});
-    }
-  }
-  if (by_speed.empty()) {
-    throw std::invalid_argument(preset +
-                                ": stands in none of the tables with a plateau; give the tables that validate wrote.");
-  }
-  return by_speed;
 }
 
 }  // namespace
@@ -134,23 +110,26 @@ client::Chart crush_chart(const std::vector<NamedCurve>& curves, double Sample::
   return chart;
 }
 
-std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset) {
-  std::map<double, Plateau> last;
-  for (const auto& [speed, plateau] : read_rows(tables, preset, kPlain)) {
-    last[speed] = plateau;
-  }
+std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset, int elements) {
   std::vector<Plateau> plateaus;
-  for (const auto& [speed, plateau] : last) {
-    plateaus.push_back(plateau);
+  for (const std::string& table : tables) {
+    for (const bench::CsvRow& row : bench::read_csv(table)) {
+      std::vector<std::string> words = words_of(row.at("options"));
+      const double impact = bench::number_in(row, "plateau_stress_impact");
+      if (row.at("preset") != preset || !is_of_seeds(words) || !std::isfinite(impact)) continue;
+      words.insert(words.begin(), preset);
+      const SceneSpec spec = fill_in_fidelity(read_options(words).spec);
+      if (*spec.elements_per_wall != elements) continue;
+      plateaus.push_back({preset, *spec.loading.speed_m_per_s, impact, bench::number_in(row, "plateau_stress_support"),
+                          bench::number_in(row, "theory_shock"), bench::number_in(row, "front_shock")});
+    }
   }
-  return plateaus;
-}
-
-std::vector<Plateau> read_seeds(const std::vector<std::string>& tables, const std::string& preset) {
-  std::vector<Plateau> plateaus;
-  for (const auto& [speed, plateau] : read_rows(tables, preset, kOfSeeds)) {
-    plateaus.push_back(plateau);
+  if (plateaus.empty()) {
+    throw std::invalid_argument(preset + " with " + std::to_string(elements) +
+                                " elements per wall: stands in none of the tables with a plateau; give tables that "
+                                "have it.");
   }
+  std::ranges::stable_sort(plateaus, {}, &Plateau::speed);
   return plateaus;
 }
 

@@ -28,13 +28,10 @@ struct Plateau {
   double front = 0.0;    ///< MPa, Eq. 52; not a number without a front
 };
 
-/// Of the crushes of a preset at its own settings but for the speed and what is output, by speed; of several at one
-/// speed that of the last table. Throws std::invalid_argument on a table that is none, or without such a row.
-std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset);
-
-/// Of all crushes of a preset whose imperfection and mesh may differ as well, by speed: several at one speed are seeds.
-/// Throws the same.
-std::vector<Plateau> read_seeds(const std::vector<std::string>& tables, const std::string& preset);
+/// Of the crushes of a preset with so many elements per wall, by speed. What they may differ in besides is the
+/// imperfection and what is output: several at one speed are seeds. Throws std::invalid_argument on a table that is
+/// none, or without such a row.
+std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset, int elements);
 
 /// The plateaus of a preset at both plates against the speed, with Eq. 51 and 52.
 client::Chart theory_chart(const std::vector<Plateau>& plateaus);

@@ -1,7 +1,6 @@
 #include "validation/course.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "measure/curve.h"
 #include "measure/lasting_rise.h"
@@ -86,24 +85,6 @@ Course find_course(std::span<const Sample> samples) {
   course.peaks =
       find_salient_peaks(samples, std::max(course.densification, course.rise_travel * last.strain / last.travel));
   return course;
-}
-
-std::string course_names() {
-  return "crush,densification_strain,densification_travel,rise_travel,plateau,peak_count,peaks";
-}
-
-std::string course_row(const std::string& name, const Course& course) {
-  char text[128];
-  std::snprintf(text, sizeof(text), ",%s%.4f,%.2f,%s%.2f,%.5g,%zu,", course.densified ? "" : ">", course.densification,
-                course.densification_travel, course.risen ? "" : ">", course.rise_travel, course.plateau,
-                course.peaks.size());
-  std::string row = name + text;
-  for (const Peak& peak : course.peaks) {
-    std::snprintf(text, sizeof(text), "%s%.4f:%.5g:%.5g", &peak == course.peaks.data() ? "" : " ", peak.strain,
-                  peak.stress, peak.prominence);
-    row += text;
-  }
-  return row;
 }
 
 }  // namespace cellcrush::validation

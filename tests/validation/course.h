@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "cellcrush/sample.h"
@@ -42,10 +41,5 @@ struct Course {
 
 /// REQUIRES: samples is not empty.
 Course find_course(std::span<const Sample> samples);
-
-/// Names of the columns of the row that course_row gives, and the row: peaks as strain:stress:prominence, separated by
-/// blanks. A crush that has not densified, or risen, has a > before its last strain.
-std::string course_names();
-std::string course_row(const std::string& name, const Course& course);
 
 }  // namespace cellcrush::validation

@@ -8,7 +8,7 @@ set -eu
 report=$1
 folder=$2
 pictures=${3:-$2}
-others=$(dirname "$0")/example_2.csv,$(dirname "$0")/records/slow_half_earlier.csv
+example_2=$(dirname "$0")/example_2.csv
 mkdir -p "$pictures"
 
 # Whether a crush has come to its end.
@@ -56,13 +56,6 @@ curves inclusions-6.svg travel "inclusions-0=no inclusions" "inclusions-6=6 line
 curves inclusions-step.svg travel "inclusions-0=chosen step" \
   "inclusions-0-papers-step=step of 2e-8 s"
 
-tables=$others,$folder/slow_half.csv
-"$report" theory "$pictures/type-i-plateaus.svg" tables="$tables" type-i
-"$report" fits "$pictures/plateaus-as-counted.svg" tables="$tables" type-i type-ii-as-counted type-iii-as-counted
-"$report" fits "$pictures/plateaus-as-stated.svg" tables="$tables" type-i type-ii-as-stated type-iii-as-stated
-
-ended=
-for file in "$folder"/inclusions-*.csv; do
-  if has "$(basename "$file" .csv)"; then ended="$ended $file"; fi
-done
-if [ -n "$ended" ]; then "$report" courses $ended >"$pictures/courses.csv"; fi
+"$report" theory "$pictures/type-i-plateaus.svg" tables="$example_2,$folder/slow_half.csv" type-i/2
+"$report" fits "$pictures/plateaus-seeds.svg" tables="$example_2" type-i/2 type-ii-as-counted/16 \
+  type-iii-as-counted/16

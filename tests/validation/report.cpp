@@ -1,21 +1,17 @@
 // Pictures and tables of what validate has kept.
 //   validation_report strip PICTURE strains=0.1,0.3,0.5 FILE.frames=TITLE ...  the lattice at strains, a row a crush
 //   validation_report curves PICTURE along=travel FILE.csv=TITLE ...           stress against strain or travel
-//   validation_report theory PICTURE tables=A.csv,B.csv PRESET                 plateau against speed, Eq. 51 and 52
-//   validation_report fits PICTURE tables=A.csv,B.csv PRESET ...               the same of several, quadratic fits
-//   validation_report seeds PICTURE tables=A.csv,B.csv PRESET ...              the same, a point for every seed
-//   validation_report courses FILE.csv ...                                     densification and salient peaks, as CSV
+//   validation_report theory PICTURE tables=A.csv,B.csv PRESET/ELEMENTS        plateau against speed, Eq. 51 and 52
+//   validation_report fits PICTURE tables=A.csv,B.csv PRESET/ELEMENTS ...      the same of several, quadratic fits
 // A picture's name ends in .png or .svg.
 
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 
 #include "bench/picture_file.h"
 #include "validation/charts.h"
-#include "validation/course.h"
 #include "validation/records.h"
 #include "validation/strip.h"
 
@@ -89,24 +85,17 @@ void write_curves(const std::string& picture, const Words& words) {
   write_charts(picture, {crush_chart(curves, along == "strain" ? &Sample::strain : &Sample::travel)});
 }
 
-using Read = std::vector<Plateau>(const std::vector<std::string>&, const std::string&);
-
-void write_plateaus(const std::string& picture, const Words& words, Read* read, bool with_theory) {
+void write_plateaus(const std::string& picture, const Words& words, bool with_theory) {
   const Words tables = split(value_of(words.at(0), "tables"), ',');
   std::vector<std::vector<Plateau>> presets;
   for (std::size_t i = 1; i < words.size(); ++i) {
-    presets.push_back(read(tables, words[i]));
+    const Words parts = split(words[i], '/');
+    if (parts.size() != 2) throw std::invalid_argument(words[i] + ": is no mesh; give PRESET/ELEMENTS.");
+    presets.push_back(read_plateaus(tables, parts[0], std::stoi(parts[1])));
   }
   const double fastest = presets.at(0).back().speed;
   write_charts(picture, with_theory ? std::vector{theory_chart(presets[0])}
                                     : std::vector{fit_chart(presets, kSlow), fit_chart(presets, fastest)});
-}
-
-void print_courses(const Words& files) {
-  std::cout << course_names() << "\n";
-  for (const std::string& file : files) {
-    std::cout << course_row(std::filesystem::path(file).stem(), find_course(read_curve(file))) << "\n";
-  }
 }
 
 void report(const Words& words) {
@@ -121,12 +110,10 @@ void report(const Words& words) {
     strip(words.at(1), behind(2));
   } else if (verb == "curves") {
     write_curves(words.at(1), behind(2));
-  } else if (verb == "theory" || verb == "fits" || verb == "seeds") {
-    write_plateaus(words.at(1), behind(2), verb == "seeds" ? read_seeds : read_plateaus, verb == "theory");
-  } else if (verb == "courses") {
-    print_courses(behind(1));
+  } else if (verb == "theory" || verb == "fits") {
+    write_plateaus(words.at(1), behind(2), verb == "theory");
   } else {
-    throw std::invalid_argument(verb + ": is not known; give strip, curves, theory, fits or courses.");
+    throw std::invalid_argument(verb + ": is not known; give strip, curves, theory or fits.");
   }
 }
 
@@ -138,7 +125,7 @@ int main(int count, char** words) {
     cellcrush::validation::report({words + 1, words + count});
     return 0;
   } catch (const std::exception& error) {
-    std::cerr << error.what() << "\nvalidation_report strip|curves|theory|fits|courses ...\n";
+    std::cerr << error.what() << "\nvalidation_report strip|curves|theory|fits ...\n";
     return 2;
   }
 }
