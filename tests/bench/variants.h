@@ -22,8 +22,8 @@ struct VariedScene {
 
 /// Reads a list: "[scene] preset words..." begins a scene, the lines below it are "group:label words..."; # begins a
 /// remark. A line that ends with @=a,b stands for two, with a and with b for every @; scenes of one line have the same
-/// variants. A variant's word seeds=N is how many seeds it has. Throws std::invalid_argument that names the file and the
-/// line on anything else, or when it cannot be read.
+/// variants. A variant's word seeds=N is how many seeds it has. Throws std::invalid_argument that names the file and
+/// the line on anything else, or when it cannot be read.
 std::vector<VariedScene> read_variants(const std::string& file);
 
 /// What a variant is run with for a seed: the scene's words, the variant's, the seed.
