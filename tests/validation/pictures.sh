@@ -48,14 +48,14 @@ strip inclusions-6 0.13,0.25,0.4,0.55,0.65 ""
 curves type-i-slow.svg strain "type-i-2=2 m/s" \
   "type-i-2-plate-friction=2 m/s, friction 0.2 at the plates" "type-i-10=10 m/s"
 curves inclusions-0.svg travel "inclusions-0=no inclusions" \
-  "inclusions-0-seed-2=imperfections of 0.001 mm, seed 2" "inclusions-0-seed-3=seed 3" \
+  "inclusions-0-seed-2=imperfections of 0.001 mm" \
   "inclusions-0-frictionless=no friction at the plates"
 curves inclusions-2.svg travel "inclusions-0=no inclusions" "inclusions-2=2 lines" \
-  "inclusions-2-seed-2=imperfections of 0.001 mm, seed 2" "inclusions-2-seed-3=seed 3"
+  "inclusions-2-seed-2=imperfections of 0.001 mm"
 curves inclusions-6.svg travel "inclusions-0=no inclusions" "inclusions-6=6 lines"
 curves inclusions-step.svg travel "inclusions-0=chosen step" \
   "inclusions-0-papers-step=step of 2e-8 s"
 
 "$report" theory "$pictures/type-i-plateaus.svg" tables="$example_2,$folder/slow_half.csv" type-i/2
-"$report" fits "$pictures/plateaus-seeds.svg" tables="$example_2" type-i/2 type-ii-as-counted/16 \
-  type-iii-as-counted/16
+"$report" fits "$pictures/plateaus-seeds.svg" tables="$example_2" type-i/2 type-ii-as-counted/8 \
+  type-iii-as-counted/8

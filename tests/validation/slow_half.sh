@@ -50,10 +50,8 @@ crush_inclusions() {
   run "$name" "inclusions-$lines" end_strain=$end_strain samples=2000 frame_count=40 "$@"
 }
 for lines in 0 2 6; do crush_inclusions inclusions-$lines $lines plate_friction=0.2; done
-for seed in 2 3; do
-  for lines in 6 2 0; do
-    crush_inclusions inclusions-$lines-seed-$seed $lines plate_friction=0.2 amplitude=0.001 seed=$seed
-  done
+for lines in 6 2 0; do
+  crush_inclusions inclusions-$lines-seed-2 $lines plate_friction=0.2 amplitude=0.001 seed=2
 done
 crush_inclusions inclusions-0-frictionless 0 plate_friction=0
 run type-i-2-plate-friction type-i speed=2 frame_count=40 plate_friction=0.2
@@ -68,4 +66,3 @@ crush_types() {
 crush_types as-counted 10 8
 crush_types as-counted 2 4
 crush_types as-stated 10 4
-crush_types as-stated 2 2
