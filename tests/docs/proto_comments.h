@@ -49,7 +49,4 @@ std::string make_field_limits();
 /// proto/api.md: every service, rpc and message but those of a case, from the comments of the other files.
 std::string make_api_page();
 
-/// The page server/store/result_format.md with the table of the columns of /history made from sample.proto.
-std::string with_history_columns(const std::string& page);
-
 }  // namespace cellcrush::docs

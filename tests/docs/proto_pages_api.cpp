@@ -132,26 +132,6 @@ std::string message_section(const pb::Descriptor& type) {
 
 }  // namespace
 
-std::string with_history_columns(const std::string& page) {
-  std::string rows = "\n| Dataset | Shape | Type | Meaning |\n|---|---|---|---|\n";
-  const auto add = [&](const char* message, pb::FieldDescriptor::CppType type, const std::string& prefix) {
-    const pb::Descriptor& of = *find_proto("sample").FindMessageTypeByName(message);
-    for (int i = 0; i < of.field_count(); ++i) {
-      if (of.field(i)->is_repeated() || of.field(i)->cpp_type() != type) continue;
-      const char* stored = type == pb::FieldDescriptor::CPPTYPE_DOUBLE ? "float64" : "int64";
-      rows += "| `/history/" + prefix + of.field(i)->name() + "` | S | " + stored + " | " +
-              cell(comment_above(*of.field(i)).substr(kOutputOnly.size())) + " |\n";
-    }
-  };
-  add("Sample", pb::FieldDescriptor::CPPTYPE_DOUBLE, "");
-  add("Front", pb::FieldDescriptor::CPPTYPE_DOUBLE, "front_");
-  add("Sample", pb::FieldDescriptor::CPPTYPE_INT64, "");
-  const std::size_t begin = page.find("-->", page.find("<!-- columns of /history"));
-  const std::size_t end = page.find("<!-- end of the columns -->");
-  if (begin >= end || end == std::string::npos) return rows;
-  return page.substr(0, begin + 3) + rows + page.substr(end);
-}
-
 std::string make_api_page() {
   std::string out = kApiHead;
   std::string messages = "\n## Messages\n";

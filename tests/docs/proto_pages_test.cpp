@@ -31,11 +31,6 @@ TEST(ProtoPages, TheLimitsOfTheSolverAreThoseOfTheCase) {
 
 TEST(ProtoPages, TheApiIsThatOfTheServices) { hold(kFolder / "api.md", make_api_page()); }
 
-TEST(ProtoPages, TheColumnsOfAResultAreTheNumbersOfASample) {
-  const fs::path page = kFolder.parent_path() / "server/store/result_format.md";
-  hold(page, with_history_columns(read_text(page)));
-}
-
 // Everything in a file that has no comment.
 class Uncommented {
  public:

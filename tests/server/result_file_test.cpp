@@ -114,7 +114,14 @@ TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
     EXPECT_EQ(read_text_attribute(dataset.id(), "description"), row[4]) << row[1];
     EXPECT_FALSE(read_text_attribute(dataset.id(), "units").empty()) << row[1];
   }
-  for (const HistoryColumn& column : history_columns()) EXPECT_TRUE(found.contains("/" + column.path));
+  for (const HistoryColumn& column : history_columns()) {
+    EXPECT_EQ(shape(file_.id(), column.path), std::vector<hsize_t>{kSamples}) << column.path;
+    EXPECT_TRUE(is_type(file_.id(), column.path, column.type())) << column.path;
+    const Hdf5Handle dataset(H5Dopen2(file_.id(), column.path.c_str(), H5P_DEFAULT), H5Dclose, column.path);
+    EXPECT_FALSE(read_text_attribute(dataset.id(), "description").empty()) << column.path;
+    EXPECT_FALSE(read_text_attribute(dataset.id(), "units").empty()) << column.path;
+    found.insert("/" + column.path);
+  }
   EXPECT_EQ(found.size(), 45U) << "Names never change.";
 }
 
