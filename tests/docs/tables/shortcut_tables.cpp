@@ -1,0 +1,58 @@
+// tests/bench/README.md: what the shortcuts of the solver save.
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "docs/tables/crush_rows.h"
+#include "docs/tables/record_tables.h"
+
+namespace cellcrush::docs {
+namespace {
+
+/// A variant of shortcuts.txt that leaves a shortcut out, or "with:..." has one that is off by default.
+struct Shortcut {
+  const char* variant;
+  const char* name;
+  const char* switched_off_by;
+  const char* agreement;
+};
+
+constexpr std::array kShortcuts = {
+    Shortcut{"without:faces", "contact search by face", "`contact.search BUCKETS`", "same bits"},
+    Shortcut{"without:fibres-of-perfect-plasticity", "fibres without hardening", "a hardening modulus above 0",
+             "same ledger"},
+    Shortcut{"without:single-precision", "fibres in single precision", "`numerics.fibre_precision DOUBLE`",
+             "within the scatter of seeds"},
+    Shortcut{"without:rigid-inclusions", "stiff cells as rigid bodies", "`lattice.inclusions.model MESHED`",
+             "work within 2 %"},
+    Shortcut{"without:few-samples", "1000 samples, not 10,000", "`output.sample_count`", "same bits"},
+    Shortcut{"with:rotary-inertia-3", "threefold rotary inertia (off by default)", "`numerics.rotary_scaling 1`",
+             "[accuracy.md](../accuracy.md)"},
+};
+
+/// Mean processor time of the crushes of a scene and variant; not a number without any.
+double seconds_of(const std::vector<CrushGroup>& groups, const std::string& scene, const std::string& variant) {
+  for (const CrushGroup& group : groups) {
+    if (group.scene == scene && group.variant == variant) return group.of("processor_seconds").mean;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+PageTables shortcut_tables() {
+  const std::vector<CrushGroup> groups =
+      read_groups(kTests + "/bench/shortcuts.txt", kTests + "/bench/results/shortcuts.csv");
+  PageTable table({"Shortcut", "Switched off by", "Agreement", "#100 m/s", "#10 m/s", "#1 m/s"});
+  for (const Shortcut& shortcut : kShortcuts) {
+    std::vector<std::string> cells = {shortcut.name, shortcut.switched_off_by, shortcut.agreement};
+    for (const char* scene : {"type-i-100", "type-i-10", "example-3"}) {
+      const double ratio = seconds_of(groups, scene, shortcut.variant) / seconds_of(groups, scene, "with:all");
+      cells.push_back(fixed(std::string(shortcut.variant).starts_with("with:") ? 1.0 / ratio : ratio, 2));
+    }
+    table.add_row(cells);
+  }
+  return {{"shortcuts", table.text()}};
+}
+
+}  // namespace cellcrush::docs
