@@ -57,7 +57,7 @@ struct TimeStep {
 ///    n V / (1.44 sqrt(sigma_y / rho)), with n elements per wall; at most 0.3 rad and at least an eighth of it.
 ///
 /// Reason for the last: their walls lie along the crush and are stacked. Contacts between them oscillate against each
-/// other and create energy: more in slow crushes and on coarse meshes. What was measured stands in core/time-step.md.
+/// other and create energy: more in slow crushes and on coarse meshes. core/time-step.md has the range of crushes.
 TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const ContactLaw& contact, const Plates& plates);
 
 }  // namespace cellcrush
