@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "docs/session.h"
+#include "docs/shown_output.h"
 #include "programs/process.h"
 #include "programs/temporary_folder.h"
 
@@ -44,13 +45,35 @@ TEST(Session, StopsAtTheCommandThatFails) {
   EXPECT_EQ(outcomes[1].exit_code, 1);
 }
 
-TEST(Session, ComparesLinesButForTheirNumbers) {
-  EXPECT_EQ(missing_line({"plateau  3.31 MPa", "...", "took 7 s"}, "plateau 3.29 MPa\nmore\n\ntook 12.5 s\n"), "");
-  EXPECT_EQ(missing_line({"plateau 3.31 MPa", "took 7 s"}, "plateau 3.29 MPa\nmore\ntook 12.5 s\n"), "took 7 s");
-  EXPECT_EQ(missing_line({"plateau 3.31 mm"}, "plateau 3.31 MPa\n"), "plateau 3.31 mm");
-  EXPECT_EQ(missing_line({"1 MPa", "...", "2 MPa", "end"}, "1 MPa\n2 MPa\n3 MPa\nend\n"), "");
-  EXPECT_EQ(missing_line({"...", "2 MPa", "end"}, "1 MPa\n2 MPa\n"), "end");
-  EXPECT_EQ(masked("jobs/ab-12   -1.5e-7 ----"), masked("jobs/c 3 --"));
+TEST(Session, WritesWhatCommandsPrintIntoThePage) {
+  const std::string text = "1. Text\n   ```console\n   $ a \\\n     b\n   1\n\n   ...\n\n   $ c\n   2\n   ```\n";
+  const std::vector<Step> steps = steps_of(parse_page("page.md", text));
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(with_shown(text, steps, {steps[0].shown, steps[1].shown}), text);
+  EXPECT_EQ(with_shown(text, steps, {{"3", "", "4", "..."}}),
+            "1. Text\n   ```console\n   $ a \\\n     b\n   3\n\n   4\n   ...\n\n   $ c\n   2\n   ```\n");
+}
+
+TEST(ShownOutput, IsThatOfTheProgramButForVolatileValues) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(show_again({"plateau  3.31 MPa", "...", "took 7 s"}, "plateau  3.29 MPa\nmore\n\ntook 12.5 s\n\n"),
+            (Lines{"plateau  3.29 MPa", "...", "took 7 s"}));
+  EXPECT_EQ(show_again({"a", "took      7.3 s"}, "a\ntook    120.25 s\n"), (Lines{"a", "took      7.3 s"}));
+  EXPECT_EQ(show_again({"step 2.5e-07 s"}, "step 2.6e-07 s\n"), Lines{"step 2.6e-07 s"});
+  EXPECT_EQ(show_again({"on 127.0.0.1:8080 at 2026-11-23T17:01:26Z"}, "on 127.0.0.1:49152 at 2027-01-02T03:04:05Z"),
+            Lines{"on 127.0.0.1:8080 at 2026-11-23T17:01:26Z"});
+}
+
+TEST(ShownOutput, FollowsLinesWhoseWordsChange) {
+  using Lines = std::vector<std::string>;
+  // The row of a table that begins with the same words, though all have other figures.
+  EXPECT_EQ(show_again({"m/s  MPa", "25  0.497", "...", "200  12.8"}, "m/s  kPa\n 25  503\n 50  1130\n200  12.7\n"),
+            (Lines{"m/s  kPa", " 25  503", "...", "200  12.7"}));
+  EXPECT_EQ(show_again({"...", "error of the mesh  1 %", "..."}, "a\nb\nerror of the first mesh  2 %\nc"),
+            (Lines{"...", "error of the first mesh  2 %", "..."}));
+  // Lines between shown ones and behind the last join; those that are gone go.
+  EXPECT_EQ(show_again({"a", "b", "c"}, "a\n\nnew\nb\nlast line\n"), (Lines{"a", "", "new", "b", "last line"}));
+  EXPECT_EQ(show_again({"...", "gone for good", "..."}, "a\n"), (Lines{"...", "..."}));
 }
 
 }  // namespace

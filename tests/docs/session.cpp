@@ -8,12 +8,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <regex>
 #include <sstream>
 #include <system_error>
 
+#include "docs/shown_output.h"
 #include "programs/process.h"
 #include "programs/temporary_folder.h"
 
@@ -30,6 +32,12 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
+}
+
+std::string text_of(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
 }
 
 // A port that is free now.
@@ -82,6 +90,7 @@ exec DAEMON "$@" "${more[@]}" --listen "unix:$HOME/.session/daemon.sock"
 
 void write_wrappers(const fs::path& folder, const fs::path& programs, Ports& ports) {
   fs::create_directories(folder / ".local/share/cellcrush");
+  fs::permissions(folder / ".local/share/cellcrush", fs::perms::owner_all);
   fs::create_directories(folder / ".session");
   const fs::path wrapper = folder / ".session/cellcrushd";
   const std::string daemon = "'" + (programs / "cellcrushd").string() + "'";
@@ -157,13 +166,10 @@ Page find_page(const std::string& path) {
   return {};
 }
 
-}  // namespace
-
-namespace {
-
 void add_lines(const Code& block, std::vector<Step>& steps) {
   const bool console = block.language == "console";
   int number = block.line;
+  const std::size_t before = steps.size();
   bool continued = false;
   for (const std::string& line : lines_of(block.text)) {
     const bool starts = console ? line.starts_with("$ ") : !line.empty() && !line.starts_with("#");
@@ -171,11 +177,16 @@ void add_lines(const Code& block, std::vector<Step>& steps) {
       steps.back().command += "\n" + line;
     } else if (starts) {
       steps.push_back({number, line.substr(console ? 2 : 0), {}});
-    } else if (!line.empty() && console && !steps.empty()) {
+    } else if (console && steps.size() > before) {
       steps.back().shown.push_back(line);
     }
-    continued = (continued || starts) && line.ends_with('\\');
+    const bool command = continued || starts;
+    continued = command && line.ends_with('\\');
     ++number;
+    if (command) steps.back().shown_line = number;
+  }
+  for (std::size_t i = before; i < steps.size(); ++i) {
+    while (!steps[i].shown.empty() && steps[i].shown.back().empty()) steps[i].shown.pop_back();
   }
 }
 
@@ -206,43 +217,18 @@ std::vector<Step> steps_of(const Page& page) {
   return steps;
 }
 
-std::string masked(const std::string& line) {
-  static const std::regex kNumber(R"([-+]?[0-9][0-9.,:]*(e[-+]?[0-9]+)?)");
-  static const std::regex kName(R"((jobs|sweeps)/[A-Za-z0-9_-]+)");
-  static const std::regex kBlank(R"([ \t]+)");
-  static const std::regex kRule(R"(([-=#])\1+)");
-  static const std::regex kRevision(R"(\+([0-9a-f]{12}|unknown)(-dirty)?)");
-  std::string text = std::regex_replace(std::regex_replace(line, kName, "$1/NAME"), kRevision, "+REVISION");
-  text = std::regex_replace(text, kNumber, "#");
-  text = std::regex_replace(text, kRule, "=");
-  text = std::regex_replace(text, kBlank, " ");
-  while (text.ends_with(' ')) text.pop_back();
-  while (text.starts_with(' ')) text.erase(0, 1);
-  return text;
-}
-
-std::string missing_line(const std::vector<std::string>& shown, const std::string& output) {
-  std::vector<std::string> lines;
-  for (const std::string& line : lines_of(output)) {
-    if (const std::string text = masked(line); !text.empty()) lines.push_back(text);
+std::string with_shown(const std::string& page, const std::vector<Step>& steps,
+                       const std::vector<std::vector<std::string>>& shown) {
+  std::vector<std::string> lines = lines_of(page);
+  for (std::size_t i = std::min(steps.size(), shown.size()); i-- > 0;) {
+    if (steps[i].shown.empty() || steps[i].shown == shown[i]) continue;
+    const std::string& command = lines[steps[i].line - 1];
+    const std::string indent = command.substr(0, command.find_first_not_of(' '));
+    const auto first = lines.begin() + steps[i].shown_line - 1;
+    auto place = lines.erase(first, first + static_cast<std::ptrdiff_t>(steps[i].shown.size()));
+    for (const std::string& line : shown[i]) place = lines.insert(place, line.empty() ? line : indent + line) + 1;
   }
-  auto from = lines.begin();
-  for (auto line = shown.begin(); line != shown.end();) {
-    const bool gap = *line == "...";
-    if (gap) ++line;
-    // The lines up to the next gap stand together.
-    const auto end = std::find(line, shown.end(), "...");
-    auto farthest = line;
-    do {
-      const auto same = [](const auto& on_page, const auto& text) { return masked(on_page) == text; };
-      const auto [stop, after] = std::mismatch(line, end, from, lines.end(), same);
-      farthest = std::max(farthest, stop);
-      from = stop == end ? after : from + (from != lines.end() ? 1 : 0);
-    } while (gap && farthest != end && from != lines.end());
-    if (farthest != end) return *farthest;
-    line = end;
-  }
-  return "";
+  return text_of(lines);
 }
 
 std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::path& folder, const fs::path& programs,
@@ -269,7 +255,7 @@ std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::p
       output.clear();
     } else if (line.starts_with(kEnd)) {
       outcomes.push_back({std::stoi(line.substr(line.rfind(' '))), output});
-    } else {
+    } else if (line.find("/.session/daemon.sock") == std::string::npos) {
       // Pages show a user of that name.
       output += std::regex_replace(std::regex_replace(line, home, "/home/anna"), user, "anna") + "\n";
     }
@@ -305,6 +291,8 @@ void expect_shown(const std::string& path, Reader reader, const std::map<std::st
   });
   fs::create_directory_symlink(CELLCRUSH_SOURCE_ROOT, home / "cellcrush");
   const std::vector<StepOutcome> outcomes = run_session(steps, home, home / ".local/bin", kSessionLimit, reader);
+  const bool writes = std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr;
+  std::vector<std::vector<std::string>> shown;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (outcomes[i].exit_code == StepOutcome::kPackagesAreMissing) GTEST_SKIP() << "Not here: " << steps[i].command;
     constexpr std::size_t kMostOutput = 4000;
@@ -312,10 +300,21 @@ void expect_shown(const std::string& path, Reader reader, const std::map<std::st
     const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command + "\n" +
                               output.substr(output.size() - std::min(output.size(), kMostOutput));
     EXPECT_EQ(outcomes[i].exit_code, 0) << place;
-    EXPECT_EQ(missing_line(steps[i].shown, output), "") << place;
+    shown.push_back(steps[i].shown.empty() ? steps[i].shown : show_again(steps[i].shown, output));
+    if (writes) continue;
+    EXPECT_EQ(text_of(steps[i].shown), text_of(shown.back()))
+        << "CELLCRUSH_WRITE_PAGES=1 writes the second into the page.\n"
+        << place;
   }
   ASSERT_EQ(outcomes.size(), steps.size())
       << path << ":" << steps[std::min(outcomes.size(), steps.size() - 1)].line << ": the session ended here";
+  if (writes) {
+    const fs::path file = fs::path(CELLCRUSH_SOURCE_ROOT) / path;
+    const std::string text = read_text(file);
+    shown.erase(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(before.size()));
+    steps.erase(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(before.size()));
+    if (const std::string made = with_shown(text, steps, shown); made != text) std::ofstream(file) << made;
+  }
 }
 
 }  // namespace cellcrush::docs

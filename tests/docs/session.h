@@ -14,21 +14,14 @@ namespace cellcrush::docs {
 struct Step {
   int line = 0;  ///< of the command in the page
   std::string command;
-  std::vector<std::string> shown;  ///< without empty lines; "..." for what the page leaves out
+  std::vector<std::string> shown;  ///< without empty lines at the end; "..." for what the page leaves out
+  int shown_line = 0;              ///< of the first shown line
 };
 
 /// What the blocks of a page ask its reader to do, in their order: the commands behind the dollars of `console`, the
 /// lines of `sh`, both continued with a backslash, the commands of "run", and the files that the page has saved. The
 /// other blocks of Python are one program, which runs at the end. Blocks with an excuse ask nothing.
 std::vector<Step> steps_of(const Page& page);
-
-/// A line with every number as `#`, every bar of a progress as `=`, and blanks as one: what stays the same between two
-/// machines.
-std::string masked(const std::string& line);
-
-/// Whether the output has the shown lines, masked, in their order. Between two shown lines no other may stand unless
-/// the page shows "...". Returns the first shown line that is missing; empty when all are there.
-std::string missing_line(const std::vector<std::string>& shown, const std::string& output);
 
 /// How one command of a session ended.
 struct StepOutcome {
@@ -55,9 +48,14 @@ std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const std::
 /// `cmake --install` of the build that the test belongs to.
 void install(const std::filesystem::path& prefix);
 
+/// A page with other lines in place of those that its steps show: `shown` has those of the first steps.
+std::string with_shown(const std::string& page, const std::vector<Step>& steps,
+                       const std::vector<std::vector<std::string>>& shown);
+
 /// Takes the steps of a page of the tree, after an installation in ~/.local, in a home of their own, which has the tree
-/// as ~/cellcrush, and expects of each command what the page shows. `instead` has words of the page, and what is typed
-/// instead of each; `before` is typed first.
+/// as ~/cellcrush, and expects of each command what the page shows, save volatile values (shown_output.h). `instead` has
+/// words of the page, and what is typed instead of each; `before` is typed first. With CELLCRUSH_WRITE_PAGES it writes
+/// what the commands print into the page.
 void expect_shown(const std::string& path, Reader reader = Reader::caller,
                   const std::map<std::string, std::string>& instead = {}, const std::vector<std::string>& before = {});
 
