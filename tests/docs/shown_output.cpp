@@ -19,7 +19,7 @@ const std::vector<std::regex>& volatile_values() {
     std::vector<std::regex> values;
     for (const char* value : {
              R"(\b[0-9]{4}-[0-9]{2}-[0-9]{2}(T[0-9:.]+Z)?)",          // dates
-             R"(\b[0-9]+(\.[0-9]+)? (ms|s|min|h)\b)",                 // times
+             R"((^| )[0-9]+(\.[0-9]+)? (ms|s|min|h)\b)",              // times
              R"(\b[0-9]+(\.[0-9]+)? (k|M|G)?(steps|particles)/s\b)",  // rates
              R"(\b[0-9]+(\.[0-9]+)? (kB|MB|GB|KiB|MiB|GiB)\b)",       // memory and disk
              R"(\b(127\.0\.0\.1|localhost):[0-9]+)",                  // ports
