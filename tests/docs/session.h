@@ -53,9 +53,9 @@ std::string with_shown(const std::string& page, const std::vector<Step>& steps,
                        const std::vector<std::vector<std::string>>& shown);
 
 /// Takes the steps of a page of the tree, after an installation in ~/.local, in a home of their own, which has the tree
-/// as ~/cellcrush, and expects of each command what the page shows, save volatile values (shown_output.h). `instead` has
-/// words of the page, and what is typed instead of each; `before` is typed first. With CELLCRUSH_WRITE_PAGES it writes
-/// what the commands print into the page.
+/// as ~/cellcrush, and expects of each command what the page shows, save volatile values (shown_output.h). `instead`
+/// has words of the page, and what is typed instead of each; `before` is typed first. With CELLCRUSH_WRITE_PAGES it
+/// writes what the commands print into the page.
 void expect_shown(const std::string& path, Reader reader = Reader::caller,
                   const std::map<std::string, std::string>& instead = {}, const std::vector<std::string>& before = {});
 
