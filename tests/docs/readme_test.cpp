@@ -59,6 +59,8 @@ TEST(ShownOutput, IsThatOfTheProgramButForVolatileValues) {
   EXPECT_EQ(show_again({"plateau  3.31 MPa", "...", "took 7 s"}, "plateau  3.29 MPa\nmore\n\ntook 12.5 s\n\n"),
             (Lines{"plateau  3.29 MPa", "...", "took 7 s"}));
   EXPECT_EQ(show_again({"a", "took      7.3 s"}, "a\ntook    120.25 s\n"), (Lines{"a", "took      7.3 s"}));
+  EXPECT_EQ(show_again({"JOB  STARTS IN", "a      7.3 s"}, "JOB   STARTS IN\na    1 min 20 s\n"),
+            (Lines{"JOB  STARTS IN", "a      7.3 s"}));
   EXPECT_EQ(show_again({"step 2.5e-07 s"}, "step 2.5e-08 s\n"), Lines{"step 2.5e-08 s"});
   EXPECT_EQ(show_again({"on 127.0.0.1:8080 at 2026-11-23T17:01:26Z"}, "on 127.0.0.1:49152 at 2027-01-02T03:04:05Z"),
             Lines{"on 127.0.0.1:8080 at 2026-11-23T17:01:26Z"});

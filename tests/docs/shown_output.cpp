@@ -18,12 +18,13 @@ const std::vector<std::regex>& volatile_values() {
   static const std::vector<std::regex> kValues = [] {
     std::vector<std::regex> values;
     for (const char* value : {
-             R"(\b[0-9]{4}-[0-9]{2}-[0-9]{2}(T[0-9:.]+Z)?)",          // dates
-             R"((^| )[0-9]+(\.[0-9]+)? (ms|s|min|h)\b)",              // times
-             R"(\b[0-9]+(\.[0-9]+)? (k|M|G)?(steps|particles)/s\b)",  // rates
-             R"(\b[0-9]+(\.[0-9]+)? (kB|MB|GB|KiB|MiB|GiB)\b)",       // memory and disk
-             R"(\b(127\.0\.0\.1|localhost):[0-9]+)",                  // ports
-             R"(\+([0-9a-f]{12}|unknown)(-dirty)?\b)",                // revisions
+             R"(\b[0-9]{4}-[0-9]{2}-[0-9]{2}(T[0-9:.]+Z)?)",                // dates
+             R"((^| )[0-9]+(\.[0-9]+)? (ms|s|min|h)( [0-9]+ (s|min))?\b)",  // times
+             R"(STARTS IN)",                                                // the title of a column of times
+             R"(\b[0-9]+(\.[0-9]+)? (k|M|G)?(steps|particles)/s\b)",        // rates
+             R"(\b[0-9]+(\.[0-9]+)? (kB|MB|GB|KiB|MiB|GiB)\b)",             // memory and disk
+             R"(\b(127\.0\.0\.1|localhost):[0-9]+)",                        // ports
+             R"(\+([0-9a-f]{12}|unknown)(-dirty)?\b)",                      // revisions
          })
       values.emplace_back(std::string(" *") + value + " *");
     return values;
