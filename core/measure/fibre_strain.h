@@ -22,7 +22,7 @@ struct WallStrain {
 /// Of all walls; strain 0 before any is strained. Values that are not finite are left out.
 WallStrain find_largest_fibre_strain(const Scene& scene, const State& state);
 
-/// Overwrites the strains of all walls (Scene::wall_count).
+/// Overwrites the strains of all walls (Scene::wall_count), by their numbers (MeshView::element_wall).
 void evaluate_fibre_strains(const Scene& scene, const State& state, std::vector<float>& strains);
 
 }  // namespace cellcrush

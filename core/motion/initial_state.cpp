@@ -83,6 +83,7 @@ State place_particles(const Scene& scene) {
   state.rigid_velocity.assign(scene.rigid.count(), Vector2::Zero());
   state.rigid_rotation.assign(scene.rigid.count(), 0.0);
   state.rigid_spin.assign(scene.rigid.count(), 0.0);
+  start_rigid_bodies(scene, state);
   return state;
 }
 

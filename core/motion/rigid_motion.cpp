@@ -83,6 +83,22 @@ void turn_axes(const Scene& scene, State& state) {
 
 }  // namespace
 
+void start_rigid_bodies(const Scene& scene, State& state) {
+  const RigidBodies& rigid = scene.rigid;
+  for (std::size_t body = 0; body < rigid.count() && !scene.initial_velocity.empty(); ++body) {
+    Vector2 momentum = Vector2::Zero();
+    double angular = 0.0;
+    for (int i = rigid.offset[body]; i < rigid.offset[body + 1]; ++i) {
+      const Vector2 of_particle = scene.mass[i] * scene.initial_velocity[i];
+      momentum += of_particle;
+      angular += cross(Vector2(scene.position[i] - rigid.centre[body]), of_particle) +
+                 scene.inertia[i] * scene.initial_spin[i];
+    }
+    state.rigid_velocity[body] = momentum / rigid.mass[body];
+    state.rigid_spin[body] = angular / rigid.inertia[body];
+  }
+}
+
 void stagger_rigid_bodies(const Scene& scene, State& state) {
   visit_bodies(scene, state, [&](std::size_t body, const Motion& motion, auto) {
     state.rigid_velocity[body] -= 0.5 * (to_vector(motion.next) - state.rigid_velocity[body]);

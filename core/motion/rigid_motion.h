@@ -10,6 +10,9 @@ namespace cellcrush {
 // from the sums of the forces and of the moments about the centre, M dV/dt = sum F, I d(omega)/dt = sum (m + r x F).
 // They are integrated by the central differences of the particles (E2).
 
+/// Gives the bodies the momentum that their particles have by the initial velocities of nodes.
+void start_rigid_bodies(const Scene& scene, State& state);
+
 /// Moves the velocities of the bodies from time 0 to half a step before, with the forces at time 0 (E2b).
 void stagger_rigid_bodies(const Scene& scene, State& state);
 

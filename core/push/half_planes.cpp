@@ -213,9 +213,10 @@ Problems find_walls_in_half_planes(const Scene& scene, std::size_t nodes) {
     }
     if (most > 0.0) {
       const Vector2& place = scene.position[deepest];
+      const auto node = [&] { return scene.frame_order.node_of(static_cast<int>(deepest)); };
       check.add(path_of(w), to_text(most) + " mm",
                 "is the depth to which the walls at " +
-                    (deepest < nodes ? "lattice.frame.nodes[" + std::to_string(deepest) + "]"
+                    (deepest < nodes ? "lattice.frame.nodes[" + std::to_string(node()) + "]"
                                      : "(" + to_text(place.x()) + ", " + to_text(place.y()) + ") mm") +
                     " stand in it at time 0, half of their thickness included.",
                 "Move the rigid wall back by at least that much, or turn its normal towards the lattice.");

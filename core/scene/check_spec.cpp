@@ -13,6 +13,7 @@
 #include "lattice/lattice.h"
 #include "push/half_planes.h"
 #include "scene/mesh_part.h"
+#include "scene/rigid_links.h"
 
 namespace cellcrush {
 namespace {
@@ -153,6 +154,7 @@ void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
   check.within_limits("numerics.mass_damping_per_s", numerics.mass_damping_per_s);
   check.within_limits("numerics.mass_scaling", numerics.mass_scaling, " (1: real masses)");
   check.within_limits("numerics.rotary_scaling", numerics.rotary_scaling, " (1: real inertias)");
+  check.within_limits("numerics.rigid_link_slenderness", numerics.rigid_link_slenderness, " (0: no rigid links)");
   check.within_limits("numerics.threads", numerics.threads);
 }
 
@@ -160,15 +162,12 @@ std::string place_text(const Vector2& place) { return "(" + to_text(place.x()) +
 
 std::string field_of_beam(int beam) { return "lattice.frame.beams[" + std::to_string(beam) + "]"; }
 
-Problems name_beams(const FrameWalls& frame, int elements_per_wall, const std::vector<InitialOverlap>& overlaps) {
-  std::vector<int> beam;  // of each element
-  for (std::size_t i = 0; i < frame.beams.size(); ++i) {
-    beam.insert(beam.end(), frame.beams[i].elements.value_or(elements_per_wall), static_cast<int>(i));
-  }
+Problems name_beams(const Scene& scene, const std::vector<InitialOverlap>& overlaps) {
   std::set<std::pair<int, int>> named;
   Problems problems;
   for (const InitialOverlap& overlap : overlaps) {
-    const auto [one, other] = std::minmax(beam[overlap.first], beam[overlap.second]);
+    const auto [one, other] =
+        std::minmax({beam_of_element(scene, overlap.first), beam_of_element(scene, overlap.second)});
     if (named.emplace(one, other).second) {
       problems.push_back({field_of_beam(other), "",
                           "overlaps " + field_of_beam(one) + " before loading, at " + place_text(overlap.place) + ".",
@@ -233,7 +232,7 @@ Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
              "Use thinner walls or longer elements."}};
   }
   if (frame != nullptr) {
-    return name_beams(*frame, *spec.elements_per_wall, overlaps.found);
+    return name_beams(scene, overlaps.found);
   }
   if (overlaps.found.empty()) {
     return {};

@@ -1,6 +1,7 @@
 #include "scene/frame.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -199,7 +200,7 @@ void attach_initial_velocities(const FrameWalls& frame, const std::vector<LoadsS
 
 }  // namespace
 
-Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall) {
+Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall, int links) {
   Layout layout;
   for (const FrameWalls::Node& node : frame.nodes) {
     layout.joints.emplace_back(node.x_mm, node.y_mm);
@@ -209,6 +210,10 @@ Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall) {
     const int material = beam.material ? ++own_materials : 0;
     layout.walls.push_back(
         {beam.start, beam.end, beam.thickness_mm, beam.elements.value_or(elements_per_wall), material});
+  }
+  for (LayoutWall& link : std::span(layout.walls).last(static_cast<std::size_t>(links))) {
+    link.rigid = true;
+    link.elements = 1;
   }
   add_pinned_ends(frame, layout);
   return layout;

@@ -7,9 +7,9 @@
 namespace cellcrush {
 
 /// Joints and walls of an explicit frame; joint i is node i, and the joints of pinned ends follow (E16). Walls
-/// have material 0. Beams with a material of their own have 1, 2, ... in the order of the beams. REQUIRES: a checked
-/// frame.
-Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall);
+/// have material 0. Beams with a material of their own have 1, 2, ... in the order of the beams. The last `links` beams
+/// are rigid links. REQUIRES: a checked frame, its links in order (scene/rigid_links.h).
+Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall, int links);
 
 /// Adds the attached masses, supports, pins and watched nodes of a frame, and what acts on its nodes and beams, to the
 /// scene. REQUIRES: the mesh of the scene is that of the frame; lump_masses has not run yet.

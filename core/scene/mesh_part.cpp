@@ -10,6 +10,7 @@
 #include "scene/check_spec.h"
 #include "scene/frame.h"
 #include "scene/mesh.h"
+#include "scene/rigid_links.h"
 #include "scene/solid_area.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
@@ -44,10 +45,10 @@ bool allows_single_fibres(const Scene& scene) {
          (!scene.section.force_based || Laws::kFacts[scene.law].may_be_single_in_force_based);
 }
 
-/// Lays out the lattice, and computes its measures if it is a regular one.
-Layout lay_out(const SceneSpec& spec, Scene& scene) {
+/// Lays out the lattice, and computes its measures if it is a regular one. The last beams of a frame are rigid links.
+Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
-    return lay_out_frame(*frame, *spec.elements_per_wall);
+    return lay_out_frame(*frame, *spec.elements_per_wall, links);
   }
   const LatticeKind& kind = *kind_of(spec);
   const Vector2 envelope = kind.envelope(spec);
@@ -97,12 +98,15 @@ SceneSpec mesh_part_of(const SceneSpec& spec) {
   part.numerics = {};
   part.numerics.mass_scaling = spec.numerics.mass_scaling;
   part.numerics.rotary_scaling = spec.numerics.rotary_scaling;
+  part.numerics.rigid_link_slenderness = spec.numerics.rigid_link_slenderness;
   part.numerics.fibre_precision = spec.numerics.fibre_precision;
   part.output = {};
   return part;
 }
 
-std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
+std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
+  const LinkedFrame linked = put_rigid_links_first(given);
+  const SceneSpec& part = linked.spec;
   auto scene = std::make_shared<Scene>();
   scene->depth = *part.depth_mm;
   scene->materials = materials_of(part);
@@ -111,7 +115,8 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
   scene->constant_area = part.section.area_rule == SectionSpec::AreaRule::constant_area;
   scene->single_fibres =
       part.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision && allows_single_fibres(*scene);
-  Layout layout = lay_out(part, *scene);
+  Layout layout = lay_out(part, linked.links, *scene);
+  scene->frame_order = linked.order;
   scene->rigid.offset = put_rigid_bodies_first(layout);
   divide_walls(layout, *scene);
   if (const auto* frame = std::get_if<FrameWalls>(&part.lattice)) {

@@ -42,21 +42,11 @@ double stable_step_of_pair(double length, double thickness, const Material& mate
 
 MeshSteps steps_of(const Scene& scene) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  const Walls& walls = scene.walls;
   MeshSteps steps = {kInfinite, kInfinite, kInfinite};
-  for (const WallBlock& block : walls.blocks) {
-    const bool in_pairs = scene.section.force_based && block.has_pairs();
-    for (int w = block.first_wall; w < block.first_wall + block.walls; ++w) {
-      const Material& material = scene.materials[walls.material[w]];
-      const double alone =
-          stable_step_of_element(walls.undeformed_length[w], walls.thickness[w], material, scene.mass_scaling);
-      const double stable =
-          in_pairs ? stable_step_of_pair(walls.undeformed_length[w], walls.thickness[w], material, scene.mass_scaling)
-                   : alone;
-      steps.stable = std::min(steps.stable, stable);
-      steps.of_elements = std::min(steps.of_elements, alone);
-    }
-  }
+  visit_steps_of_walls(scene, [&steps](const WallBlock&, int, double alone, double stable) {
+    steps.stable = std::min(steps.stable, stable);
+    steps.of_elements = std::min(steps.of_elements, alone);
+  });
   steps.accurate = (scene.section.force_based ? kForceBasedStepFraction : kStepFraction) * steps.stable;
   return steps;
 }

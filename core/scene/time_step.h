@@ -40,6 +40,22 @@ struct MeshSteps {
 };
 MeshSteps steps_of(const Scene& scene);
 
+/// Calls visit(block, wall, step without pairs, stable step) for all walls, in s: the steps of their elements.
+template <class Visit>
+void visit_steps_of_walls(const Scene& scene, const Visit& visit) {
+  const Walls& walls = scene.walls;
+  for (const WallBlock& block : walls.blocks) {
+    const bool in_pairs = scene.section.force_based && block.has_pairs();
+    for (int w = block.first_wall; w < block.first_wall + block.walls; ++w) {
+      const double length = walls.undeformed_length[w];
+      const Material& material = scene.materials[walls.material[w]];
+      const double alone = stable_step_of_element(length, walls.thickness[w], material, scene.mass_scaling);
+      visit(block, w, alone,
+            in_pairs ? stable_step_of_pair(length, walls.thickness[w], material, scene.mass_scaling) : alone);
+    }
+  }
+}
+
 struct TimeStep {
   double seconds = 0.0;
   StepBound bound = StepBound::asked_for;

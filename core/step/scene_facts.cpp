@@ -7,6 +7,8 @@
 #include "measure/theory.h"
 #include "push/half_planes.h"
 #include "scene/check_spec.h"
+#include "scene/rigid_links.h"
+#include "scene/slowest_wall.h"
 #include "scene/solid_area.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
@@ -14,6 +16,9 @@
 
 namespace cellcrush {
 namespace {
+
+/// Cost of a wall that is told.
+constexpr double kWorthTelling = 1.1;
 
 std::string walls_text(const Scene& scene) {
   return "Walls: Euler beams of constant section, large rotation, " +
@@ -57,12 +62,30 @@ std::string search_text(const Scene& scene) {
   return "by buckets in space, as requested (contact.search).";
 }
 
+/// The wall whose elements set the step, and what it costs.
+std::string slowest_text(const Scene& scene) {
+  const SlowestWall slowest = slowest_wall_of(scene);
+  const std::string wall = "in a wall " + words_of(scene, slowest);
+  return slowest.cost < kWorthTelling
+             ? wall + ", as in others."
+             : wall + ". Half of the walls allow a step " + times_text(slowest.cost) + " times as long.";
+}
+
+/// Beams of a frame that are rigid because they are short.
+std::string links_text(const Scene& scene) {
+  const std::size_t count = scene.element_count() - scene.rigid.first_element;
+  return "Rigid links: " + std::to_string(count) + (count == 1 ? " beam" : " beams") + " in " +
+         std::to_string(scene.rigid.count()) + (scene.rigid.count() == 1 ? " rigid body" : " rigid bodies") +
+         ", short for the thickness (numerics.rigid_link_slenderness), with " +
+         times_text(100.0 * link_mass_share_of(scene)) + " % of the mass; no mass is added.";
+}
+
 std::string step_text(const Scene& scene) {
   switch (scene.schedule.bound) {
     case StepBound::asked_for: return "as requested (numerics.time_step_s).";
     case StepBound::elements:
       return to_text(scene.section.force_based ? kForceBasedStepFraction : kStepFraction) +
-             " of the stability limit of the lightest, stiffest element or pair of elements.";
+             " of the stability limit of the lightest, stiffest element or pair of elements, " + slowest_text(scene);
     case StepBound::plate_travel:
       return "the time in which the plate moves by " + to_text(kTravelPerStep) +
              " of the thinnest wall's thickness or " + to_text(kTurnPerStep) + " of the shortest element's length.";
@@ -100,7 +123,9 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
     lines.push_back("Pins: " + std::to_string(ends) + (ends == 1 ? " end of a beam turns" : " ends of beams turn") +
                     " freely at the node, without friction.");
   }
-  if (scene.rigid.count() > 0) {
+  if (!scene.frame_order.beam.empty()) {
+    lines.push_back(links_text(scene));
+  } else if (scene.rigid.count() > 0) {
     lines.push_back(
         "Stiff cells: rigid, in " + std::to_string(scene.rigid.count()) +
         (scene.rigid.count() == 1 ? " body" : " bodies") +
@@ -160,6 +185,7 @@ MeshView mesh_of(const Scene& scene) {
   visit_elements(scene, [&mesh](const ElementPlace& place, int wall) { mesh.element_wall[place.element] = wall; });
   std::iota(mesh.element_wall.begin() + scene.rigid.first_element, mesh.element_wall.end(),
             static_cast<int>(scene.walls.start.size()));
+  for (int& wall : mesh.element_wall) wall = scene.frame_order.beam_of(wall);
   mesh.length = scene.length;
   mesh.width = scene.width;
   mesh.impact_plate = scene.plates.impact_face;

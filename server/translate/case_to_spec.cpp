@@ -134,6 +134,7 @@ void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems
   if (in.has_time_step_s()) out.time_step_s = in.time_step_s();
   if (in.has_mass_scaling()) out.mass_scaling = in.mass_scaling();
   if (in.has_rotary_scaling()) out.rotary_scaling = in.rotary_scaling();
+  if (in.has_rigid_link_slenderness()) out.rigid_link_slenderness = in.rigid_link_slenderness();
   if (in.has_mass_damping_per_s()) out.mass_damping_per_s = in.mass_damping_per_s();
   if (in.has_threads()) out.threads = in.threads();
 }

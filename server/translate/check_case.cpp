@@ -144,6 +144,9 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   const auto [spec, scene] = build(submitted, *out.response.mutable_problems(), between_stages);
   if (!scene) return out;
   for (const auto& note : find_implausible(spec)) *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
+  for (const auto& note : find_costly_walls(spec, *scene)) {
+    *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
+  }
   out.meshes->know(spec, *scene);
   const auto facts = facts_of(*scene);
   describe(facts, out.response);

@@ -123,6 +123,7 @@ constexpr std::string_view kFreeFields[] = {
     "numerics.fidelity",
     "numerics.threads",
     "numerics.fibre_precision",
+    "numerics.rigid_link_slenderness",  // of frames
     "contact.search",
     "lattice",
     "lattice.imperfection.seed",

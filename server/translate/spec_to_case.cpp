@@ -173,6 +173,7 @@ void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
   out.set_mass_damping_per_s(in.mass_damping_per_s);
   out.set_mass_scaling(in.mass_scaling);
   out.set_rotary_scaling(in.rotary_scaling);
+  out.set_rigid_link_slenderness(in.rigid_link_slenderness);
   out.set_fibre_precision(wire_of<v1::Numerics::FibrePrecision>(in.fibre_precision));
   out.set_fidelity(translate::to_proto(in.fidelity));
   out.set_threads(in.threads);

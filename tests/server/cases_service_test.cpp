@@ -55,6 +55,26 @@ TEST_F(CasesServiceTest, WhatIsHardlyMeantIsNotedByACheckAndByTheJob) {
   EXPECT_EQ(client().create(job_of(submitted)).notes_size(), 1);
 }
 
+TEST_F(CasesServiceTest, ABeamThatCostsManyStepsIsNotedUnlessItIsARigidLink) {
+  auto submitted = small_case();
+  submitted.mutable_loading()->set_end_time_s(1e-6);
+  submitted.mutable_loading()->clear_speed_m_per_s();
+  submitted.mutable_loading()->clear_end_strain();
+  *submitted.mutable_lattice() = from_text<v1::Lattice>(R"(frame {
+    nodes { id: "a" x_mm: 0 y_mm: 0 } nodes { id: "b" x_mm: 20 y_mm: 0 }
+    nodes { id: "c" x_mm: 20.02 y_mm: 0 } nodes { id: "d" x_mm: 40 y_mm: 0 }
+    beams { start: "a" end: "b" thickness_mm: 0.5 }
+    beams { start: "b" end: "c" thickness_mm: 0.5 }
+    beams { start: "c" end: "d" thickness_mm: 0.5 }
+  })");
+  EXPECT_EQ(check(submitted).notes_size(), 0);
+  submitted.mutable_numerics()->set_rigid_link_slenderness(0.0);
+  const auto response = check(submitted);
+  ASSERT_EQ(response.notes_size(), 1) << response.DebugString();
+  EXPECT_EQ(response.notes(0).field(), "lattice.frame.beams[1]");
+  EXPECT_THAT(response.notes(0).message(), HasSubstr("sets the time step"));
+}
+
 TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {
   const auto response = check(small_case());
   EXPECT_EQ(response.problems_size(), 0);

@@ -121,7 +121,7 @@ struct Sample {
   /// Greatest magnitude of the strain, elastic and plastic, in the outer fibres of all walls now
   /// (measure/fibre_strain.h).
   double largest_fibre_strain = 0.0;
-  std::int64_t most_strained_wall = 0;  ///< which has it, into Scene::walls
+  std::int64_t most_strained_wall = 0;  ///< which has it, by its number (MeshView::element_wall)
   PeakStress peak;                      ///< so far
   /// Of the cells that have collapsed by now, in samples in which it was evaluated.
   CrushMode crush_mode = CrushMode::none;

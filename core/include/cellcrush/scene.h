@@ -99,8 +99,8 @@ struct LatticeBand {
   }
 };
 
-/// Parts of the lattice that move without deforming (E13), B of them. Their particles come first, body by body. Their
-/// walls have one element each and come last; they carry no stress, but other walls can touch them.
+/// Parts that move without deforming (E13), B of them: stiff cells, or rigid links. Their particles come first, body by
+/// body. Their walls have one element each and come last; they carry no stress, but other walls can touch them.
 struct RigidBodies {
   std::vector<int> offset;      ///< B + 1, into particles; empty if there are no bodies
   std::vector<Vector2> centre;  ///< B, centre of mass before loading, mm
@@ -110,6 +110,19 @@ struct RigidBodies {
 
   [[nodiscard]] std::size_t count() const { return mass.size(); }
   [[nodiscard]] int particle_count() const { return offset.empty() ? 0 : offset.back(); }
+};
+
+/// Where the nodes and beams of a frame are whose rigid links come first (scene/rigid_links.h). Empty if they are in
+/// their own order.
+struct FrameOrder {
+  std::vector<int> node;  ///< of each joint, as an index into the list of the frame
+  std::vector<int> beam;  ///< of each wall, then of each rigid element
+
+  [[nodiscard]] int node_of(int joint) const { return node.empty() ? joint : node[joint]; }
+  [[nodiscard]] int beam_of(int wall) const { return beam.empty() ? wall : beam[wall]; }
+  [[nodiscard]] int wall_of(int listed) const {
+    return beam.empty() ? listed : static_cast<int>(std::ranges::find(beam, listed) - beam.begin());
+  }
 };
 
 /// Joints that move alike but turn on their own, because ends of beams are pinned there (E16): a node and the joints of
@@ -261,6 +274,7 @@ struct Scene {
   /// Of a large lattice, each adjacent to the one before (contact/topology/bands.h); otherwise one.
   std::vector<LatticeBand> bands;
   RigidBodies rigid;
+  FrameOrder frame_order;
   Pins pins;
   std::vector<int> incidence_offset;  ///< N + 1, into incidence
   std::vector<int> incidence;         ///< elements at each particle, ascending
@@ -352,14 +366,15 @@ void visit_arrays(const FacesOfBand& faces, Visitor&& visit) {
 template <class Visitor>
 void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [position, mass, inertia, inverse_mass, inverse_inertia, radius, largest_radius, smallest_radius,
-               elements, walls, bands, rigid, pins, incidence_offset, incidence, joint_count, wall_end_offset,
-               wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity, initial_spin, depth,
-               materials, law, section, single_fibres, slow_loading, constant_area, contact, limited_reaches, faces,
-               plates, rigid_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, solid_area,
-               stable_step, collapse_stress, fidelity, watched] = scene;
+               elements, walls, bands, rigid, frame_order, pins, incidence_offset, incidence, joint_count,
+               wall_end_offset, wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity,
+               initial_spin, depth, materials, law, section, single_fibres, slow_loading, constant_area, contact,
+               limited_reaches, faces, plates, rigid_walls, mass_scaling, mass_damping, schedule, length, width,
+               total_mass, solid_area, stable_step, collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;
+  const auto& [node, beam] = frame_order;
   const auto& [pin_offset, pin_joint] = pins;
   const auto& [reach_offset, segment, reach] = limited_reaches;
   const auto& [premise, side, thick_ends, faces_of_bands, border] = faces;
@@ -369,6 +384,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
        rigid_walls, watched);
   list(blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material);
   list(rigid_offset, centre, rigid_mass, rigid_inertia);
+  list(node, beam);
   list(pin_offset, pin_joint);
   list(reach_offset, segment, reach);
   list(side, thick_ends, border);

@@ -241,6 +241,8 @@ struct NumericsSpec {
   /// mass_scaling, rotary inertias also by rotary_scaling.
   double mass_scaling = 1.0;
   double rotary_scaling = 1.0;
+  /// Length over thickness below which a beam of a frame is a rigid link (scene/rigid_links.h); 0: none is.
+  double rigid_link_slenderness = 1.0;
   /// Precision of the fibre stresses; motion, forces and works are always in double precision. Elements of other
   /// numbers of points than the default ones, and force-based elements with hardening, are in double precision whatever
   /// is asked.

@@ -63,7 +63,7 @@ struct MeshView {
   std::vector<float> position;     ///< x0 y0 x1 y1 ... of N particles before loading, mm
   std::vector<int> element_nodes;  ///< start0 end0 start1 end1 ... of E elements
   std::vector<float> thickness;    ///< mm, of E elements
-  std::vector<int> element_wall;   ///< of E elements: number of its wall (Scene::wall_count)
+  std::vector<int> element_wall;   ///< of E elements: number of its wall, or of its beam in the list of a frame
   double length = 0.0;             ///< envelope along the crush, mm
   double width = 0.0;
   double impact_plate = 0.0;  ///< the plates' faces before loading, along the crush, mm

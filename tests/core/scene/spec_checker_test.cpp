@@ -75,6 +75,7 @@ std::vector<Change> changes() {
       [](SceneSpec& spec) { spec.numerics.time_step_s = 1e-3; },
       [](SceneSpec& spec) { spec.numerics.mass_scaling = 4.0; },
       [](SceneSpec& spec) { spec.numerics.rotary_scaling = 3.0; },
+      [](SceneSpec& spec) { spec.numerics.rigid_link_slenderness = 4.0; },
       [](SceneSpec& spec) { spec.numerics.fidelity = NumericsSpec::Fidelity::draft; },
       [](SceneSpec& spec) { spec.numerics.threads = 0; },
       [](SceneSpec& spec) { spec.output.sample_count = 1; },

@@ -42,7 +42,8 @@ export function groupsOf(kind: LatticeKind): Group[] {
     { title: "Contact", isOpen: false, paths: under("contact", ["friction", "stiffness_factor", "damping_ratio",
       "search", "impact_speed_m_per_s"]) },
     { title: "Run", isOpen: false, paths: [...under("numerics", ["threads", "time_step_s", "mass_damping_per_s",
-      "mass_scaling", "rotary_scaling", "fibre_precision"]), ...under("output", ["sample_count", "frame_count"])] },
+      "mass_scaling", "rotary_scaling", "rigid_link_slenderness", "fibre_precision"]),
+      ...under("output", ["sample_count", "frame_count"])] },
   ];
   return groups.filter(({ paths }) => paths.length > 0);
 }

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/scene_spec.h"
+
+namespace cellcrush {
+
+// Rigid links (E13). Where three walls of thickness h meet at 120 degrees, each joint covers 0.29 h of a wall, and
+// where four meet at 90 degrees, half of h. A wall that is no longer than its thickness is thus the material of its
+// joint, not a beam. As a beam it would set the time step, which falls with the square of the length. As a rigid link
+// it moves with its joint: a rigid body (E13) that keeps its place, mass and rotary inertia.
+//
+// The alternative, mass added to short walls, was not kept. A wall needs n times the mass of a wall that is n times as
+// long to have its step: a stub of a hundredth of the length, the mass of a hundred walls.
+
+/// Greatest share of the mass of a frame that rigid links may have.
+inline constexpr double kMostLinkMass = 0.01;
+
+/// A frame whose rigid links are its last beams. The nodes of the links come first, body by body.
+struct LinkedFrame {
+  SceneSpec spec;
+  FrameOrder order;  ///< empty if there are no links
+  int links = 0;
+};
+
+/// Finds the rigid links of a frame and puts them in order. A beam is a link if it is shorter than
+/// numerics.rigid_link_slenderness times its thickness; nothing holds, moves or pins its ends and no distributed load
+/// is on it; and all links that are joined to it lie within as short a distance. Where they do not, the limit is halved
+/// until they do, so that a wall which is listed in short pieces bends. The limit of all is halved until the links have
+/// at most kMostLinkMass of the mass. Other lattices are returned as they are: their walls are longer.
+/// REQUIRES: a checked spec.
+LinkedFrame put_rigid_links_first(const SceneSpec& spec);
+
+/// Mass of the rigid links of a frame over that of all its walls; 0 for other lattices.
+double link_mass_share_of(const Scene& scene);
+
+/// The beam of a frame to which an element belongs, as an index into the given list.
+int beam_of_element(const Scene& scene, int element);
+
+}  // namespace cellcrush
