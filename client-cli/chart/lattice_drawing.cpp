@@ -89,11 +89,15 @@ void draw_start(cairo_t* context, const Projection& projection, const Box& box, 
 
 // Walls of one shade and thickness share a path, which keeps a picture of ten thousand walls small.
 void draw_walls(cairo_t* context, const Projection& projection, const LatticeStage& stage) {
+  constexpr int kRigid = kShades + 1;
+  const int first_rigid = static_cast<int>(stage.thickness_mm.size()) - stage.rigid_elements;
   std::map<std::pair<int, float>, std::vector<int>> groups;
   for (int element = 0; element < static_cast<int>(stage.thickness_mm.size()); ++element) {
     const auto at = static_cast<std::size_t>(element);
     const float share = std::clamp(stage.plastic_fraction[at], 0.0F, 1.0F);
-    groups[{static_cast<int>(std::lround(share * kShades)), stage.thickness_mm[at]}].push_back(element);
+    const bool rigid = element >= first_rigid;
+    groups[{rigid ? kRigid : static_cast<int>(std::lround(share * kShades)), stage.thickness_mm[at]}].push_back(
+        element);
   }
   const auto point = [&](int element, int end) {
     const auto node = 2 * static_cast<std::size_t>(stage.element_nodes[static_cast<std::size_t>(2 * element + end)]);
@@ -101,7 +105,7 @@ void draw_walls(cairo_t* context, const Projection& projection, const LatticeSta
   };
   cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
   for (const auto& [key, elements] : groups) {
-    set_colour(context, map_colour(static_cast<double>(key.first) / kShades));
+    set_colour(context, key.first == kRigid ? kPlateColour : map_colour(static_cast<double>(key.first) / kShades));
     cairo_set_line_width(context, std::max(projection.scale() * static_cast<double>(key.second), kThinnestWall));
     for (const int element : elements) {
       const auto [x0, y0] = point(element, 0);

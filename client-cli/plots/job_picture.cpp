@@ -99,6 +99,7 @@ LatticeStage lattice_stage(const MeshFrame& frame) {
           .element_nodes = {mesh.element_nodes().begin(), mesh.element_nodes().end()},
           .thickness_mm = {mesh.thickness_mm().begin(), mesh.thickness_mm().end()},
           .plastic_fraction = {field.plastic_fraction().begin(), field.plastic_fraction().end()},
+          .rigid_elements = mesh.rigid_element_count(),
           .impact_plate_mm = mesh.impact_plate_mm(),
           .support_plate_mm = mesh.support_plate_mm(),
           .along_y = mesh.along_y(),

@@ -153,6 +153,11 @@ void add_fibre_strain_row(Table& table, const v1::Summary& summary, bool plates)
              fmt::format("wall {} at ({:.3g}, {:.3g}) mm, {}", found.wall(), found.x_mm(), found.y_mm(), when)});
 }
 
+void add_rigid_links_row(Table& table, const v1::Summary& summary) {
+  if (summary.rigid_link_count() == 0) return;
+  table.add({"rigid links", count_text(summary.rigid_link_count()), "", "beams too short to bend"});
+}
+
 std::string warning_text(const v1::Warning& warning, int width) {
   return wrapped(fmt::format("Warning ({}): {}", v1::Warning::Kind_Name(warning.kind()), printable(warning.message())),
                  width, "  ", "    ") +
@@ -192,6 +197,7 @@ std::string summary_text(const v1::Job& job, int width) {
     add_inertia_row(table, summary);
   }
   add_fibre_strain_row(table, summary, plates);
+  add_rigid_links_row(table, summary);
   if (summary.has_valid_to_time_s()) {
     table.add(
         {"valid to time", quantity_text(summary.valid_to_time_s(), "s"), "", "the frame is closed from there on"});

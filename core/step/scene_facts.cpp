@@ -73,7 +73,7 @@ std::string slowest_text(const Scene& scene) {
 
 /// Beams of a frame that are rigid because they are short.
 std::string links_text(const Scene& scene) {
-  const std::size_t count = scene.element_count() - scene.rigid.first_element;
+  const std::size_t count = scene.rigid_link_count();
   return "Rigid links: " + std::to_string(count) + (count == 1 ? " beam" : " beams") + " in " +
          std::to_string(scene.rigid.count()) + (scene.rigid.count() == 1 ? " rigid body" : " rigid bodies") +
          ", short for the thickness (numerics.rigid_link_slenderness), with " +
@@ -123,7 +123,7 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
     lines.push_back("Pins: " + std::to_string(ends) + (ends == 1 ? " end of a beam turns" : " ends of beams turn") +
                     " freely at the node, without friction.");
   }
-  if (!scene.frame_order.beam.empty()) {
+  if (scene.rigid_link_count() > 0) {
     lines.push_back(links_text(scene));
   } else if (scene.rigid.count() > 0) {
     lines.push_back(
@@ -186,6 +186,7 @@ MeshView mesh_of(const Scene& scene) {
   std::iota(mesh.element_wall.begin() + scene.rigid.first_element, mesh.element_wall.end(),
             static_cast<int>(scene.walls.start.size()));
   for (int& wall : mesh.element_wall) wall = scene.frame_order.beam_of(wall);
+  mesh.rigid_elements = static_cast<int>(scene.rigid_element_count());
   mesh.length = scene.length;
   mesh.width = scene.width;
   mesh.impact_plate = scene.plates.impact_face;

@@ -215,6 +215,7 @@ void write_summary_attributes(hid_t file, const v1::Summary& summary) {
   if (summary.has_plateau_stress_impact_mpa())
     write_attribute(file, "plateau_stress_mpa", summary.plateau_stress_impact_mpa());
   write_attribute(file, "step_count", static_cast<std::int64_t>(summary.step_count()));
+  write_attribute(file, "rigid_link_count", static_cast<std::int64_t>(summary.rigid_link_count()));
   write_attribute(file, "theory_gibson_ashby_mpa", summary.theory().gibson_ashby_mpa());
   write_attribute(file, "theory_shock_mpa", summary.theory().shock_mpa());
   write_warnings(file, summary);

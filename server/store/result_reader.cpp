@@ -72,6 +72,8 @@ v1::Mesh ResultReader::mesh() const {
     throw damaged_result("its mesh contradicts itself");
   const Hdf5Handle group(H5Gopen2(file_.id(), "mesh", H5P_DEFAULT), H5Gclose, "Opening the group mesh");
   const auto number = [&group](const char* name) { return read_number_attribute(group.id(), name); };
+  if (H5Aexists(group.id(), "rigid_element_count") > 0)
+    out.set_rigid_element_count(static_cast<std::int32_t>(number("rigid_element_count")));
   out.set_length_mm(number("length_mm"));
   out.set_width_mm(number("width_mm"));
   out.set_impact_plate_mm(number("impact_plate_mm"));

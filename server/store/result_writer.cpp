@@ -97,6 +97,7 @@ void ResultWriter::write_mesh(const v1::Mesh& mesh) {
       write_dataset(mesh_.id(), "element_wall", H5T_NATIVE_INT32, {element_count_}, mesh.element_wall().data());
   attach_scales(walls.id(), {elements_.id()});
   describe(walls.id(), "", "number, from 0, of the wall of each element");
+  write_attribute(mesh_.id(), "rigid_element_count", static_cast<std::int64_t>(mesh.rigid_element_count()));
   write_attribute(mesh_.id(), "length_mm", mesh.length_mm());
   write_attribute(mesh_.id(), "width_mm", mesh.width_mm());
   write_attribute(mesh_.id(), "impact_plate_mm", mesh.impact_plate_mm());

@@ -188,6 +188,7 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
 std::vector<v1::MeshChunk> chunks_of(const v1::Mesh& mesh, std::size_t chunk_bytes) {
   v1::Mesh head;
   head.set_particle_count(mesh.particle_count());
+  head.set_rigid_element_count(mesh.rigid_element_count());
   head.set_length_mm(mesh.length_mm());
   head.set_width_mm(mesh.width_mm());
   head.set_impact_plate_mm(mesh.impact_plate_mm());

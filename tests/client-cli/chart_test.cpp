@@ -18,6 +18,7 @@
 namespace cellcrush::client {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -159,6 +160,14 @@ TEST(Picture, APngShowsLatticeAndCurve) {
   EXPECT_GT(with.height, without.height);
   EXPECT_GT(without.colours.size(), 50U);
   EXPECT_GT(with.colours.size(), without.colours.size() + 200);
+}
+
+TEST(Picture, RigidElementsHaveTheColourOfThePlates) {
+  const std::string stroke = "stroke(:|=.)rgb.35%, ?36%, ?40%";
+  MeshFrame stage = synthetic_stage(10, 4, 0.3);
+  EXPECT_THAT(render_job_picture(PictureFormat::svg, make_history(), {stage}), Not(ContainsRegex(stroke)));
+  stage.mesh.set_rigid_element_count(3);
+  EXPECT_THAT(render_job_picture(PictureFormat::svg, make_history(), {stage}), ContainsRegex(stroke));
 }
 
 TEST(NodeChart, ShowsHowTheWatchedNodesOfAFrameMoved) {

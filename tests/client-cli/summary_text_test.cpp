@@ -61,6 +61,12 @@ TEST(SummaryText, HasThePeakStressWithItsFilter) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("words { plates: true } summary {}"), 140), Not(HasSubstr("peak")));
 }
 
+TEST(SummaryText, CountsRigidLinksIfThereAreAny) {
+  EXPECT_THAT(summary_text(from_text<v1::Job>("summary { rigid_link_count: 6 }"), 140),
+              ContainsRegex("rigid links +6 +beams too short to bend"));
+  EXPECT_THAT(summary_text(from_text<v1::Job>("summary {}"), 140), Not(HasSubstr("rigid")));
+}
+
 TEST(SummaryText, SaysWhereAndWhenAFibreWasStrainedMost) {
   auto job = from_text<v1::Job>(R"(words { plates: true } summary { fibre_strain {
     largest: 0.1234 wall: 17 x_mm: 3.5 y_mm: 12.25 nominal_strain: 0.31 time_s: 0.002 } })");

@@ -20,6 +20,7 @@ v1::Mesh mesh_of(int particles) {
   v1::Mesh out;
   out.set_particle_count(particles);
   out.set_length_mm(3.0);
+  out.set_rigid_element_count(2);
   for (const int apart : {1, 50}) {
     for (int i = 0; i + apart < particles; ++i) {
       out.add_element_nodes(i);

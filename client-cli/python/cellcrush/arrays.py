@@ -60,6 +60,7 @@ class Mesh:
     impact_plate_mm: float  # face of the plate along the crush, before loading
     support_plate_mm: float
     along_y: bool  # whether the crush is along y
+    rigid_element_count: int = 0  # elements of stiff cells or rigid links; they come last
 
     def __repr__(self) -> str:
         return (f"<mesh of {len(self.position_mm)} particles and {len(self.element_nodes)} elements, "
@@ -94,7 +95,8 @@ def mesh_from(chunks: Iterable[MeshChunk]) -> Mesh:
     return Mesh(np.array(whole.position_mm, np.float32).reshape(-1, 2),
                 np.array(whole.element_nodes, np.int32).reshape(-1, 2), np.array(whole.thickness_mm, np.float32),
                 np.array(whole.element_wall or [0] * len(whole.thickness_mm), np.int32),
-                whole.length_mm, whole.width_mm, whole.impact_plate_mm, whole.support_plate_mm, whole.along_y)
+                whole.length_mm, whole.width_mm, whole.impact_plate_mm, whole.support_plate_mm, whole.along_y,
+                whole.rigid_element_count)
 
 
 def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:

@@ -348,7 +348,10 @@ struct Scene {
   [[nodiscard]] std::size_t particle_count() const { return position.size(); }
   [[nodiscard]] std::size_t element_count() const { return elements.size(); }
   /// All walls: those of `walls`, then those of rigid bodies, which are an element each.
-  [[nodiscard]] std::size_t wall_count() const { return walls.start.size() + elements.size() - rigid.first_element; }
+  [[nodiscard]] std::size_t rigid_element_count() const { return elements.size() - rigid.first_element; }
+  [[nodiscard]] std::size_t wall_count() const { return walls.start.size() + rigid_element_count(); }
+  /// Beams of a frame that are rigid because they are short (scene/rigid_links.h).
+  [[nodiscard]] std::size_t rigid_link_count() const { return frame_order.beam.empty() ? 0 : rigid_element_count(); }
   [[nodiscard]] std::size_t fibre_count() const { return section.fibre_count(); }
 };
 

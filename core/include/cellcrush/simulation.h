@@ -64,6 +64,7 @@ struct MeshView {
   std::vector<int> element_nodes;  ///< start0 end0 start1 end1 ... of E elements
   std::vector<float> thickness;    ///< mm, of E elements
   std::vector<int> element_wall;   ///< of E elements: number of its wall, or of its beam in the list of a frame
+  int rigid_elements = 0;          ///< of stiff cells or rigid links; they come last
   double length = 0.0;             ///< envelope along the crush, mm
   double width = 0.0;
   double impact_plate = 0.0;  ///< the plates' faces before loading, along the crush, mm

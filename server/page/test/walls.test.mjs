@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { kShades } from "../src/picture/colours";
 import { Pace } from "../src/picture/player";
+import { kRigid } from "../src/picture/segments";
 import { drawSegments, shadesOf } from "../src/picture/walls_pixels";
 
 const kView = { width: 200, height: 100, x: 0, y: 0, scale: 1, thinnest: 0 };
@@ -31,6 +32,12 @@ test("a wall at any angle covers its area, with round ends", () => {
   }
 });
 
+test("a rigid wall has the colour of the plates, whatever the plastic fractions", () => {
+  const colour = (share) => at(draw([[-30, 0, 30, 0, 8, share]]), 0, 0) & 0xffffff;
+  assert.equal(colour(kRigid), 91 | (97 << 8) | (108 << 16));
+  for (const share of [0, 0.5, 1]) assert.notEqual(colour(share), colour(kRigid));
+});
+
 test("y points up, and x to the right", () => {
   const pixels = draw([[10, 20, 40, 20, 4, 0]]);
   assert.equal(alphaOf(at(pixels, 25, 20)), 255);
@@ -56,7 +63,7 @@ test("colours follow the plastic fraction, within their ends", () => {
   const colourOf = (plastic) => at(draw([[-20, 0, 20, 0, 6, plastic]]), 0, 0) & 0xffffff;
   assert.equal(colourOf(0), shades[0]);
   assert.equal(colourOf(1), shades[kShades - 1]);
-  assert.equal(colourOf(-1), shades[0]);
+  assert.equal(colourOf(-0.1), shades[0]);
   assert.equal(colourOf(7), shades[kShades - 1]);
 });
 

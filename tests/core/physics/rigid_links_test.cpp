@@ -256,6 +256,7 @@ TEST(RigidLinks, LeaveNamesOfNodesAndBeams) {
   std::ranges::sort(beams);
   for (std::size_t beam = 0; beam < frame.beams.size(); ++beam) EXPECT_EQ(beams[beam], static_cast<int>(beam));
   const MeshView mesh = mesh_of(*scene);
+  EXPECT_EQ(mesh.rigid_elements, 1);
   for (std::size_t element = 0; element < mesh.element_wall.size(); ++element) {
     const FrameWalls::Beam& beam = frame.beams[mesh.element_wall[element]];
     const Vector2 start = place_of_node(frame, beam.start);
@@ -278,6 +279,7 @@ TEST(RigidLinks, HaveNoStrainUnderTheirOwnNumbers) {
   EXPECT_EQ(fields.fibre_strain[last.most_strained_wall], std::ranges::max(fields.fibre_strain));
   const auto summary = summarize(*scene, {&last, 1});
   ASSERT_TRUE(summary.fibre_strain);
+  EXPECT_EQ(summary.rigid_link_count, 1);
   const FrameWalls::Beam& beam = listed_walls(made.spec).beams[summary.fibre_strain->wall];
   const Vector2 middle =
       0.5 * (place_of_node(listed_walls(made.spec), beam.start) + place_of_node(listed_walls(made.spec), beam.end));

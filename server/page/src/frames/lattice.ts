@@ -7,6 +7,8 @@ export interface Lattice {
   /** Indices of the particles at the ends of the elements: start0, end0, ... */
   ends: Uint32Array;
   thickness: Float32Array;
+  /** Elements from this one on are rigid. */
+  firstRigid: number;
   undeformed: Float32Array;
   /** Plates across the crush, if any. */
   plates: boolean;
@@ -20,6 +22,7 @@ export function latticeOf(mesh: Mesh): Lattice {
   return {
     ends: Uint32Array.from(mesh.elementNodes),
     thickness: Float32Array.from(mesh.thicknessMm),
+    firstRigid: mesh.thicknessMm.length - mesh.rigidElementCount,
     undeformed: Float32Array.from(mesh.positionMm),
     plates: mesh.supportPlateMm > mesh.impactPlateMm,
     alongY: mesh.alongY,

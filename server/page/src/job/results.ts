@@ -76,6 +76,7 @@ export function resultsList(s: Summary, note: string): HTMLElement {
     add("Largest fibre strain", "fibre_strain", percent(largest),
         `wall ${wall}, at (${number(xMm)}, ${number(yMm)}) mm before loading, at ${when}`);
   }
+  if (s.rigidLinkCount) add("Rigid links", "rigid_link_count", count(s.rigidLinkCount), "beams too short to bend");
   add("Energy ledger error", "energy_error_relative", percent(s.energyErrorRelative, 3));
   add("Deepest penetration", "deepest_penetration", percent(s.deepestPenetration),
       "of the thickness of the thinner wall");

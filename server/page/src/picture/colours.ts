@@ -24,6 +24,11 @@ export function wallColour(fraction: number, dark: boolean): Rgb {
   return colour.map((value) => Math.min(255, Math.round(value + lift))) as Rgb;
 }
 
+/** The colour of a rigid element: that of plates in theme.css. */
+export function rigidColour(dark: boolean): Rgb {
+  return dark ? [139, 148, 161] : [91, 97, 108];
+}
+
 export const kShades = 64;
 
 /** The map as RGBA bytes, kShades of them. */

@@ -10,7 +10,7 @@ import { isDark, onThemeChange } from "../dom/preferences";
 import { addGestures } from "./gestures";
 import { drawOverlay } from "./overlay";
 import type { Face } from "./rigid_walls";
-import { fillSegments, findNearest, kSegmentFloats, type Segments } from "./segments";
+import { fillSegments, findNearest, kRigid, kSegmentFloats, type Segments } from "./segments";
 import { createWalls, type Walls } from "./walls";
 
 const kScaleRoom = 40; // pixels
@@ -208,7 +208,7 @@ export class Picture {
     const row = (label: string, value: string): HTMLElement =>
       h("div", {}, h("span", {}, label), h("b", {}, value));
     replaceChildren(this.tip, h("div", {}, `wall element ${element}`),
-      row("plastic fraction", plastic.toFixed(2)),
+      row("plastic fraction", plastic === kRigid ? "rigid" : plastic.toFixed(2)),
       row("thickness", `${number(thickness)} mm`),
       row("length", `${number(Math.hypot(x1 - x0, y1 - y0))} mm`),
       row("of undeformed", percent(Math.hypot(x1 - x0, y1 - y0) / before, 3)),

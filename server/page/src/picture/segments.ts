@@ -4,11 +4,13 @@ import type { Fields } from "../frames/packed";
 
 export interface Segments {
   count: number;
-  /** Of each element: x0, y0, x1, y1 in mm, thickness in mm, plastic fraction. */
+  /** Of each element: x0, y0, x1, y1 in mm, thickness in mm, plastic fraction, or kRigid. */
   values: Float32Array;
 }
 
 export const kSegmentFloats = 6;
+/** In place of the plastic fraction of a rigid element. */
+export const kRigid = -1;
 
 /** Fields between two frames. Only pictures that move use it. */
 export function mixFields(a: Fields, b: Fields, mix: number, into: Fields | undefined): Fields {
@@ -24,7 +26,7 @@ export function mixFields(a: Fields, b: Fields, mix: number, into: Fields | unde
 export function fillSegments(lattice: Lattice, fields: Fields, old: Segments | undefined): Segments {
   const count = lattice.thickness.length;
   const values = old?.count === count ? old.values : new Float32Array(kSegmentFloats * count);
-  const { ends, thickness } = lattice;
+  const { ends, thickness, firstRigid } = lattice;
   const { position, plastic } = fields;
   for (let i = 0, at = 0; i < count; ++i) {
     const a = 2 * ends[2 * i];
@@ -34,7 +36,7 @@ export function fillSegments(lattice: Lattice, fields: Fields, old: Segments | u
     values[at++] = position[b];
     values[at++] = position[b + 1];
     values[at++] = thickness[i];
-    values[at++] = plastic[i] ?? 0;
+    values[at++] = i < firstRigid ? plastic[i] ?? 0 : kRigid;
   }
   return { count, values };
 }

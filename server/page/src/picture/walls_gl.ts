@@ -1,8 +1,8 @@
 // Walls as quads of their true thickness with round ends, one instance per element. The edge is smoothed by the
 // distance to the middle line, so no multisampling is needed.
 import type { Camera } from "./camera";
-import { colourTable, kShades } from "./colours";
-import { kSegmentFloats, type Segments } from "./segments";
+import { colourTable, kShades, rigidColour } from "./colours";
+import { kRigid, kSegmentFloats, type Segments } from "./segments";
 import { kThinnest, type Walls } from "./walls";
 
 const kVertex = `#version 300 es
@@ -23,14 +23,15 @@ void main() {
 const kFragment = `#version 300 es
 precision highp float;
 in vec2 place; flat in float span; flat in float radius; flat in float share;
-uniform sampler2D colours; out vec4 colour;
+uniform sampler2D colours; uniform vec3 rigid; out vec4 colour;
 void main() {
   float beyond = max(max(-place.x, place.x - span), 0.0);
   // An end is half a pixel smaller, or the soft edges of two elements would add up to a knot.
   float edge = beyond > 0.0 ? radius : radius + 0.5;
   float cover = clamp(edge - length(vec2(beyond, place.y)), 0.0, 1.0);
   if (cover <= 0.0) discard;
-  colour = texture(colours, vec2((clamp(share, 0.0, 1.0) * ${kShades - 1}.0 + 0.5) / ${kShades}.0, 0.5)) * cover;
+  vec4 bare = texture(colours, vec2((clamp(share, 0.0, 1.0) * ${kShades - 1}.0 + 0.5) / ${kShades}.0, 0.5));
+  colour = (share == ${kRigid}.0 ? vec4(rigid, 1.0) : bare) * cover;
 }`;
 
 function compile(gl: WebGL2RenderingContext, type: number, text: string): WebGLShader {
@@ -105,6 +106,7 @@ export class GlWalls implements Walls {
     gl.uniform2f(uniform("size"), this.canvas.width, this.canvas.height);
     gl.uniform1f(uniform("scale"), camera.scale * ratio);
     gl.uniform1f(uniform("thinnest"), kThinnest * ratio);
+    gl.uniform3fv(uniform("rigid"), rigidColour(this.dark).map((value) => value / 255));
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, segments.count);
   }
 

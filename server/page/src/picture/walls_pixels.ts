@@ -1,7 +1,7 @@
 // Walls drawn pixel by pixel into a Canvas2D. Without a GPU this is faster than WebGL2 and than strokes, by far.
 import type { Camera } from "./camera";
-import { kShades, wallColour } from "./colours";
-import { kSegmentFloats, type Segments } from "./segments";
+import { kShades, rigidColour, wallColour } from "./colours";
+import { kRigid, kSegmentFloats, type Segments } from "./segments";
 import { kThinnest, type Walls } from "./walls";
 
 /** Where a picture shows a lattice, in its pixels. */
@@ -17,12 +17,16 @@ export interface View {
   thinnest: number;
 }
 
-/** Colours of plastic fractions as 0x00BBGGRR, kShades of them. */
+/** Colours of plastic fractions as 0x00BBGGRR, kShades of them, then that of rigid elements. */
 export function shadesOf(dark: boolean): Uint32Array {
-  return Uint32Array.from({ length: kShades }, (_, i) => {
-    const [r, g, b] = wallColour(i / (kShades - 1), dark);
+  return Uint32Array.from({ length: kShades + 1 }, (_, i) => {
+    const [r, g, b] = i < kShades ? wallColour(i / (kShades - 1), dark) : rigidColour(dark);
     return r | (g << 8) | (b << 16);
   });
+}
+
+function shadeOf(plastic: number): number {
+  return plastic === kRigid ? kShades : (Math.min(Math.max(plastic, 0), 1) * (kShades - 1) + 0.5) | 0;
 }
 
 /** Draws segments with round ends over transparent pixels, which are RGBA in the order of their bytes. The parts of a
@@ -40,7 +44,7 @@ export function drawSegments(pixels: Uint32Array, view: View, segments: Segments
     const y1 = top - values[at + 3] * scale;
     drawSegment(pixels, width, height, x0, y0, x1, y1,
                 0.5 * Math.max(values[at + 4] * scale, view.thinnest) + 0.5,
-                shades[(Math.min(Math.max(values[at + 5], 0), 1) * (kShades - 1) + 0.5) | 0]);
+                shades[shadeOf(values[at + 5])]);
   }
 }
 
