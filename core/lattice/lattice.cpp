@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cellcrush/lattice_words.h"
+#include "lattice/network.h"
 
 namespace cellcrush {
 namespace {
@@ -22,6 +23,7 @@ const LatticeKind* kind_of(const SceneSpec& spec) {
 }
 
 bool has_walls_along_crush(const SceneSpec& spec) {
+  if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) return has_stacked_walls(*network);
   const LatticeKind* kind = kind_of(spec);
   return kind != nullptr && kind->has_walls_along_crush;
 }

@@ -19,7 +19,8 @@ struct LayoutWall {
   int elements = 1;        ///< number of elements into which it is divided
   int material = 0;        ///< index into Scene::materials
   bool rigid = false;      ///< part of a rigid body: straight and not divided
-  double bow = 0.0;        ///< offset of its middle from the straight line, to the left of start to end, mm
+  double bow = 0.0;        ///< offset of its middle from its undisturbed line, to the left of start to end, mm
+  double rise = 0.0;       ///< of a circular arc over the line from start to end, to its left, mm; 0: straight
 };
 
 /// Joints and walls of a structure before it is divided into elements. Lengths in mm.

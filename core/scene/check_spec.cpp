@@ -38,11 +38,15 @@ double check_regular(const SceneSpec& spec, const RegularLattice& lattice, Field
   return side;
 }
 
-void check_imperfection(const SceneSpec& spec, double side, FieldChecker& check) {
-  check.in_range("lattice.imperfection.amplitude_mm", spec.imperfection.amplitude_mm, {0.0, 0.1 * side},
-                 std::isfinite(side) ? " mm (a tenth of side_mm)" : " mm");
-  check.in_range("lattice.imperfection.bow_mm", spec.imperfection.bow_mm, {0.0, 0.05 * side},
-                 std::isfinite(side) ? " mm (a twentieth of side_mm)" : " mm");
+/// `length`: of a wall, the shortest one, called so.
+void check_imperfection(const SceneSpec& spec, double length, const std::string& name, FieldChecker& check) {
+  const auto unit = [&](const char* share) {
+    return std::isfinite(length) ? " mm (" + (share + name) + ")" : std::string(" mm");
+  };
+  check.in_range("lattice.imperfection.amplitude_mm", spec.imperfection.amplitude_mm, {0.0, 0.1 * length},
+                 unit("a tenth of "));
+  check.in_range("lattice.imperfection.bow_mm", spec.imperfection.bow_mm, {0.0, 0.05 * length},
+                 unit("a twentieth of "));
   if (spec.imperfection.bow_mm > 0.0 && *spec.elements_per_wall == 1) {
     check.add("lattice.imperfection.bow_mm", to_text(spec.imperfection.bow_mm),
               "cannot be shown by one straight element per wall.", "Use an elements_per_wall of at least 2.");
@@ -75,14 +79,17 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
   if (kind != nullptr) {
     const double side = check_regular(spec, *regular_lattice_of(spec), check);
     if (kind->check != nullptr) kind->check(spec, side, check);
-    check_imperfection(spec, side, check);
+    check_imperfection(spec, side, "side_mm", check);
+  } else if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
+    check_network(spec, check);
+    check_imperfection(spec, shortest_wall_of(*network), "the shortest wall", check);
   } else if (std::holds_alternative<FrameWalls>(spec.lattice)) {
     check_frame(spec, check);
     check_no_imperfection(spec.imperfection, check);
   } else {
     check.add("lattice", "", "is missing.",
               "Give one of " + list_kinds("lattice.", &LatticeKind::name, [](const LatticeKind&) { return true; }) +
-                  ", lattice.frame.");
+                  ", lattice.network, lattice.frame.");
   }
   if ((kind == nullptr || !kind->has_rows_of_cells) && !spec.inclusions.rows.empty()) {
     const auto has_rows = [](const LatticeKind& other) { return other.has_rows_of_cells; };
@@ -195,6 +202,9 @@ double count_elements(const SceneSpec& spec) {
   if (const RegularLattice* lattice = regular_lattice_of(spec)) {
     return kind_of(spec)->walls_per_cell * *lattice->columns * *lattice->rows * elements_per_wall;
   }
+  if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
+    return static_cast<double>(network->wall_count()) * elements_per_wall;
+  }
   double elements = 0.0;
   for (const FrameWalls::Beam& beam : std::get<FrameWalls>(spec.lattice).beams) {
     elements += std::max(1, beam.elements.value_or(elements_per_wall));
@@ -225,7 +235,10 @@ Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
   constexpr std::size_t kMostOverlaps = 20;  // enough to see what is wrong
   const InitialOverlaps overlaps = find_initial_overlaps(scene, kMostOverlaps);
   const auto* frame = std::get_if<FrameWalls>(&spec.lattice);
-  const std::string field = frame != nullptr ? "lattice.frame.beams" : path_of_lattice(spec) + "wall_thickness_mm";
+  const bool is_network = std::holds_alternative<NetworkWalls>(spec.lattice);
+  const std::string field = frame != nullptr ? "lattice.frame.beams"
+                            : is_network     ? "lattice.network.walls"
+                                             : path_of_lattice(spec) + "wall_thickness_mm";
   if (overlaps.too_dense && overlaps.found.empty()) {
     return {{field, "",
              "are too thick or too tangled for contact: each particle has hundreds of elements within reach.",

@@ -14,8 +14,9 @@ Problems check_spec(const SceneSpec& spec);
 /// Most elements of a mesh: what a machine of 2 GB holds with room to spare.
 inline constexpr double kMostElements = 2e6;
 
-/// Approximate number of elements of the mesh of a spec, without building it. For a frame it is exact. For a regular
-/// lattice it omits the walls along the edges, and rigid walls have fewer. REQUIRES: beams, or columns and rows.
+/// Approximate number of elements of the mesh of a spec, without building it. For a frame or a network it is exact. For
+/// a regular lattice it omits the walls along the edges, and rigid walls have fewer. REQUIRES: beams, or columns and
+/// rows.
 double count_elements(const SceneSpec& spec);
 
 /// Checks a material; `path` ends with a dot.
@@ -27,6 +28,12 @@ bool has_pins(const FrameWalls& frame);
 /// Checks the frame of a spec and the loads on its nodes and beams: nodes that exist, beams of some length, times in
 /// order.
 void check_frame(const SceneSpec& spec, FieldChecker& check);
+
+/// Checks the lists of a network: joints that exist, walls of some length, entries that fit the walls.
+void check_network(const SceneSpec& spec, FieldChecker& check);
+
+/// The least distance of two joints that a wall of a network connects, mm; endless where none is sound.
+double shortest_wall_of(const NetworkWalls& network);
 
 /// Problems of walls that overlap before loading: contact would throw them apart in the first step. Names the beams of
 /// a frame, or the thickness of a lattice, and the position. REQUIRES: the mesh of the spec, as for the search.

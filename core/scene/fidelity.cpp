@@ -15,7 +15,11 @@ bool is_force_based(const SceneSpec& spec) { return spec.section.formulation == 
 /// That of the lattice. The elements of the paper keep the paper's mesh, and a frame has it if it gives none.
 DefaultMesh default_mesh_of(const SceneSpec& spec) {
   const LatticeKind* kind = kind_of(spec);
-  return kind != nullptr && is_force_based(spec) ? kind->mesh(spec) : DefaultMesh{1, 2, 8, ""};
+  if (!is_force_based(spec)) return {1, 2, 8, ""};
+  if (kind != nullptr) return kind->mesh(spec);
+  if (!std::holds_alternative<NetworkWalls>(spec.lattice)) return {1, 2, 8, ""};
+  return has_walls_along_crush(spec) ? mesh_of_stacked_walls("networks with more than three walls at a joint")
+                                     : DefaultMesh{1, 2, 8, "networks with at most three walls at a joint"};
 }
 
 FidelityPoint point_of(const SceneSpec& spec) {
@@ -48,7 +52,7 @@ SceneSpec fill_in_fidelity(const SceneSpec& spec) {
 }
 
 std::string describe_fidelity(const SceneSpec& spec) {
-  if (kind_of(spec) == nullptr) return {};
+  if (std::holds_alternative<FrameWalls>(spec.lattice)) return {};
   const FidelityPoint point = point_of(spec);
   const bool names_one = spec.numerics.fidelity != Fidelity::unspecified;
   if (spec.elements_per_wall) {

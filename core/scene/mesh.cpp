@@ -13,21 +13,33 @@
 namespace cellcrush {
 namespace {
 
+/// Along the chord and to its left: position at a share of a circular arc that rises over its chord.
+Vector2 place_on_arc(double chord, double rise, double share) {
+  const double half_angle = 2.0 * std::atan(2.0 * rise / chord);
+  const double radius = 0.5 * chord / std::sin(half_angle);
+  const double angle = (2.0 * share - 1.0) * half_angle;
+  return {0.5 * chord + radius * std::sin(angle), radius * (std::cos(angle) - std::cos(half_angle))};
+}
+
 /// Position at a share of a wall, which is bowed to half a sine wave.
 Vector2 place_on(const Layout& layout, const LayoutWall& wall, double share) {
   const Vector2& from = layout.joints[wall.start];
   const Vector2 along = layout.joints[wall.end] - from;
   const Vector2 straight = from + along * share;
-  if (wall.bow == 0.0) {
+  if (wall.bow == 0.0 && wall.rise == 0.0) {
     return straight;
   }
-  const Vector2 to_the_left = Vector2(-along.y(), along.x()).normalized();
-  return straight + wall.bow * std::sin(std::numbers::pi * share) * to_the_left;
+  const Vector2 forward = along.normalized();
+  const Vector2 to_the_left(-forward.y(), forward.x());
+  const Vector2 bowed = wall.bow * std::sin(std::numbers::pi * share) * to_the_left;
+  if (wall.rise == 0.0) return straight + bowed;
+  const Vector2 on_arc = place_on_arc(along.norm(), wall.rise, share);
+  return from + on_arc.x() * forward + on_arc.y() * to_the_left + bowed;
 }
 
 /// Length of a wall along its elements.
 double length_of(const Layout& layout, const LayoutWall& wall) {
-  if (wall.bow == 0.0) {
+  if (wall.bow == 0.0 && wall.rise == 0.0) {
     return (layout.joints[wall.end] - layout.joints[wall.start]).norm();
   }
   double length = 0.0;

@@ -1,10 +1,12 @@
 #include "scene/mesh_part.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
+#include "lattice/network.h"
 #include "push/half_planes.h"
 #include "scene/approach_speed.h"
 #include "scene/check_spec.h"
@@ -29,6 +31,9 @@ std::vector<Material> materials_of(const SceneSpec& spec) {
       }
     }
   }
+  if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
+    std::ranges::transform(network->materials, std::back_inserter(materials), material_of);
+  }
   return materials;
 }
 
@@ -45,18 +50,19 @@ bool allows_single_fibres(const Scene& scene) {
          (!scene.section.force_based || Laws::kFacts[scene.law].may_be_single_in_force_based);
 }
 
-/// Lays out the lattice, and computes its measures if it is a regular one. The last beams of a frame are rigid links.
+/// Lays out the lattice, and computes the measures that a frame has not. The last beams of a frame are rigid links.
 Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
     return lay_out_frame(*frame, *spec.elements_per_wall, links);
   }
-  const LatticeKind& kind = *kind_of(spec);
-  const Vector2 envelope = kind.envelope(spec);
+  const auto* network = std::get_if<NetworkWalls>(&spec.lattice);
+  const LatticeKind* kind = kind_of(spec);
+  const Vector2 envelope = network != nullptr ? envelope_of(*network) : kind->envelope(spec);
   const int axis = crush_axis_of(spec);
   scene.length = envelope[axis];
   scene.width = envelope[1 - axis];
-  scene.collapse_stress = kind.collapse_stress(spec);
-  Layout layout = kind.lay_out(spec);
+  if (kind != nullptr) scene.collapse_stress = kind->collapse_stress(spec);
+  Layout layout = network != nullptr ? lay_out_network(*network, *spec.elements_per_wall) : kind->lay_out(spec);
   const std::vector<Vector2> places = layout.joints;
   perturb(spec.imperfection, layout.joints);
   bow(spec.imperfection, layout.walls);

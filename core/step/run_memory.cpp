@@ -117,9 +117,9 @@ SceneSpec spec_as_built(SceneSpec spec, const Scene& scene) {
   return spec;
 }
 
-/// A frame has no specimen: it would be built a second time, beside the scene.
+/// What lists its walls has no specimen: it would be built a second time, beside the scene.
 Share share_of_element(const SceneSpec& spec, const Scene& scene) {
-  if (std::holds_alternative<FrameWalls>(spec.lattice)) return share_of_element(scene);
+  if (!std::holds_alternative<RegularLattice>(spec.lattice)) return share_of_element(scene);
   return share_of_element(*build_specimen(spec_as_built(spec, scene)));
 }
 

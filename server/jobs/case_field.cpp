@@ -53,18 +53,19 @@ Segment parse_segment(const std::string& path, std::string_view text) {
   return {std::string(text.substr(0, bracket)), position};
 }
 
+void refuse_beyond(int position, int size, const std::string& list, const std::string& path) {
+  if (position < size) return;
+  throw InvalidField(path, "is not in the case, which has " + std::to_string(size) + " items in " + list + ".",
+                     "Count from 0.");
+}
+
 // Descends into a message.
 Message& descend(Message& at, const FieldDescriptor& field, const Segment& segment, const std::string& path) {
   const auto& reflection = *at.GetReflection();
   if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE || field.is_repeated() != segment.position.has_value())
     refuse_kind(path);
   if (segment.position) {
-    const int size = reflection.FieldSize(at, &field);
-    if (*segment.position >= size) {
-      throw InvalidField(path,
-                         "is not in the case, which has " + std::to_string(size) + " items in " + segment.name + ".",
-                         "Count from 0.");
-    }
+    refuse_beyond(*segment.position, reflection.FieldSize(at, &field), segment.name, path);
     return *reflection.MutableRepeatedMessage(&at, &field, *segment.position);
   }
   if (const auto* choice = field.real_containing_oneof(); choice != nullptr && !reflection.HasField(at, &field)) {
@@ -85,6 +86,19 @@ Whole whole_of(double value, const std::string& path) {
     throw InvalidField(path, "is " + text_of(value) + ", which is not a whole number in range.",
                        low < 0.0 ? "Use whole numbers." : "Use whole numbers from 0.");
   return static_cast<Whole>(value);
+}
+
+// An entry of a list of numbers.
+void set_entry(Message& at, const FieldDescriptor& field, int position, const std::string& path, double value) {
+  const auto& reflection = *at.GetReflection();
+  if (!field.is_repeated()) refuse_kind(path);
+  refuse_beyond(position, reflection.FieldSize(at, &field), field.name(), path);
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE: return reflection.SetRepeatedDouble(&at, &field, position, value);
+    case FieldDescriptor::CPPTYPE_INT32:
+      return reflection.SetRepeatedInt32(&at, &field, position, whole_of<std::int32_t>(value, path));
+    default: refuse_kind(path);
+  }
 }
 
 void set_number(Message& at, const FieldDescriptor& field, const std::string& path, double value) {
@@ -117,7 +131,7 @@ void set_case_field(v1::Case& target, const std::string& path, double value) {
     const auto* field = at->GetDescriptor()->FindFieldByName(segment.name);
     if (field == nullptr) refuse_part(path, segment.name, *at->GetDescriptor());
     if (dot == std::string_view::npos) {
-      if (segment.position) refuse_kind(path);
+      if (segment.position) return set_entry(*at, *field, *segment.position, path, value);
       return set_number(*at, *field, path, value);
     }
     at = &descend(*at, *field, segment, path);

@@ -44,9 +44,26 @@ RegularLattice read_numbers(const google::protobuf::Message& in) {
   return out;
 }
 
+NetworkWalls read_network(const v1::Lattice::Network& in, Problems& problems) {
+  NetworkWalls out;
+  out.joints_mm.assign(in.joints_mm().begin(), in.joints_mm().end());
+  out.walls.assign(in.walls().begin(), in.walls().end());
+  if (in.has_wall_thickness_mm()) out.wall_thickness_mm = in.wall_thickness_mm();
+  out.thicknesses_mm.assign(in.thicknesses_mm().begin(), in.thicknesses_mm().end());
+  out.rises_mm.assign(in.rises_mm().begin(), in.rises_mm().end());
+  for (int i = 0; i < in.materials_size(); ++i) {
+    const std::string path = "lattice.network.materials[" + std::to_string(i) + "].";
+    out.materials.push_back(to_spec(in.materials(i), path, problems));
+  }
+  out.wall_materials.assign(in.wall_materials().begin(), in.wall_materials().end());
+  return out;
+}
+
 void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   if (in.has_frame()) {
     spec.lattice = to_spec(in.frame(), spec.loads, problems);
+  } else if (in.has_network()) {
+    spec.lattice = read_network(in.network(), problems);
   } else if (auto regular = read_regular(in)) {
     spec.lattice = *std::move(regular);
   }
@@ -144,7 +161,7 @@ void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems
 std::optional<RegularLattice> read_regular(const v1::Lattice& in) {
   const google::protobuf::Reflection& reflection = *in.GetReflection();
   const auto* kind = reflection.GetOneofFieldDescriptor(in, in.GetDescriptor()->FindOneofByName("kind"));
-  if (kind == nullptr || in.has_frame()) return std::nullopt;
+  if (kind == nullptr || in.has_frame() || in.has_network()) return std::nullopt;
   RegularLattice out = read_numbers(reflection.GetMessage(in, kind));
   out.kind = kind->name();
   return out;

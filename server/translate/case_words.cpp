@@ -103,6 +103,20 @@ void describe_frame(const v1::Frame& frame, v1::CaseWords& words) {
   if (frame.watched_nodes_size() > 0) add_fact(words, "watched nodes", names_text(frame.watched_nodes()));
 }
 
+void describe_network(const v1::Lattice::Network& network, v1::CaseWords& words) {
+  const int walls = network.walls_size() / 2;
+  words.set_lattice(
+      fmt::format("network of {} and {}", plural(network.joints_mm_size() / 2, "joint"), plural(walls, "wall")));
+  words.set_theory_note("The quasi-static stress of a network is not known, so no theory is drawn.");
+  std::vector<double> thicknesses(network.thicknesses_mm().begin(), network.thicknesses_mm().end());
+  if (thicknesses.empty()) thicknesses.push_back(network.wall_thickness_mm());
+  add_fact(words, "walls", fmt::format("{}, {} mm thick", walls, range_text(thicknesses)));
+  const auto arcs =
+      std::count_if(network.rises_mm().begin(), network.rises_mm().end(), [](double r) { return r != 0; });
+  if (arcs > 0) add_fact(words, "arcs", plural(static_cast<int>(arcs), "wall"));
+  if (network.materials_size() > 0) add_fact(words, "further materials", std::to_string(network.materials_size()));
+}
+
 void describe_cells(const RegularLattice& regular, v1::CaseWords& words) {
   const LatticeWords kind = words_of(regular);
   const std::string cells = fmt::format("{} x {} cells", regular.columns.value_or(0), regular.rows.value_or(0));
@@ -188,6 +202,7 @@ v1::CaseWords describe_case(const v1::Case& scene) {
   v1::CaseWords words;
   words.set_plates(has_plates(scene.loading()));
   if (scene.lattice().has_frame()) describe_frame(scene.lattice().frame(), words);
+  if (scene.lattice().has_network()) describe_network(scene.lattice().network(), words);
   if (const auto regular = read_regular(scene.lattice())) describe_cells(*regular, words);
   describe_changes(scene.lattice(), words);
   describe_loading(loading_of(scene), words);

@@ -125,6 +125,7 @@ v1::Problem to_proto(const Problem& problem, v1::Problem::Kind kind) {
 google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& submitted) {
   ListChecker lists;
   lists.check("lattice.frame", submitted.lattice().frame());
+  lists.check("lattice.network", submitted.lattice().network());
   lists.check("loading", submitted.loading());
   lists.check("lattice.inclusions", submitted.lattice().inclusions());
   lists.check_points(submitted);

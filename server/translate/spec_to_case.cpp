@@ -107,9 +107,21 @@ void write_node_loads(const LoadsSpec& in, v1::Frame& out) {
   }
 }
 
+void write_network(const NetworkWalls& in, v1::Lattice::Network& out) {
+  out.mutable_joints_mm()->Assign(in.joints_mm.begin(), in.joints_mm.end());
+  out.mutable_walls()->Assign(in.walls.begin(), in.walls.end());
+  if (in.wall_thickness_mm) out.set_wall_thickness_mm(*in.wall_thickness_mm);
+  out.mutable_thicknesses_mm()->Assign(in.thicknesses_mm.begin(), in.thicknesses_mm.end());
+  out.mutable_rises_mm()->Assign(in.rises_mm.begin(), in.rises_mm.end());
+  for (const MaterialSpec& material : in.materials) write_material(material, *out.add_materials());
+  out.mutable_wall_materials()->Assign(in.wall_materials.begin(), in.wall_materials.end());
+}
+
 void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
   if (const auto* regular = std::get_if<RegularLattice>(&spec.lattice)) {
     write_regular(*regular, out);
+  } else if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
+    write_network(*network, *out.mutable_network());
   } else if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
     write_frame(*frame, *out.mutable_frame());
     write_node_loads(spec.loads, *out.mutable_frame());

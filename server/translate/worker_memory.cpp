@@ -20,6 +20,9 @@ constexpr double kRoom = 64.0 * 1024 * 1024;
 constexpr double kOfThread = 9.0 * 1024 * 1024;
 
 std::size_t listed_in(const SceneSpec& spec) {
+  if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
+    return network->joint_count() + network->wall_count();
+  }
   const auto* frame = std::get_if<FrameWalls>(&spec.lattice);
   return frame == nullptr ? 0 : frame->nodes.size() + frame->beams.size();
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <random>
 
+#include "cellcrush/fidelity.h"
+#include "lattice/lattice.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
 #include "step/advance_step.h"
@@ -114,6 +116,21 @@ SceneSpec listed(SceneSpec spec) {
   put_frame(frame, spec);
   spec.imperfection = {};
   return spec;
+}
+
+SceneSpec as_network(const SceneSpec& spec) {
+  const Layout layout = kind_of(spec)->lay_out(fill_in_fidelity(spec));
+  NetworkWalls network;
+  for (const Vector2& joint : layout.joints) {
+    network.joints_mm.insert(network.joints_mm.end(), {joint.x(), joint.y()});
+  }
+  for (const LayoutWall& wall : layout.walls) {
+    network.walls.insert(network.walls.end(), {wall.start, wall.end});
+    network.thicknesses_mm.push_back(wall.thickness);
+  }
+  SceneSpec out = fill_in_fidelity(spec);
+  out.lattice = std::move(network);
+  return out;
 }
 
 void stir(Scene& scene, double speed) {

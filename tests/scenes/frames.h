@@ -89,6 +89,10 @@ std::shared_ptr<Scene> build(const SceneSpec& spec);
 /// them.
 SceneSpec listed(SceneSpec spec);
 
+/// The same lattice as a network, before any imperfection. REQUIRES: a checked spec of a regular lattice without
+/// inclusions.
+SceneSpec as_network(const SceneSpec& spec);
+
 /// Small velocities in all directions for every particle, the same ones each time: what no symmetry hides from.
 void stir(Scene& scene, double speed);
 

@@ -49,6 +49,16 @@ TEST(CaseField, NumbersOfAllKindsAndPartsOfListsAreSet) {
   EXPECT_EQ(target.lattice().frame().nodes(1).x_mm(), 4.0);
   for (const char* path : {"lattice.frame.nodes[2].x_mm", "lattice.frame.nodes.x_mm", "lattice.frame.nodes[x].x_mm"})
     EXPECT_THROW(set_case_field(target, path, 4.0), InvalidField) << path;
+  auto& network = *target.mutable_lattice()->mutable_network();
+  network.mutable_thicknesses_mm()->Resize(3, 0.1);
+  network.add_walls(0);
+  set_case_field(target, "lattice.network.thicknesses_mm[2]", 0.3);
+  set_case_field(target, "lattice.network.walls[0]", 2.0);
+  EXPECT_EQ(network.thicknesses_mm(2), 0.3);
+  EXPECT_EQ(network.walls(0), 2);
+  for (const char* path : {"lattice.network.thicknesses_mm[3]", "lattice.network.thicknesses_mm"})
+    EXPECT_THROW(set_case_field(target, path, 4.0), InvalidField) << path;
+  EXPECT_THROW(set_case_field(target, "lattice.network.walls[0]", 2.5), InvalidField);
 }
 
 TEST(CaseField, WhatIsNoNumberOfTheCaseOrNotInRangeIsRefusedByName) {

@@ -188,6 +188,34 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
   EXPECT_TRUE(MessageDifferencer::Equals(once, translate::to_case(translate::to_spec(once).spec)));
 }
 
+v1::Case network_case() {
+  v1::Case out = testing::small_case();
+  return testing::with_text(out, R"(lattice { network {
+    joints_mm: [0, 0, 10, 0, 10, 10, 0, 10] walls: [0, 1, 1, 2, 2, 3, 3, 0]
+    thicknesses_mm: [0.1, 0.2, 0.1, 0.2] rises_mm: [0, 0, 0, 1]
+    materials { youngs_modulus_mpa: 70000 yield_stress_mpa: 100 density_kg_per_m3: 2700 } wall_materials: [0, 0, 1, 0]
+  } })");
+}
+
+TEST(Translate, ANetworkComesThroughBothWays) {
+  const v1::Case given = network_case();
+  const auto reading = translate::to_spec(given);
+  EXPECT_THAT(reading.problems, IsEmpty());
+  const v1::Case back = translate::to_case(reading.spec);
+  v1::Lattice::Network expected = given.lattice().network();
+  expected.mutable_materials()->CopyFrom(back.lattice().network().materials());  // with its defaults
+  EXPECT_TRUE(MessageDifferencer::Equals(back.lattice().network(), expected));
+  const auto checked = translate::check_case(given);
+  EXPECT_THAT(fields_of(checked.response), IsEmpty());
+  EXPECT_EQ(checked.wall_count, 4);
+}
+
+TEST(Translate, ANetworkWithTooLongListsIsRefused) {
+  v1::Case given = network_case();
+  given.mutable_lattice()->mutable_network()->mutable_rises_mm()->Resize(200'001, 0.0);
+  EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("lattice.network.rises_mm"));
+}
+
 TEST(Translate, ARigidWallsMissingOrDoubleIdAndPlaceAreProblemsWithTheirPaths) {
   const v1::Case given = frame_case(R"(
     rigid_walls { id: "floor" y_mm: 0 normal_x: 1 }

@@ -46,6 +46,22 @@ struct MaterialSpec : LawParameters {
   bool operator==(const MaterialSpec&) const = default;
 };
 
+/// Any planar lattice: joints, and the walls between them, as lists of numbers.
+struct NetworkWalls {
+  std::vector<double> joints_mm;            ///< x and y of each joint
+  std::vector<int> walls;                   ///< start and end of each wall, as indices of joints
+  std::optional<double> wall_thickness_mm;  ///< of every wall, unless `thicknesses_mm` is given
+  std::vector<double> thicknesses_mm;       ///< of each wall
+  /// Of each wall: rise of a circular arc over its chord, to the left of start to end. Empty: straight.
+  std::vector<double> rises_mm;
+  std::vector<MaterialSpec> materials;  ///< besides that of the spec
+  std::vector<int> wall_materials;      ///< of each wall: 0 that of the spec, 1 the first of `materials`. Empty: 0
+
+  [[nodiscard]] std::size_t joint_count() const { return joints_mm.size() / 2; }
+  [[nodiscard]] std::size_t wall_count() const { return walls.size() / 2; }
+  bool operator==(const NetworkWalls&) const = default;
+};
+
 /// Walls that are listed one by one: an explicit planar frame. Nodes are named by their index in `nodes`.
 struct FrameWalls {
   struct Node {
@@ -265,7 +281,7 @@ struct OutputSpec {
 
 struct SceneSpec {
   std::string title;
-  std::variant<std::monostate, RegularLattice, FrameWalls> lattice;
+  std::variant<std::monostate, RegularLattice, NetworkWalls, FrameWalls> lattice;
   LoadsSpec loads;
   Imperfection imperfection;
   Inclusions inclusions;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "cellcrush/scene_spec.h"
+#include "lattice/layout.h"
+
+namespace cellcrush {
+
+/// Joints and walls of a network in the order of its lists. REQUIRES: a checked network.
+Layout lay_out_network(const NetworkWalls& network, int elements_per_wall);
+
+/// Whether its joints have more than three walls in the mean, so that it bears by stretching its walls. These are then
+/// stacked along the crush, as those of squares and triangles are.
+bool has_stacked_walls(const NetworkWalls& network);
+
+/// Extent of the joints in x and y, mm.
+Vector2 envelope_of(const NetworkWalls& network);
+
+}  // namespace cellcrush
