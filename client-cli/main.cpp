@@ -63,6 +63,7 @@ ExitCode run_command_line(int argc, char** argv) {
   add_case_commands(app, session);
   add_run_command(app, session);
   add_explain_command(app, session);
+  add_import_command(app, session);
   add_submit_commands(app, session);
   add_watch_command(app, session);
   add_show_commands(app, session);

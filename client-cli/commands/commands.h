@@ -95,6 +95,7 @@ void add_case_options(CLI::App& command, CaseOptions& options);
 
 void add_case_commands(CLI::App& app, Session& session);  ///< presets, check
 void add_explain_command(CLI::App& app, Session& session);
+void add_import_command(CLI::App& app, Session& session);
 void add_show_commands(CLI::App& app, Session& session);  ///< show, list, table
 void add_run_command(CLI::App& app, Session& session);
 void add_submit_commands(CLI::App& app, Session& session);  ///< submit, sweep

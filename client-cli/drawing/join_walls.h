@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/case.pb.h"
+#include "drawing/drawing.h"
+
+namespace cellcrush::client {
+
+/// How a drawing becomes a network.
+struct JoinOptions {
+  double mm_per_unit = 1.0;
+  std::optional<double> tolerance_mm;  ///< within which places are one joint; default: kTolerance of the shortest wall
+  std::optional<double> thickness_mm;  ///< of walls whose file does not say it
+  bool joins_crossings = true;         ///< whether walls that cross are joined there
+};
+
+inline constexpr double kTolerance = 1e-3;
+
+/// A network, and what was done to the drawing. Places in mm.
+struct JoinedWalls {
+  v1::Lattice::Network network;
+  double tolerance_mm = 0.0;
+  int merged = 0;                     ///< ends of walls that became one joint, less one for each joint
+  std::vector<std::string> lengths;   ///< names of walls without length, left out
+  int duplicates = 0;                 ///< walls that were drawn twice, left out
+  int divided = 0;                    ///< ends that met a wall between its joints, which was divided there
+  std::vector<DrawnPlace> crossings;  ///< where walls cross that are joined there, or are not
+  std::vector<DrawnPlace> loose;      ///< joints with one wall
+  std::vector<DrawnPlace> islands;    ///< a joint of each part but the largest
+  std::vector<int> island_walls;      ///< walls of each of these
+};
+
+/// Joins the ends of walls that lie within the tolerance of each other, divides straight walls where ends of others
+/// meet them and, if asked, where they cross, and leaves out what is there twice. Joints are numbered in the order of
+/// the walls. Throws CommandError (refused) if a wall has no thickness, or nothing is left.
+JoinedWalls join_walls(const Drawing& drawing, const JoinOptions& options);
+
+}  // namespace cellcrush::client

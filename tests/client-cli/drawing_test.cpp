@@ -1,0 +1,193 @@
+// Drawings of lattices become networks: formats, units, joints.
+#include "drawing/drawing.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "command_error.h"
+#include "drawing/join_walls.h"
+#include "drawing/svg_path.h"
+
+namespace cellcrush::client {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+DrawnWall line(double x1, double y1, double x2, double y2) { return {{x1, y1}, {x2, y2}, 0.0, {}, "line"}; }
+
+JoinedWalls join(std::vector<DrawnWall> walls, JoinOptions options = {}) {
+  options.thickness_mm = options.thickness_mm.value_or(0.1);
+  return join_walls({std::move(walls), {}, {}}, options);
+}
+
+std::vector<double> joints_of(const JoinedWalls& joined) {
+  return {joined.network.joints_mm().begin(), joined.network.joints_mm().end()};
+}
+
+std::vector<int> walls_of(const JoinedWalls& joined) {
+  return {joined.network.walls().begin(), joined.network.walls().end()};
+}
+
+TEST(JoinWalls, EndsWithinTheToleranceAreOneJoint) {
+  const JoinedWalls joined = join({line(0, 0, 1, 0), line(1.0005, 0, 1, 1)}, JoinOptions{1.0, 1e-3, {}, true});
+  EXPECT_THAT(joints_of(joined), ElementsAre(0, 0, 1, 0, 1, 1));
+  EXPECT_THAT(walls_of(joined), ElementsAre(0, 1, 1, 2));
+  EXPECT_EQ(joined.merged, 1);
+  EXPECT_THAT(joined.loose, SizeIs(2));
+  EXPECT_THAT(joined.islands, SizeIs(0));
+}
+
+TEST(JoinWalls, AnEndThatMeetsAWallDividesIt) {
+  const JoinedWalls joined = join({line(0, 0, 2, 0), line(1, 0, 1, 1)});
+  EXPECT_EQ(joined.divided, 1);
+  EXPECT_THAT(walls_of(joined), ElementsAre(0, 1, 1, 2, 1, 3));
+}
+
+TEST(JoinWalls, WallsThatCrossAreJoinedThereOrNamed) {
+  const std::vector<DrawnWall> cross = {line(-1, 0, 1, 0), line(0, -1, 0, 1)};
+  EXPECT_THAT(join(cross).crossings, ElementsAre(DrawnPlace{0, 0}));
+  EXPECT_EQ(join(cross).network.walls_size() / 2, 4);
+  const JoinedWalls kept = join(cross, JoinOptions{1.0, {}, {}, false});
+  EXPECT_THAT(kept.crossings, ElementsAre(DrawnPlace{0, 0}));
+  EXPECT_EQ(kept.network.walls_size() / 2, 2);
+  EXPECT_THAT(kept.islands, SizeIs(1));
+}
+
+TEST(JoinWalls, ThreeWallsThroughAPlaceCrossOnce) {
+  const JoinedWalls joined = join({line(-1, 0, 1, 0), line(0, -1, 0, 1), line(-1, -1, 1, 1)});
+  EXPECT_EQ(joined.network.joints_mm_size() / 2, 7);
+  EXPECT_EQ(joined.network.walls_size() / 2, 6);
+}
+
+TEST(JoinWalls, WhatIsThereTwiceOrHasNoLengthIsLeftOut) {
+  const JoinedWalls joined = join({line(0, 0, 1, 0), line(1, 0, 0, 0), line(0, 0, 2, 0), line(3, 3, 3, 3)});
+  EXPECT_EQ(joined.duplicates, 2);
+  EXPECT_THAT(joined.lengths, ElementsAre("line"));
+  EXPECT_THAT(walls_of(joined), ElementsAre(0, 1, 1, 2));
+}
+
+TEST(JoinWalls, TwoArcsBetweenTheSameJointsAreTwoWalls) {
+  DrawnWall up = line(0, 0, 1, 0);
+  up.rise = 0.2;
+  DrawnWall down = line(1, 0, 0, 0);
+  down.rise = 0.2;
+  const JoinedWalls joined = join({up, down});
+  EXPECT_EQ(joined.network.walls_size() / 2, 2);
+  EXPECT_THAT(joined.network.rises_mm(), ElementsAre(0.2, 0.2));
+}
+
+TEST(JoinWalls, AWallWithoutThicknessIsRefused) {
+  EXPECT_THROW(join_walls({{line(0, 0, 1, 0)}, {}, {}}, {}), CommandError);
+}
+
+TEST(CsvDrawing, HasWallsOrNodesAndEdges) {
+  const Drawing walls = read_csv_drawing("x1,y1,x2,y2,thickness\n0,0,1,0,0.2\n1,0,1,1,\n", "walls.csv");
+  ASSERT_THAT(walls.walls, SizeIs(2));
+  EXPECT_EQ(walls.walls[0].thickness, 0.2);
+  EXPECT_FALSE(walls.walls[1].thickness);
+  const Drawing edges = read_csv_drawing("id;x;y\na;0;0\nb;3;4\n", "n.csv", "start,end\na,b\n", "e.csv");
+  ASSERT_THAT(edges.walls, SizeIs(1));
+  EXPECT_EQ(distance(edges.walls[0].start, edges.walls[0].end), 5.0);
+}
+
+std::string refusal_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const CommandError& error) {
+    return error.message();
+  }
+  return "";
+}
+
+TEST(CsvDrawing, NamesTheLineThatIsWrong) {
+  EXPECT_THAT(refusal_of([] { read_csv_drawing("x1,y1,x2,y2\n0,0,1,zero\n", "w.csv"); }),
+              HasSubstr("w.csv:2: y2 is \"zero\""));
+  EXPECT_THAT(refusal_of([] { read_csv_drawing("x1,y1,x2,y2\n0,0,1\n", "w.csv"); }), HasSubstr("w.csv:2"));
+  EXPECT_THAT(refusal_of([] { read_csv_drawing("a,b\n0,0\n", "w.csv"); }), HasSubstr("no column x1"));
+}
+
+TEST(JsonDrawing, HasListsOrNodesWithIds) {
+  const Drawing lists = read_json_drawing(
+      R"({"unit": "cm", "nodes": [[0, 0], [1, 0], [1, 1]], "edges": [[0, 1], [1, 2]], "thickness": [0.1, 0.2]})", "f");
+  EXPECT_EQ(lists.mm_per_unit, 10.0);
+  ASSERT_THAT(lists.walls, SizeIs(2));
+  EXPECT_EQ(lists.walls[1].thickness, 0.2);
+  const Drawing graph = read_json_drawing(
+      R"({"nodes": [{"id": "a", "x": 0, "y": 0}, {"id": "b", "x": 0, "y": 2}],
+          "links": [{"source": "a", "target": "b"}]})",
+      "f");
+  ASSERT_THAT(graph.walls, SizeIs(1));
+  EXPECT_EQ(graph.walls[0].end.y, 2.0);
+  EXPECT_THAT(refusal_of([] { read_json_drawing(R"({"nodes": [[0, 0]], "edges": [[0, 7]]})", "f.json"); }),
+              HasSubstr("edges[0] names 7"));
+}
+
+TEST(DxfDrawing, HasLinesArcsAndBulges) {
+  const std::string head = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n5\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
+  const std::string line_text = "0\nLINE\n8\n0\n10\n0\n20\n0\n11\n3\n21\n4\n";
+  const std::string arc = "0\nARC\n8\n0\n10\n0\n20\n0\n40\n2\n50\n0\n51\n90\n";
+  const std::string chain = "0\nLWPOLYLINE\n8\n0\n90\n2\n70\n0\n10\n0\n20\n0\n42\n1\n10\n2\n20\n0\n";
+  const Drawing drawing = read_dxf_drawing(head + line_text + arc + chain + "0\nENDSEC\n0\nEOF\n", "f.dxf");
+  EXPECT_EQ(drawing.mm_per_unit, 10.0);
+  ASSERT_THAT(drawing.walls, SizeIs(3));
+  EXPECT_EQ(distance(drawing.walls[0].start, drawing.walls[0].end), 5.0);
+  // A quarter of a circle of radius 2, counterclockwise: it bulges to the right.
+  EXPECT_NEAR(drawing.walls[1].rise, -2.0 * (1.0 - std::sqrt(0.5)), 1e-12);
+  // Bulge 1 is half a circle, counterclockwise.
+  EXPECT_NEAR(drawing.walls[2].rise, -1.0, 1e-12);
+}
+
+TEST(SvgDrawing, HasShapesWithTransformsAndTheSizeOfTheFile) {
+  const Drawing drawing = read_svg_drawing(
+      R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="100mm" viewBox="0 0 200 200">
+           <g transform="translate(10 0) scale(2)" stroke-width="0.5"><line x1="0" y1="0" x2="5" y2="0"/></g>
+           <path d="M0 0h2v3"/><circle cx="1" cy="1" r="1"/><text>note</text></svg>)svg",
+      "f.svg");
+  EXPECT_EQ(drawing.mm_per_unit, 0.5);
+  ASSERT_THAT(drawing.walls, SizeIs(7));
+  EXPECT_EQ(drawing.walls[0].start, (DrawnPlace{10.0, 0.0}));
+  EXPECT_EQ(drawing.walls[0].end, (DrawnPlace{20.0, 0.0}));
+  EXPECT_EQ(drawing.walls[0].thickness, 1.0);
+  EXPECT_EQ(drawing.walls[2].end, (DrawnPlace{2.0, -3.0})) << "y points down in a file";
+  EXPECT_THAT(drawing.left_out, ElementsAre("1 text"));
+}
+
+TEST(SvgPath, CurvesEndWhereTheyShouldAndLieOnTheirCircle) {
+  const auto chains = flatten_svg_path("M1,0A1 1 0 0 1 0 1C0 2 1 3 2 3");
+  ASSERT_THAT(chains, SizeIs(1));
+  ASSERT_THAT(chains[0], SizeIs(33));
+  for (int i = 0; i <= 16; ++i) EXPECT_NEAR(std::hypot(chains[0][i].x, chains[0][i].y), 1.0, 1e-12);
+  EXPECT_EQ(chains[0].back(), (DrawnPlace{2.0, 3.0}));
+}
+
+TEST(MeshDrawing, OfAbaqusHasBeamsWithTheThicknessOfTheirSection) {
+  const Drawing drawing = read_abaqus_drawing(
+      "*Heading\n*Node\n 1, 0., 0.\n 2, 1., 0.\n 3, 1., 1.\n*Element, type=B21, elset=Walls\n 1, 1, 2\n 2, 2, 3\n"
+      "*Element, type=CPS4\n 3, 1, 2, 3, 3\n*Beam Section, elset=Walls, material=Al, section=RECT\n 10., 0.3\n",
+      "f.inp");
+  ASSERT_THAT(drawing.walls, SizeIs(2));
+  EXPECT_EQ(drawing.walls[1].thickness, 0.3);
+}
+
+TEST(MeshDrawing, OfGmshHasItsLinesOfBothVersions) {
+  const Drawing old = read_gmsh_drawing(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n2 3 4 0\n$EndNodes\n$Elements\n1\n1 1 2 0 1 1 2\n"
+      "$EndElements\n",
+      "f.msh");
+  ASSERT_THAT(old.walls, SizeIs(1));
+  const Drawing now = read_gmsh_drawing(
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 1 2\n1 1 0 2\n1\n2\n0 0 0\n3 4 0\n$EndNodes\n$Elements\n"
+      "1 1 1 1\n1 1 1 1\n1 1 2\n$EndElements\n",
+      "f.msh");
+  ASSERT_THAT(now.walls, SizeIs(1));
+  EXPECT_EQ(distance(now.walls[0].start, now.walls[0].end), 5.0);
+}
+
+}  // namespace
+}  // namespace cellcrush::client
