@@ -21,11 +21,12 @@ namespace {
 
 constexpr const char* kAmplitude = "lattice.imperfection.amplitude_mm";
 constexpr int kMostElements = 64;  // of a wall
+constexpr int kSeeds = 5;
 
 struct ConvergeOptions {
   CaseOptions scene;
   std::vector<int> meshes;
-  int seeds = 5;
+  int seeds = 0;  ///< 0: kSeeds, of a frame 1
   double wanted_error = 0.05;
   bool only_cost = false;
   std::string executor;
@@ -49,19 +50,33 @@ std::vector<int> meshes_about_the_default(const v1::Case& of, Connection& connec
   return {own / 2, own, 2 * own};
 }
 
-v1::CreateSweepRequest build_request(ConvergeOptions& options, Connection& connection) {
-  v1::CreateSweepRequest request;
-  v1::Sweep& sweep = *request.mutable_sweep();
-  sweep.set_executor(options.executor);
-  *sweep.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
-  const v1::Lattice::Imperfection& imperfection = sweep.case_().lattice().imperfection();
-  if (options.seeds > 1 && imperfection.amplitude_mm() == 0.0 && imperfection.bow_mm() == 0.0) {
+/// Refuses seeds or meshes that all give the same crush.
+void refuse_idle_runs(const v1::Case& of, int seeds) {
+  const v1::Lattice& lattice = of.lattice();
+  if (lattice.has_frame() && seeds > 1) {
+    refuse("a frame has no imperfection, so every seed gives the same run: leave out --seeds");
+  }
+  const auto& beams = lattice.frame().beams();
+  if (!beams.empty() && std::ranges::all_of(beams, [](const v1::Frame::Beam& beam) { return beam.has_elements(); })) {
+    refuse(
+        "every beam sets its own elements, so elements_per_wall gives the same mesh: leave out elements of the beams");
+  }
+  if (seeds > 1 && lattice.imperfection().amplitude_mm() == 0.0 && lattice.imperfection().bow_mm() == 0.0) {
     refuse(
         fmt::format("{0} and bow_mm are 0, so every seed gives the same "
                     "crush: add --set {0}=0.01, or compare the meshes without "
                     "scatter by --seeds 1",
                     kAmplitude));
   }
+}
+
+v1::CreateSweepRequest build_request(ConvergeOptions& options, Connection& connection) {
+  v1::CreateSweepRequest request;
+  v1::Sweep& sweep = *request.mutable_sweep();
+  sweep.set_executor(options.executor);
+  *sweep.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
+  if (options.seeds == 0) options.seeds = sweep.case_().lattice().has_frame() ? 1 : kSeeds;
+  refuse_idle_runs(sweep.case_(), options.seeds);
   if (options.meshes.empty()) options.meshes = meshes_about_the_default(sweep.case_(), connection);
   v1::SweepAxis& meshes = *sweep.add_axes();
   meshes.set_field("elements_per_wall");
@@ -123,14 +138,18 @@ void add_converge_command(CLI::App& app, Session& session) {
   converge->get_option("CASE")->description(
       "A case file, - for stdin, or preset:NAME; or sweeps/NAME, to print the estimates of a sweep over meshes again");
   add_option(*converge, kCaseOptions, "--meshes", options->meshes,
-             "Elements per wall of the meshes to compare (default: those of the case, and twice or half as many)")
+             "Elements per wall, or per beam of a frame, of the meshes to compare (default: those of the case, and "
+             "twice or half "
+             "as many)")
       ->delimiter(',')
       ->check(CLI::Range(1, kMostElements));
   add_option(*converge, kCaseOptions, "--seeds", options->seeds,
-             "Number of runs with each mesh, with seeds 1 to N of the imperfection (default: 5)")
+             "Number of runs with each mesh, with seeds 1 to N of the imperfection (default: 5; a frame has no seeds)")
       ->check(CLI::Range(1, 100));
   add_option(*converge, kOutputOptions, "--error", options->wanted_error,
-             "Relative error that the plateau stresses may have, above 0 and at most 1 (default: 0.05)")
+             "Relative error that the plateau stresses, or the work of a frame, may have, above 0 and "
+             "at most 1 "
+             "(default: 0.05)")
       ->check(CLI::Range(1e-6, 1.0));
   add_executor_option(*converge, options->executor);
   add_option(*converge, kIdentityOptions, "--request-id", options->request_id,

@@ -191,8 +191,13 @@ std::string field_values_text(const v1::Case& scene, const std::vector<std::stri
     if (value.empty()) value = default_text(scene, field);
     if (value.empty()) continue;
     const bool is_words = value.find_first_of("abcdfghijklmnopqrstuvwxyz") != std::string::npos;
+    const bool is_of_beams = field == "elements_per_wall" && scene.lattice().has_frame();
     text += text.empty() ? "" : ", ";
-    text += is_words ? words_among(field, fields).name + " by default" : equation_text(field, value, fields);
+    if (is_words) {
+      text += words_among(field, fields).name + " by default";
+    } else {
+      text += is_of_beams ? "elements per beam = " + value : equation_text(field, value, fields);
+    }
   }
   return text;
 }

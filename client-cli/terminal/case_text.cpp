@@ -104,11 +104,12 @@ std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   for (const v1::FidelityForecast& forecast : check.fidelities()) table.add(row_of(forecast));
   std::string text = "\ncost and accuracy by numerics.fidelity\n" + table.text(2, width);
   if (measured != nullptr) {
-    text += wrapped(fmt::format("An error is the difference of the mean over seeds from that of the finest mesh; that "
-                                "of the finest mesh is "
-                                "its difference from the next coarser one. Single {} runs scatter by {} between seeds.",
-                                v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
-                    width, "  ", "  ");
+    text +=
+        wrapped(fmt::format("An error is the difference of the mean over seeds from the limit of infinitely fine "
+                            "meshes, ± the half-width of the limit's interval. Single {} runs scatter by {} between "
+                            "seeds.",
+                            v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
+                width, "  ", "  ");
   } else {
     text += wrapped(unknown_text(check), width, "  ", "  ");
   }
@@ -157,6 +158,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   const std::string& note = check.words().theory_note();
   if (!note.empty() && check.theory().shock_mpa() > 0)
     text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
+  if (!check.small_specimen().empty()) text += '\n' + wrapped(printable(check.small_specimen()), width, "  ", "  ");
   text += fidelity_text(check, width);
   if (check.modelled_size() > 0) text += "\nmodel and simplifications\n";
   for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), width, "  - ", "    ");

@@ -87,6 +87,9 @@ constexpr std::array kWords = {
     Words{"plateau_stress_support_mpa", "plateau at the support plate", "MPa"},
     Words{"densification_strain", "densification strain", ""},
     Words{"absorbed_energy_mj", "absorbed energy", "mJ"},
+    Words{"ledger.work_external_mj", "work of the loads", "mJ"},
+    Words{"ledger.plastic_mj", "plastic work", "mJ"},
+    Words{"fibre_strain.largest", "largest fibre strain", ""},
 };
 
 Words words_of(const Quantity& quantity) {
@@ -96,52 +99,96 @@ Words words_of(const Quantity& quantity) {
   return {quantity.field(), quantity.field(), ""};
 }
 
-std::string error_text(const Estimate& estimate) {
-  if (!estimate.has_uncertainty_relative()) return percent_text(estimate.error_relative()) + " ± ?";
-  return percent_text(estimate.error_relative()) + " ± " + percent_text(estimate.uncertainty_relative());
-}
-
-void add_rows(Table& table, const Quantity& quantity) {
+void add_rows(Table& table, const Quantity& quantity, bool scatters) {
   const Words words = words_of(quantity);
-  double largest = 0.0;
+  double largest = std::abs(quantity.limit());
   for (const Estimate& estimate : quantity.meshes()) largest = std::max(largest, std::abs(estimate.mean()));
   const ShownUnit unit = unit_by_size(words.unit, largest);
   table.add_title(printable(fmt::format("{}{}{}", words.title, *unit.name == '\0' ? "" : ", ", unit.name)));
+  const auto add = [&](const std::string& mesh, const std::string& runs, double mean, const std::string& scatter,
+                       const std::string& error) {
+    std::vector<std::string> row = {mesh, runs, number_text(unit.factor * mean)};
+    if (scatters) row.push_back(scatter);
+    row.push_back(error);
+    table.add(row);
+  };
   for (const Estimate& estimate : quantity.meshes()) {
-    table.add({fmt::format("{}", estimate.elements_per_wall()), fmt::format("{}", estimate.job_count()),
-               number_text(unit.factor * estimate.mean()),
-               estimate.has_scatter_relative() ? percent_text(estimate.scatter_relative()) : "", error_text(estimate)});
+    add(fmt::format("{}", estimate.elements_per_wall()), fmt::format("{}", estimate.job_count()), estimate.mean(),
+        estimate.has_scatter_relative() ? percent_text(estimate.scatter_relative()) : "",
+        percent_text(estimate.error_relative()));
   }
+  const std::string half_width =
+      quantity.has_interval() ? percent_text(std::abs(quantity.interval() / quantity.limit())) : "?";
+  add(quantity.has_order() ? fmt::format("limit, order {:.1f}", quantity.order()) : "limit", "", quantity.limit(), "",
+      "± " + half_width);
 }
 
-bool has_intervals(const v1::Convergence& convergence) {
-  int plateaus = 0;
-  for (const Quantity& quantity : convergence.quantities()) {
-    if (!quantity.field().starts_with("plateau_stress")) continue;
-    ++plateaus;
-    for (const Estimate& estimate : quantity.meshes()) {
-      if (!estimate.has_uncertainty_relative()) return false;
-    }
-  }
-  return plateaus == 2;
+bool is_plateau(const Quantity& quantity) { return quantity.field().starts_with("plateau_stress"); }
+
+/// What the verdict on a mesh takes and is missing; empty if it is there.
+std::string missing_text(const v1::Convergence& convergence) {
+  const auto& quantities = convergence.quantities();
+  const bool crushes = std::ranges::any_of(quantities, [](const Quantity& quantity) {
+    return is_plateau(quantity) || quantity.field() == "absorbed_energy_mj";
+  });
+  const bool has_intervals = std::ranges::all_of(quantities, &Quantity::has_interval);
+  std::vector<std::string> missing;
+  if (!has_intervals) missing.emplace_back("two seeds or more with every mesh");
+  if (crushes && std::ranges::count_if(quantities, is_plateau) < 2) missing.emplace_back("runs to 40 % strain");
+  if (!crushes && std::ranges::none_of(quantities, &Quantity::decides))
+    missing.emplace_back("runs with work of the loads or plastic work");
+  return fmt::format("{}", fmt::join(missing, ", and "));
 }
 
-std::string verdict_text(const v1::Convergence& convergence) {
+std::string verdict_text(const v1::Convergence& convergence, bool scatters) {
   const std::string wanted = percent_text(convergence.wanted_error_relative());
+  std::vector<std::string_view> titles;
+  bool plateaus = false;
+  for (const Quantity& quantity : convergence.quantities()) {
+    if (quantity.decides()) titles.push_back(words_of(quantity).title);
+    plateaus = plateaus || is_plateau(quantity);
+  }
+  const std::string deciding =
+      plateaus ? "both plateau stresses" : fmt::format("the {}", fmt::join(titles, " and the "));
   if (convergence.has_elements_per_wall()) {
-    return fmt::format("With {} elements per wall, error and interval of both plateau stresses are within {}.",
-                       convergence.elements_per_wall(), wanted);
+    return fmt::format("With {} {}, error and interval of {} are together within {}.", convergence.elements_per_wall(),
+                       convergence.mesh_words(), deciding, wanted);
   }
-  if (!has_intervals(convergence)) {
-    return fmt::format(
-        "Whether a mesh meets {} cannot be told: this takes two seeds or more with every mesh, and runs to 40 % "
-        "strain.",
-        wanted);
+  if (const std::string missing = missing_text(convergence); !missing.empty()) {
+    return fmt::format("Whether a mesh meets {} cannot be told: this takes {}.", wanted, missing);
   }
-  return fmt::format(
-      "No mesh has the error and interval of both plateau stresses within {}. If the error is the larger part, add a "
-      "finer mesh; if the interval is, use more seeds.",
-      wanted);
+  return fmt::format("No mesh has the error and interval of {} together within {}. A finer mesh reduces both{}.",
+                     deciding, wanted, scatters ? "; more seeds reduce the interval where the scatter is large" : "");
+}
+
+/// "2 elements per wall, seeds 1, 2; 8 elements per wall, seed 5": the runs with a warning.
+std::string runs_text(const v1::Convergence::RunWarning& warning, const std::string& mesh_words) {
+  std::map<int, std::vector<std::string>> seeds;
+  for (const auto& run : warning.runs()) {
+    auto& of_mesh = seeds[run.elements_per_wall()];
+    if (run.has_seed()) of_mesh.push_back(fmt::format("{}", run.seed()));
+  }
+  std::vector<std::string> texts;
+  for (const auto& [elements, of_mesh] : seeds) {
+    texts.push_back(fmt::format("{} {}", elements, mesh_words));
+    if (of_mesh.empty()) continue;
+    texts.back() += fmt::format(", seed{} {}", of_mesh.size() > 1 ? "s" : "", fmt::join(of_mesh, ", "));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+std::string warnings_text(const v1::Convergence& convergence, int width) {
+  std::string text;
+  for (const auto& each : convergence.warnings()) {
+    const std::string kind = v1::Warning::Kind_Name(each.warning().kind());
+    text += '\n' +
+            wrapped(printable(fmt::format("Warning ({}) of {} ({}). {}: {}", kind, run_count_text(each.runs_size()),
+                                          runs_text(each, convergence.mesh_words()), each.runs(0).job(),
+                                          each.warning().message())),
+                    width, "  ", "    ") +
+            wrapped(printable("Remedy: " + each.warning().remedy()), width, "    ", "    ");
+  }
+  return text;
 }
 
 }  // namespace
@@ -194,23 +241,31 @@ std::string convergence_text(const v1::Convergence& convergence, int width) {
   if (convergence.quantities_size() == 0) {
     return wrapped("No estimate yet: at least one run must have succeeded with each of two meshes.", width);
   }
-  Table table({Align::right, Align::right, Align::right, Align::right, Align::right});
-  table.add({"elements per wall", "runs", "mean", "scatter", "error"});
-  for (const Quantity& quantity : convergence.quantities()) add_rows(table, quantity);
+  bool scatters = false;
+  for (const Quantity& quantity : convergence.quantities()) {
+    scatters = scatters || std::ranges::any_of(quantity.meshes(), &Estimate::has_scatter_relative);
+  }
+  std::vector<std::string> heading = {convergence.mesh_words(), "runs", "mean"};
+  if (scatters) heading.emplace_back("scatter");
+  heading.emplace_back("error");
+  Table table(std::vector<Align>(heading.size(), Align::right));
+  table.add(heading);
+  for (const Quantity& quantity : convergence.quantities()) add_rows(table, quantity, scatters);
   std::string text =
       table.text(2, width) + '\n' +
       wrapped(
-          "error: difference of the mean from that of the finest mesh, ± half the width of its 95 % confidence "
-          "interval. For the finest mesh it is the difference from the next coarser one. scatter: "
-          "standard deviation between seeds, relative to the mean.",
+          fmt::format("limit: mean of an infinitely fine mesh, ± half the width of its interval. It is extrapolated "
+                      "where it has an order, and otherwise the mean of the finest mesh. error: difference of a mean "
+                      "from the limit.{}",
+                      scatters ? " scatter: standard deviation between seeds, relative to the mean." : ""),
           width, "", "  ") +
-      wrapped(verdict_text(convergence), width, "", "  ");
+      wrapped(verdict_text(convergence, scatters), width, "", "  ");
   if (convergence.job_count_left_out() > 0) {
     text += wrapped(
         fmt::format("Left out, because they have not succeeded: {}.", run_count_text(convergence.job_count_left_out())),
         width, "", "  ");
   }
-  return text;
+  return text + warnings_text(convergence, width);
 }
 
 }  // namespace cellcrush::client

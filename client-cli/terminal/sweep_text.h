@@ -20,7 +20,7 @@ std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps, int width = te
 /// "1 run", "15 runs".
 std::string run_count_text(int count);
 
-/// The estimates of each quantity by mesh, what the errors are, and the mesh that meets the wanted error.
+/// The means and the limit of each quantity, the mesh that meets the wanted error, and the warnings of the runs.
 std::string convergence_text(const v1::Convergence& convergence, int width);
 
 }  // namespace cellcrush::client

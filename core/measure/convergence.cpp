@@ -23,6 +23,75 @@ double student_factor(int freedom) {
                     (3.0 * z4 * z2 + 19.0 * z4 + 17.0 * z2 - 15.0) / (384.0 * n * n * n));
 }
 
+/// Half of the 95 % confidence interval of (1 + share) fine - share coarse, with Welch's degrees of freedom.
+double interval_of_extrapolated(const SeedStatistics& coarse, const SeedStatistics& fine, double share) {
+  const double of_fine = (1.0 + share) * (1.0 + share) * fine.variance_of_mean();
+  const double of_coarse = share * share * coarse.variance_of_mean();
+  const double squares =
+      of_fine * of_fine / (fine.count - 1) + (share > 0.0 ? of_coarse * of_coarse / (coarse.count - 1) : 0.0);
+  if (squares == 0.0) return 0.0;
+  const double sum = of_fine + of_coarse;
+  return student_factor(static_cast<int>(sum * sum / squares)) * std::sqrt(sum);
+}
+
+/// Three meshes that an error C / elements^order leaves: the difference of the coarser two means over that of the finer
+/// two.
+double ratio_of_differences(std::span<const MeshMean, 3> meshes, double order) {
+  const double coarser = static_cast<double>(meshes[1].elements_per_wall) / meshes[0].elements_per_wall;
+  const double finer = static_cast<double>(meshes[2].elements_per_wall) / meshes[1].elements_per_wall;
+  return (std::pow(coarser, order) - 1.0) / (1.0 - std::pow(finer, -order));
+}
+
+constexpr double kLeastOrder = 1.0;
+constexpr double kGreatestOrder = 2.0;
+
+/// Order of convergence that a ratio of differences shows, at most kGreatestOrder. Nothing if it is below kLeastOrder.
+std::optional<double> order_of(std::span<const MeshMean, 3> meshes, double ratio) {
+  constexpr double kRoundOff = 1e-9;
+  if (!(ratio >= (1.0 - kRoundOff) * ratio_of_differences(meshes, kLeastOrder))) return std::nullopt;
+  if (ratio >= ratio_of_differences(meshes, kGreatestOrder)) return kGreatestOrder;
+  double low = kLeastOrder;
+  double high = kGreatestOrder;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = std::midpoint(low, high);
+    (ratio < ratio_of_differences(meshes, middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+/// REQUIRES: at least two meshes, in the order of their elements.
+MeshLimit extrapolate(const std::vector<MeshMean>& meshes) {
+  constexpr double kSafetyOfObserved = 1.25;
+  constexpr double kSafety = 3.0;
+  const SeedStatistics& fine = meshes.back().of_seeds;
+  const SeedStatistics& next = meshes[meshes.size() - 2].of_seeds;
+  const double difference = fine.mean - next.mean;
+  bool scatter_is_known = fine.count > 1 && next.count > 1;
+  double coarser_difference = 0.0;
+  std::optional<double> order;
+  if (meshes.size() > 2) {
+    const std::span<const MeshMean, 3> last(&meshes[meshes.size() - 3], 3);
+    scatter_is_known = scatter_is_known && last[0].of_seeds.count > 1;
+    coarser_difference = next.mean - last[0].of_seeds.mean;
+    const double noise = scatter_is_known ? interval_of_difference(fine, next) : 0.0;
+    if (std::abs(difference) > noise) order = order_of(last, coarser_difference / difference);
+    coarser_difference /= ratio_of_differences(last, order.value_or(kLeastOrder));
+  }
+  const double refinement =
+      static_cast<double>(meshes.back().elements_per_wall) / meshes[meshes.size() - 2].elements_per_wall;
+  const auto share_beyond = [refinement](double with_order) { return 1.0 / (std::pow(refinement, with_order) - 1.0); };
+  const double share = order ? share_beyond(*order) : 0.0;
+  const double of_least_order = share_beyond(kLeastOrder);
+  // With an order below the greatest, the two differences are equal.
+  const double greatest = std::max(std::abs(difference), std::abs(coarser_difference));
+  MeshLimit limit;
+  limit.order = order;
+  limit.value = fine.mean + share * difference;
+  limit.mesh_part = (order ? std::max(kSafetyOfObserved * share, of_least_order) : kSafety * of_least_order) * greatest;
+  if (scatter_is_known) limit.scatter_part = interval_of_extrapolated(next, fine, share);
+  return limit;
+}
+
 }  // namespace
 
 SeedStatistics statistics_of(std::span<const double> values) {
@@ -41,22 +110,19 @@ double interval_of_difference(const SeedStatistics& one, const SeedStatistics& o
          std::sqrt(one.variance_of_mean() + other.variance_of_mean());
 }
 
-std::vector<MeshEstimate> estimate_mesh_errors(std::vector<MeshResult> results) {
+std::optional<MeshConvergence> estimate_convergence(std::vector<MeshResult> results) {
   std::erase_if(results, [](const MeshResult& result) { return result.values.empty(); });
   std::ranges::sort(results, {}, &MeshResult::elements_per_wall);
-  std::vector<MeshEstimate> estimates;
-  if (results.size() < 2) return estimates;
+  if (results.size() < 2) return std::nullopt;
+  MeshConvergence out;
   for (const MeshResult& result : results) {
-    estimates.push_back({result.elements_per_wall, statistics_of(result.values)});
+    out.meshes.push_back({result.elements_per_wall, statistics_of(result.values)});
   }
-  const SeedStatistics finest = estimates.back().of_seeds;
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    const bool is_finest = i + 1 == estimates.size();
-    const SeedStatistics& compared = is_finest ? estimates[i - 1].of_seeds : estimates[i].of_seeds;
-    estimates[i].error = std::abs((compared.mean - finest.mean) / finest.mean);
-    estimates[i].uncertainty = interval_of_difference(compared, finest) / std::abs(finest.mean);
+  out.limit = extrapolate(out.meshes);
+  for (MeshMean& mesh : out.meshes) {
+    mesh.error = std::abs((mesh.of_seeds.mean - out.limit.value) / out.limit.value);
   }
-  return estimates;
+  return out;
 }
 
 }  // namespace cellcrush

@@ -154,8 +154,6 @@ std::string rigid_wall_text(const std::string& id, const LoadsSpec::RigidWall& w
   return texts.empty() ? id : fmt::format("{} ({})", id, fmt::join(texts, ", "));
 }
 
-bool has_plates(const v1::Loading& loading) { return loading.has_speed_m_per_s() || loading.quasi_static(); }
-
 void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   if (loading.gravity_x_m_per_s2() != 0.0 || loading.gravity_y_m_per_s2() != 0.0) {
     add_fact(
@@ -171,7 +169,7 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
     add_fact(words, "end time", fmt::format("{} s", loading.end_time_s()));
     text = fmt::format("loaded for {} s", loading.end_time_s());
   }
-  if (has_plates(loading)) {
+  if (words.plates()) {
     const std::string pace =
         loading.quasi_static() ? "quasi-statically" : fmt::format("at {} m/s", loading.speed_m_per_s());
     text += fmt::format("{}crushed along {} {}", text.empty() ? "" : ", ",
@@ -200,7 +198,7 @@ std::string material_text(const v1::Material& material) {
 
 v1::CaseWords describe_case(const v1::Case& scene) {
   v1::CaseWords words;
-  words.set_plates(has_plates(scene.loading()));
+  words.set_plates(has_plates(scene));
   if (scene.lattice().has_frame()) describe_frame(scene.lattice().frame(), words);
   if (scene.lattice().has_network()) describe_network(scene.lattice().network(), words);
   if (const auto regular = read_regular(scene.lattice())) describe_cells(*regular, words);
@@ -208,7 +206,7 @@ v1::CaseWords describe_case(const v1::Case& scene) {
   describe_loading(loading_of(scene), words);
   if (scene.has_depth_mm()) add_fact(words, "depth", fmt::format("{} mm", scene.depth_mm()));
   if (scene.has_material()) add_fact(words, "material", material_text(scene.material()));
-  if (scene.elements_per_wall() > 0) add_fact(words, "elements per wall", std::to_string(scene.elements_per_wall()));
+  if (scene.elements_per_wall() > 0) add_fact(words, mesh_words(scene), std::to_string(scene.elements_per_wall()));
   const auto add_above_zero = [&](const char* heading, double value, const char* unit) {
     if (value > 0.0) add_fact(words, heading, fmt::format("{}{}", value, unit));
   };
@@ -251,6 +249,12 @@ std::string end_words_of(const v1::Summary& summary) {
 }
 
 }  // namespace
+
+bool has_plates(const v1::Case& scene) { return scene.loading().has_speed_m_per_s() || scene.loading().quasi_static(); }
+
+std::string mesh_words(const v1::Case& scene) {
+  return scene.lattice().has_frame() ? "elements per beam" : "elements per wall";
+}
 
 void add_words(v1::CheckCaseResponse& check) {
   if (check.has_completed_case()) *check.mutable_words() = describe_case(check.completed_case());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "cellcrush/v1/cases_service.pb.h"
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/jobs_service.pb.h"
@@ -22,5 +24,11 @@ void add_words(v1::WatchSweepResponse& message);
 /// Other answers have no words.
 template <class Message>
 void add_words(Message&) {}
+
+/// Whether two plates crush the walls.
+bool has_plates(const v1::Case& scene);
+
+/// What elements_per_wall of a case counts: "elements per wall", of a frame "elements per beam".
+std::string mesh_words(const v1::Case& scene);
 
 }  // namespace cellcrush::translate

@@ -12,6 +12,7 @@
 #include "translate/case_to_spec.h"
 #include "translate/loads_places.h"
 #include "translate/results.h"
+#include "translate/small_specimen.h"
 #include "translate/spec_to_case.h"
 #include "translate/worker_memory.h"
 
@@ -148,6 +149,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   for (const auto& note : find_costly_walls(spec, *scene)) {
     *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
   }
+  out.response.set_small_specimen(describe_small_specimen(spec));
   out.meshes->know(spec, *scene);
   const auto facts = facts_of(*scene);
   describe(facts, out.response);

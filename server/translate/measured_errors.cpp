@@ -293,6 +293,18 @@ std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int element
   return errors;
 }
 
+const Preset* largest_measured(const std::string& kind) {
+  const auto cells_of = [](const Preset& preset) { return std::get<RegularLattice>(preset.spec.lattice); };
+  const auto count_of = [&](const Preset& preset) { return *cells_of(preset).columns * *cells_of(preset).rows; };
+  const Preset* largest = nullptr;
+  for (const Specimen& specimen : measured_specimens()) {
+    const Preset* preset = find_preset(specimen.preset);
+    if (cells_of(*preset).kind != kind) continue;
+    if (largest == nullptr || count_of(*preset) > count_of(*largest)) largest = preset;
+  }
+  return largest;
+}
+
 void add_fidelities(const v1::Case& submitted, double step_cost, CaseCheck& check) {
   v1::CheckCaseResponse& response = check.response;
   const auto asked = submitted.numerics().fidelity();

@@ -5,15 +5,16 @@
 
 #include "cellcrush/scene_spec.h"
 #include "translate/check_case.h"
+#include "translate/presets.h"
 
 namespace cellcrush::translate {
 
-/// Error that the mesh leaves in one quantity, measured over seeds of a small imperfection. Relative to the mean of the
-/// finest mesh that was measured.
+/// Error that the mesh leaves in one quantity, measured over seeds of a small imperfection. Relative to the limit of
+/// the measured meshes (estimate_convergence).
 struct MeasuredError {
   std::string measure;       ///< the quantity, the preset and the speeds, in words
-  double error = 0.0;        ///< of the mean; of the finest mesh itself: its difference from the next coarser one
-  double uncertainty = 0.0;  ///< half-width of its 95 % confidence interval; a smaller error is not significant
+  double error = 0.0;        ///< of the mean
+  double uncertainty = 0.0;  ///< half-width of the limit's interval; a smaller error is not significant
   double scatter = 0.0;      ///< standard deviation of one crush, relative to its mean
 };
 
@@ -25,6 +26,9 @@ std::vector<std::string> fields_beside_measured(const SceneSpec& spec);
 
 /// Errors of a spec that differs in no such field, with a mesh. Between two measured speeds the larger error counts.
 std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int elements_per_wall);
+
+/// The preset of a kind of lattice with the most cells of those whose errors were measured; null if there is none.
+const Preset* largest_measured(const std::string& kind);
 
 /// Adds what a sound case would take and be worth at each fidelity to the answer of its check. `step_cost`: seconds of
 /// one core for a step of an element. A case that asks for a fidelity is predicted by it. Meshes that the check knows

@@ -10,6 +10,7 @@ namespace cellcrush::translate {
 // What the build embeds of server/presets.
 const char* presets_text();          ///< presets.txtpb
 const char* measured_errors_text();  ///< measured_errors.csv
+const char* small_specimens_text();  ///< small_specimens.csv
 
 /// A preset with its complete case, and what the case means.
 struct Preset {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench/precision.h"
+#include "bench/study.h"
 #include "cellcrush/convergence.h"
 #include "cellcrush/fidelity.h"
 #include "scenes/lattices.h"
@@ -24,71 +25,24 @@
 namespace cellcrush::bench {
 namespace {
 
-const std::string kFolder = CELLCRUSH_BENCH_FOLDER;
-const std::string kExample2 = kFolder + "/../validation/example_2";
-constexpr std::size_t kLeastSeeds = 3;
 constexpr auto kAlongY = LoadingSpec::Direction::y;
-
-/// The scenes of a list with the rows of its table.
-struct Study {
-  std::vector<VariedScene> scenes;
-  std::vector<CsvRow> rows;
-};
-
-Study read_study(const std::string& name) {
-  return {read_variants(kFolder + "/" + name + ".txt"), read_csv(kFolder + "/results/" + name + ".csv")};
-}
-
-/// Example 2: hexagons with 2 elements per wall, squares and triangles with 8 and with 16.
-Study read_example_2() { return {read_variants(kExample2 + ".txt"), read_csv(kExample2 + ".csv")}; }
-
-std::vector<double> values_of(const Study& study, const VariedScene& scene, const Variant& variant,
-                              const std::string& column) {
-  std::vector<double> values;
-  for (const CsvRow& row : study.rows) {
-    if (!is_of(row, scene, variant)) continue;
-    EXPECT_EQ(row.at("status"), "finished") << scene.name << " " << variant.name;
-    values.push_back(number_in(row, column));
-  }
-  return values;
-}
-
-/// Whether a variant is the default element, whatever the mesh.
-bool is_of_default_elements(const VariedScene& scene, const Variant& variant) {
-  const SceneSpec spec = validation::read_options(words_of(scene, variant, 1)).spec;
-  SectionSpec section;
-  NumericsSpec numerics = spec.numerics;
-  numerics.mass_scaling = numerics.rotary_scaling = 1.0;
-  numerics.fibre_precision = NumericsSpec().fibre_precision;
-  return spec.section == section && spec.numerics == numerics && spec.numerics.time_step_s == 0.0 &&
-         spec.contact == ContactSpec();
-}
 
 /// The rows of a quantity in one scene: its meshes of the default element, at least kLeastSeeds seeds each.
 void add_rows(const Study& study, const VariedScene& scene, std::string_view quantity, const std::string& column,
               std::vector<std::string>& rows) {
-  std::map<int, MeshResult> results;
-  for (const Variant& variant : scene.variants) {
-    if (!is_of_default_elements(scene, variant)) continue;
-    const SceneSpec spec = fill_in_fidelity(validation::read_options(words_of(scene, variant, 1)).spec);
-    const auto values = values_of(study, scene, variant, column);
-    if (values.size() >= kLeastSeeds && results[*spec.elements_per_wall].values.empty()) {
-      results[*spec.elements_per_wall] = {*spec.elements_per_wall, values};
-    }
-  }
-  std::vector<MeshResult> list;
-  for (auto& [elements, result] : results) list.push_back(std::move(result));
   const SceneSpec spec = validation::read_options(words_of(scene, scene.variants.front(), 1)).spec;
   const RegularLattice& lattice = scenes::cells_of(spec);
   const std::string& preset = scene.words.front();
   const bool is_smaller = lattice != scenes::cells_of(scenes::preset(preset));
-  for (const MeshEstimate& estimate : estimate_mesh_errors(std::move(list))) {
+  const auto found = estimate_convergence(results_of(study, scene, column));
+  if (!found) return;
+  for (const MeshMean& mesh : found->meshes) {
     const auto rounded = [](double share) { return std::round(1e4 * share) / 1e4; };
     std::ostringstream row;
-    row << preset << "," << quantity << "," << *spec.loading.speed_m_per_s << "," << estimate.elements_per_wall << ","
-        << rounded(estimate.error) << "," << rounded(estimate.uncertainty) << ","
-        << rounded(estimate.of_seeds.deviation / estimate.of_seeds.mean) << "," << (is_smaller ? *lattice.columns : 0)
-        << "," << (is_smaller ? *lattice.rows : 0) << "," << (spec.loading.direction == kAlongY ? "y" : "x");
+    row << preset << "," << quantity << "," << *spec.loading.speed_m_per_s << "," << mesh.elements_per_wall << ","
+        << rounded(mesh.error) << "," << rounded(found->uncertainty()) << ","
+        << rounded(mesh.of_seeds.deviation / mesh.of_seeds.mean) << "," << (is_smaller ? *lattice.columns : 0) << ","
+        << (is_smaller ? *lattice.rows : 0) << "," << (spec.loading.direction == kAlongY ? "y" : "x");
     rows.push_back(row.str());
   }
 }
@@ -107,27 +61,7 @@ std::vector<std::string> rows_of_tables() {
   return rows;
 }
 
-const std::string kMeasuredErrors = kFolder + "/../../server/presets/measured_errors.csv";
-
-/// The rows of server/presets/measured_errors.csv, without its line of names.
-std::vector<std::string> measured_rows() {
-  std::ifstream file(kMeasuredErrors);
-  std::vector<std::string> rows;
-  std::string line;
-  std::getline(file, line);
-  while (std::getline(file, line)) rows.push_back(line);
-  return rows;
-}
-
-void write_measured_rows(const std::vector<std::string>& rows) {
-  std::string names;
-  std::ifstream before(kMeasuredErrors);
-  std::getline(before, names);
-  before.close();
-  std::ofstream file(kMeasuredErrors);
-  file << names << "\n";
-  for (const std::string& row : rows) file << row << "\n";
-}
+constexpr const char* kMeasuredErrors = "measured_errors";
 
 double time_of_element_step(const VariedScene& scene, const Variant& variant, const std::vector<CsvRow>& rows) {
   double seconds = 0.0;
@@ -143,8 +77,8 @@ double time_of_element_step(const VariedScene& scene, const Variant& variant, co
 // CELLCRUSH_WRITE_PAGES=1 writes them.
 TEST(FidelityNumbers, AreThoseOfTheTables) {
   const std::vector<std::string> expected = rows_of_tables();
-  if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) write_measured_rows(expected);
-  EXPECT_EQ(measured_rows(), expected);
+  if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) write_preset_rows(kMeasuredErrors, expected);
+  EXPECT_EQ(preset_rows(kMeasuredErrors), expected);
 }
 
 const std::map<std::string, double> kBounds = {{"plateau_stress_impact", 0.04}, {"plateau_stress_support", 0.10}};
@@ -196,7 +130,7 @@ std::vector<std::string> beyond_bounds(const Study& study, std::string_view name
 // All meshes of a spec are then compared on the same one.
 TEST(FidelityNumbers, APresetHasOneSpecimenForEachDirection) {
   std::map<std::string, std::set<std::string>> specimens;
-  for (const std::string& row : measured_rows()) {
+  for (const std::string& row : preset_rows(kMeasuredErrors)) {
     const std::string cells = row.substr(row.rfind(',', row.rfind(',', row.rfind(',') - 1) - 1));
     specimens[row.substr(0, row.find(',')) + row.substr(row.rfind(','))].insert(cells);
   }

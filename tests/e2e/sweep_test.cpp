@@ -49,6 +49,43 @@ TEST_F(SecondDay, AVelocitySweepEndsInATableWithTheoryBesideIt) {
   EXPECT_TRUE(json::parse(cellcrush({"list", "--json"}).output)["jobs"].empty()) << "its jobs go with it";
 }
 
+TEST_F(SecondDay, ConvergeGivesTheLimitOfEachPlateauWithItsInterval) {
+  const Outcome converge = cellcrush(
+      {"converge", small(), "--set", "lattice.imperfection.amplitude_mm=0.01", "--meshes", "1,2,4", "--seeds", "2"},
+      kCrushLimit);
+  ASSERT_EQ(converge.exit_code, 0) << converge.all();
+  EXPECT_THAT(converge.output, ::testing::ContainsRegex("\n +elements per wall  runs +mean  scatter +error\n"));
+  EXPECT_THAT(converge.output, ::testing::ContainsRegex("plateau at the support plate, [kM]Pa\n[^l]*limit[^\n]* ± "));
+  const json found = json::parse(cellcrush({"converge", first_word(converge), "--json"}).output);
+  ASSERT_GE(found["quantities"].size(), 2U);
+  for (int i : {0, 1}) {
+    EXPECT_GT(found["quantities"][i]["interval"], 0.0);
+    EXPECT_GT(found["quantities"][i]["limit"], 0.0);
+  }
+}
+
+// A cantilever whose tip is pushed until it yields.
+TEST_F(SecondDay, ConvergeSpeaksOfAFrameAsOne) {
+  const std::string frame = write_file("frame.txtpb", R"(lattice { frame {
+    nodes { id: "root" x_mm: 0 y_mm: 0 } nodes { id: "tip" x_mm: 50 y_mm: 0 }
+    beams { start: "root" end: "tip" thickness_mm: 2 }
+    supports { node: "root" fix_x: true fix_y: true fix_rotation: true }
+    motions { node: "tip" component: COMPONENT_Y
+              displacement_mm_or_rad { points { time_s: 0 value: 0 } points { time_s: 2e-3 value: 5 } } }
+    end_time_s: 2e-3 } }
+    depth_mm: 1
+    material { youngs_modulus_mpa: 69000 yield_stress_mpa: 76 density_kg_per_m3: 2700 })");
+  const Outcome converge = cellcrush({"converge", frame}, kCrushLimit);
+  ASSERT_EQ(converge.exit_code, 0) << converge.all();
+  for (const char* words :
+       {"elements per beam", "work of the loads", "plastic work", "largest fibre strain", "limit"}) {
+    EXPECT_THAT(converge.output, HasSubstr(words));
+  }
+  for (const char* words : {"wall", "plateau", "seed"}) EXPECT_THAT(converge.output, ::testing::Not(HasSubstr(words)));
+  const json found = json::parse(cellcrush({"converge", first_word(converge), "--json"}).output);
+  EXPECT_EQ(found["mesh_words"], "elements per beam");
+}
+
 TEST_F(SecondDay, ANoteIsWrittenShownReplacedAndRemoved) {
   const Outcome submitted = cellcrush({"submit", small(), "--note", "as drawn"});
   const std::string job = first_word(submitted);

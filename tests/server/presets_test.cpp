@@ -8,15 +8,23 @@
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
 #include "translate/measured_errors.h"
+#include "translate/small_specimen.h"
 #include "translate/spec_to_case.h"
 
 namespace cellcrush {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
+using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
+using translate::describe_small_specimen;
 using translate::fields_beside_measured;
 using translate::measured_errors_of;
 using translate::MeasuredError;
@@ -28,7 +36,7 @@ TEST(Presets, AreThoseOfTheSolversTests) {
     const auto& [name, spec] = scenes::presets()[i];
     EXPECT_EQ(ours[i].message.name(), name);
     EXPECT_EQ(ours[i].spec, spec) << name;
-    EXPECT_THAT(ours[i].message.assumptions(), ::testing::Not(IsEmpty())) << name;
+    EXPECT_THAT(ours[i].message.assumptions(), Not(IsEmpty())) << name;
   }
 }
 
@@ -65,7 +73,7 @@ TEST(Fidelities, EachIsForecastForTheCaseAtHand) {
     const SceneFacts facts = facts_of(*scenes::build(spec));
     EXPECT_EQ(forecasts[i].element_count(), facts.element_count);
     EXPECT_EQ(forecasts[i].step_count(), facts.step_count);
-    EXPECT_THAT(forecasts[i].given_fields(), ::testing::Not(IsEmpty())) << "four cells are not what was measured";
+    EXPECT_THAT(forecasts[i].given_fields(), Not(IsEmpty())) << "four cells are not what was measured";
     EXPECT_THAT(forecasts[i].errors(), IsEmpty());
   }
   EXPECT_THAT(forecasts_of(scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2)), IsEmpty());
@@ -176,8 +184,33 @@ TEST(MeasuredErrors, HoldWhateverNamesDividesOrStoresACrush) {
 // A mesh that the case itself gives and that was measured has its error too; another has none.
 TEST(MeasuredErrors, AMeshThatIsGivenHasTheErrorOfThatMesh) {
   const SceneSpec spec = scenes::preset("type-i");
-  EXPECT_THAT(measured_errors_of(spec, 4), ::testing::Not(IsEmpty()));
+  EXPECT_THAT(measured_errors_of(spec, 4), Not(IsEmpty()));
   EXPECT_THAT(measured_errors_of(spec, 3), IsEmpty());
+}
+
+TEST(SmallSpecimens, AreToldWithTheirCellsAndWhatWasMeasured) {
+  SceneSpec spec = scenes::preset("type-ii-as-counted");
+  EXPECT_EQ(describe_small_specimen(spec), "");
+  scenes::cells_of(spec).columns = 100;
+  EXPECT_EQ(describe_small_specimen(spec), "");
+  scenes::cells_of(spec).rows = 17;
+  const std::string told = describe_small_specimen(spec);
+  EXPECT_THAT(told,
+              StartsWith("Small specimen: 100 x 17 cells; the preset type-ii-as-counted has 73 x 18 cells. 18 x 9 "
+                         "cells of the latter, crushed along X at 25 to 200 m/s, had mean plateaus"));
+  EXPECT_THAT(told,
+              ContainsRegex("impact plateau by up to [-+][0-9]+ ± [0-9]+ % \\([0-9]+ m/s\\), support plateau by"));
+  EXPECT_THAT(told, Not(HasSubstr("Fewer cells")));
+  scenes::cells_of(spec).columns = 12;
+  EXPECT_THAT(describe_small_specimen(spec), EndsWith("Fewer cells were not measured."));
+}
+
+TEST(SmallSpecimens, OfALatticeWithoutMeasuredDifferencesClaimNone) {
+  SceneSpec spec = scenes::preset("type-i");
+  EXPECT_EQ(describe_small_specimen(spec), "");
+  scenes::cells_of(spec).rows = 20;
+  EXPECT_THAT(describe_small_specimen(spec), AllOf(HasSubstr("74 x 20 cells"), EndsWith("was not measured.")));
+  EXPECT_EQ(describe_small_specimen(scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2)), "");
 }
 
 }  // namespace

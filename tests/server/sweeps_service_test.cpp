@@ -250,21 +250,88 @@ v1::SweepTable::Row row_of(int elements, int seed, v1::Job::State state, double 
 TEST(SweepConvergence, LeavesOutJobsThatHaveNotSucceededAndPicksTheCoarsestMesh) {
   const auto sweep = sweep_over_meshes({2.0, 4.0, 8.0}, 2).sweep();
   const std::vector<v1::SweepTable::Row> rows = {
-      row_of(2, 1, v1::Job::SUCCEEDED, 0.90), row_of(2, 2, v1::Job::SUCCEEDED, 0.9002),
-      row_of(4, 1, v1::Job::SUCCEEDED, 0.98), row_of(4, 2, v1::Job::SUCCEEDED, 0.9802),
-      row_of(8, 1, v1::Job::SUCCEEDED, 1.00), row_of(8, 2, v1::Job::SUCCEEDED, 1.0002),
-      row_of(8, 3, v1::Job::FAILED, 5.0),     row_of(8, 4, v1::Job::RUNNING, 5.0)};
+      row_of(2, 1, v1::Job::SUCCEEDED, 0.90),  row_of(2, 2, v1::Job::SUCCEEDED, 0.9002),
+      row_of(4, 1, v1::Job::SUCCEEDED, 0.98),  row_of(4, 2, v1::Job::SUCCEEDED, 0.9802),
+      row_of(8, 1, v1::Job::SUCCEEDED, 0.998), row_of(8, 2, v1::Job::SUCCEEDED, 0.9982),
+      row_of(8, 3, v1::Job::FAILED, 5.0),      row_of(8, 4, v1::Job::RUNNING, 5.0)};
   const auto found = jobs::convergence_of(sweep, rows, 0.05);
   EXPECT_EQ(found.elements_per_wall(), 4);
   EXPECT_EQ(found.job_count_left_out(), 2);
+  EXPECT_EQ(found.mesh_words(), "elements per wall");
   ASSERT_EQ(found.quantities_size(), 3) << "no run densified";
   const auto& support = found.quantities(1);
   EXPECT_EQ(support.field(), "plateau_stress_support_mpa");
+  EXPECT_TRUE(support.decides());
+  EXPECT_FALSE(found.quantities(2).decides());
+  // Differences of 0.16 and 0.036: the order counts as 2, and the limit lies 0.036 / 3 beyond the finest mesh.
+  EXPECT_EQ(support.order(), 2.0);
+  EXPECT_NEAR(support.limit(), 2.0 * 1.0041, 1e-9);
   ASSERT_EQ(support.meshes_size(), 3);
-  EXPECT_NEAR(support.meshes(0).error_relative(), 0.1, 1e-3);
+  EXPECT_NEAR(support.meshes(0).error_relative(), 1.0 - 0.9001 / 1.0041, 1e-9);
+  EXPECT_NEAR(support.meshes(0).uncertainty_relative() * support.limit(), support.interval(), 1e-12);
+  EXPECT_GT(support.interval(), 2.0 * 0.02);
   EXPECT_NEAR(support.meshes(1).mean(), 1.9602, 1e-9);
   EXPECT_EQ(support.meshes(2).job_count(), 2);
   EXPECT_FALSE(jobs::convergence_of(sweep, rows, 0.001).has_elements_per_wall());
+}
+
+TEST(SweepConvergence, OfSingleRunsOfALatticeHasNoInterval) {
+  const auto sweep = sweep_over_meshes({2.0, 4.0}, 1).sweep();
+  const auto found =
+      jobs::convergence_of(sweep, {row_of(2, 1, v1::Job::SUCCEEDED, 1.0), row_of(4, 1, v1::Job::SUCCEEDED, 1.0)}, 0.5);
+  EXPECT_FALSE(found.quantities(0).has_interval());
+  EXPECT_FALSE(found.quantities(0).meshes(0).has_uncertainty_relative());
+  EXPECT_FALSE(found.has_elements_per_wall());
+}
+
+TEST(SweepConvergence, HasEachKindOfWarningOnceWithItsRuns) {
+  const auto sweep = sweep_over_meshes({2.0, 4.0}, 2).sweep();
+  std::vector<v1::SweepTable::Row> rows = {row_of(2, 1, v1::Job::SUCCEEDED, 0.9), row_of(2, 2, v1::Job::SUCCEEDED, 0.9),
+                                           row_of(4, 1, v1::Job::SUCCEEDED, 0.9), row_of(4, 2, v1::Job::FAILED, 0.9)};
+  const auto warn = [&rows](std::size_t i, v1::Warning::Kind kind, const std::string& message) {
+    auto& warning = *rows[i].mutable_result()->mutable_summary()->add_warnings();
+    warning.set_kind(kind);
+    warning.set_message(message);
+  };
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    rows[i].set_job("jobs/" + std::to_string(i));
+    warn(i, v1::Warning::ENERGY_DRIFT, "drift of " + std::to_string(i));
+  }
+  warn(2, v1::Warning::WALLS_NECK, "necks");
+  const auto found = jobs::convergence_of(sweep, rows, 0.05);
+  ASSERT_EQ(found.warnings_size(), 2);
+  EXPECT_EQ(found.warnings(0).warning().message(), "drift of 1");
+  ASSERT_EQ(found.warnings(0).runs_size(), 2) << "the last has not succeeded";
+  EXPECT_EQ(found.warnings(0).runs(0).job(), "jobs/1");
+  EXPECT_EQ(found.warnings(0).runs(0).elements_per_wall(), 2);
+  EXPECT_EQ(found.warnings(0).runs(0).seed(), 2U);
+  EXPECT_EQ(found.warnings(1).runs(0).elements_per_wall(), 4);
+}
+
+TEST(SweepConvergence, OfAFrameHasItsOwnMeasuresAndAnIntervalOfSingleRuns) {
+  v1::Sweep sweep;
+  sweep.mutable_case_()->mutable_lattice()->mutable_frame();
+  auto& axis = *sweep.add_axes();
+  axis.set_field(kMesh);
+  std::vector<v1::SweepTable::Row> rows;
+  for (const int elements : {2, 4, 8}) {
+    axis.mutable_list()->add_values(elements);
+    auto& row = rows.emplace_back();
+    row.add_values(elements);
+    row.mutable_result()->set_state(v1::Job::SUCCEEDED);
+    auto& summary = *row.mutable_result()->mutable_summary();
+    summary.mutable_ledger()->set_work_external_mj(3.0 + 0.4 / elements);
+    summary.mutable_fibre_strain()->set_largest(0.02);
+  }
+  const auto found = jobs::convergence_of(sweep, rows, 0.05);
+  EXPECT_EQ(found.mesh_words(), "elements per beam");
+  ASSERT_EQ(found.quantities_size(), 2) << "no plateau, and no plastic work";
+  EXPECT_EQ(found.quantities(0).field(), "ledger.work_external_mj");
+  EXPECT_NEAR(found.quantities(0).limit(), 3.0, 1e-6);
+  EXPECT_NEAR(found.quantities(0).interval(), 1.25 * 0.05, 1e-6);
+  EXPECT_EQ(found.quantities(1).field(), "fibre_strain.largest");
+  EXPECT_EQ(found.elements_per_wall(), 8) << "0.05 / 3 and an interval of 0.0625 / 3";
+  EXPECT_FALSE(found.quantities(0).meshes(0).has_scatter_relative());
 }
 
 TEST(SweepConvergence, OfASweepOverAnythingElseIsRefused) {

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "cellcrush/convergence.h"
 #include "cellcrush/simulation.h"
 #include "measure/curve.h"
 #include "measure/lasting_rise.h"
@@ -166,66 +165,6 @@ TEST_F(SummaryTest, SolidFractionAtDensificationFollowsFromTheStrain) {
               scene_->solid_area / (scene_->length * scene_->width * (1.0 - *summary.densification_strain)), 1e-12);
 }
 
-TEST(Convergence, OfAFirstOrderMeshIsTheDifferenceFromTheFinest) {
-  // mean = 1 + 0.8 / elements, without scatter; the order of the input does not matter.
-  const auto mesh = [](int elements) {
-    const double value = 1.0 + 0.8 / elements;
-    return MeshResult{elements, {value, value, value}};
-  };
-  const auto estimates = estimate_mesh_errors({mesh(8), mesh(2), mesh(4)});
-  ASSERT_EQ(estimates.size(), 3u);
-  EXPECT_EQ(estimates[0].elements_per_wall, 2);
-  EXPECT_NEAR(estimates[0].error, 0.3 / 1.1, 1e-12);
-  EXPECT_NEAR(estimates[1].error, 0.1 / 1.1, 1e-12);
-  // The bound of the finest is its distance from the limit here, 0.1, as the order is one.
-  EXPECT_NEAR(estimates[2].error * 1.1, 0.1, 1e-12);
-  for (const MeshEstimate& estimate : estimates) EXPECT_NEAR(estimate.uncertainty, 0.0, 1e-12);
-}
-
-TEST(Convergence, StatisticsAreThoseOfAKnownSample) {
-  const std::vector<double> values = {2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0};
-  const SeedStatistics of = statistics_of(values);
-  EXPECT_EQ(of.count, 8);
-  EXPECT_DOUBLE_EQ(of.mean, 5.0);
-  EXPECT_NEAR(of.deviation, std::sqrt(32.0 / 7.0), 1e-12);
-  // Against an exact value: Student's factors of 7, 11, 19 and 99 degrees of freedom, from tables.
-  const auto interval = [](int count) { return interval_of_difference({count, 5.0, std::sqrt(count)}, {}); };
-  EXPECT_NEAR(interval_of_difference(of, {}), 2.36462 * std::sqrt(32.0 / 7.0 / 8.0), 1e-5);
-  EXPECT_NEAR(interval(12), 2.20099, 3e-4);
-  EXPECT_NEAR(interval(20), 2.09302, 1e-4);
-  EXPECT_NEAR(interval(100), 1.98422, 1e-4);
-}
-
-// Two meshes of the same mean: the interval holds the difference in 95 of 100 trials.
-TEST(Convergence, IntervalsHoldTheTrueDifferenceNineteenTimesInTwenty) {
-  std::mt19937 random(1);
-  std::normal_distribution<double> normal(10.0, 0.5);
-  int held = 0;
-  constexpr int kTrials = 4000;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    std::vector<MeshResult> results = {{2, {}}, {4, {}}};
-    for (MeshResult& result : results) {
-      for (int seed = 0; seed < 5; ++seed) result.values.push_back(normal(random));
-    }
-    const MeshEstimate coarse = estimate_mesh_errors(results).front();
-    held += coarse.error <= coarse.uncertainty ? 1 : 0;
-  }
-  EXPECT_NEAR(held / static_cast<double>(kTrials), 0.95, 0.015);
-}
-
-TEST(Convergence, ASingleRunHasNoInterval) {
-  const auto estimates = estimate_mesh_errors({{2, {1.0}}, {4, {1.1}}});
-  ASSERT_EQ(estimates.size(), 2u);
-  EXPECT_NEAR(estimates[0].error, 0.1 / 1.1, 1e-12);
-  EXPECT_TRUE(std::isinf(estimates[0].uncertainty));
-  EXPECT_TRUE(std::isinf(estimates[0].bound()));
-}
-
-TEST(Convergence, OneMeshTellsNothing) {
-  EXPECT_TRUE(estimate_mesh_errors({{2, {1.0, 1.1}}, {4, {}}}).empty());
-  EXPECT_TRUE(estimate_mesh_errors({}).empty());
-}
-
 using Stress = std::function<double(double strain)>;
 
 /// Samples of drawn curves of the two plates, each sample the mean over 20 points of its interval.
@@ -245,9 +184,7 @@ std::vector<Sample> drawn(const Stress& impact, const Stress& support, double en
   return samples;
 }
 
-std::optional<double> onset_of(std::span<const Sample> samples) {
-  return find_onset(curve_of_both_plates(samples));
-}
+std::optional<double> onset_of(std::span<const Sample> samples) { return find_onset(curve_of_both_plates(samples)); }
 
 std::optional<double> onset_of(const Stress& both, double end, int count = 800) {
   return onset_of(drawn(both, both, end, count));
@@ -379,18 +316,17 @@ TEST_P(LastingRiseOfACrush, IsDensificationOnlyIfItIsDense) {
   scenes::record_figure(of.name + std::string(": solid fraction at the rise"), at->solid_fraction, 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Of, LastingRiseOfACrush,
-    testing::Values(NamedRise{"thick hexagons", 20, 0.0866, 0.0, LoadingSpec::Direction::y, 10.0, 0.86,
-                              RiseKind::densification},
-                    NamedRise{"hardening hexagons", 12, 0.05, 6900.0, LoadingSpec::Direction::x, 20.0, 0.8,
-                              RiseKind::hardening},
-                    NamedRise{"thin hexagons", 12, 0.02, 0.0, LoadingSpec::Direction::y, 10.0, 0.8,
-                              RiseKind::second_collapse}),
-    [](const testing::TestParamInfo<NamedRise>& of) {
-      const std::string name = of.param.name;
-      return name.substr(0, name.find(' '));
-    });
+INSTANTIATE_TEST_SUITE_P(Of, LastingRiseOfACrush,
+                         testing::Values(NamedRise{"thick hexagons", 20, 0.0866, 0.0, LoadingSpec::Direction::y, 10.0,
+                                                   0.86, RiseKind::densification},
+                                         NamedRise{"hardening hexagons", 12, 0.05, 6900.0, LoadingSpec::Direction::x,
+                                                   20.0, 0.8, RiseKind::hardening},
+                                         NamedRise{"thin hexagons", 12, 0.02, 0.0, LoadingSpec::Direction::y, 10.0, 0.8,
+                                                   RiseKind::second_collapse}),
+                         [](const testing::TestParamInfo<NamedRise>& of) {
+                           const std::string name = of.param.name;
+                           return name.substr(0, name.find(' '));
+                         });
 
 TEST(LastingRise, WithoutHardeningAndCollapseIsStiffening) {
   SceneSpec spec = scenes::hexagon_specimen(12, 7);
