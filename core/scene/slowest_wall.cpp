@@ -25,6 +25,9 @@ std::string in_digits(double value, int digits) {
 
 /// What to do about a wall that costs many steps.
 std::string remedy_for(const SceneSpec& spec, const Scene& scene, const SlowestWall& slowest) {
+  if (std::holds_alternative<NetworkWalls>(spec.lattice)) {
+    return "Merge its joints, or list the walls as beams of lattice.frame, which are rigid links where they are short.";
+  }
   const double slenderness = slowest.length / scene.walls.thickness[slowest.wall];
   if (slenderness >= FieldChecker::greatest_of("numerics.rigid_link_slenderness")) {
     return "Give the beam fewer elements, or merge its nodes.";
@@ -36,6 +39,13 @@ std::string remedy_for(const SceneSpec& spec, const Scene& scene, const SlowestW
   return "Merge its nodes. It is no rigid link, because its nodes are held, moved or pinned, it carries a distributed "
          "load, short beams that are joined to it reach too far, or all of them have more than " +
          to_text(100.0 * kMostLinkMass) + " % of the mass.";
+}
+
+/// The middle of a wall.
+std::string place_of(const Scene& scene, const SlowestWall& slowest) {
+  const Walls& walls = scene.walls;
+  const Vector2 middle = 0.5 * (scene.position[walls.start[slowest.wall]] + scene.position[walls.end[slowest.wall]]);
+  return "(" + in_digits(middle.x(), 6) + ", " + in_digits(middle.y(), 6) + ") mm";
 }
 
 }  // namespace
@@ -60,25 +70,28 @@ SlowestWall slowest_wall_of(const Scene& scene) {
 
 std::string words_of(const Scene& scene, const SlowestWall& slowest) {
   const Walls& walls = scene.walls;
-  const Vector2 middle = 0.5 * (scene.position[walls.start[slowest.wall]] + scene.position[walls.end[slowest.wall]]);
   return in_digits(slowest.length, 3) + " mm long and " + in_digits(walls.thickness[slowest.wall], 3) +
          " mm thick, in " + std::to_string(slowest.elements) + (slowest.elements == 1 ? " element" : " elements") +
-         ", at (" + in_digits(middle.x(), 6) + ", " + in_digits(middle.y(), 6) + ") mm";
+         ", at " + place_of(scene, slowest);
 }
 
 std::string times_text(double times) { return in_digits(times, 2); }
 
 Problems find_costly_walls(const SceneSpec& spec, const Scene& scene) {
-  if (!std::holds_alternative<FrameWalls>(spec.lattice) || scene.schedule.bound != StepBound::elements) {
+  const bool is_network = std::holds_alternative<NetworkWalls>(spec.lattice);
+  if ((!is_network && !std::holds_alternative<FrameWalls>(spec.lattice)) ||
+      scene.schedule.bound != StepBound::elements) {
     return {};  // walls of regular lattices are nearly of one length
   }
   const SlowestWall slowest = slowest_wall_of(scene);
   if (slowest.cost <= kCostlyWall) {
     return {};
   }
-  return {{"lattice.frame.beams[" + std::to_string(scene.frame_order.beam_of(slowest.wall)) + "]",
+  return {{is_network ? "lattice.network.walls"
+                      : "lattice.frame.beams[" + std::to_string(scene.frame_order.beam_of(slowest.wall)) + "]",
            in_digits(slowest.length, 3) + " mm",
-           "is the length of a wall that sets the time step: half of the walls allow one " + times_text(slowest.cost) +
+           "is the length of a wall at " + place_of(scene, slowest) +
+               ", which sets the time step: half of the walls allow one " + times_text(slowest.cost) +
                " times as long, and the run would take as many times fewer steps.",
            remedy_for(spec, scene, slowest)}};
 }

@@ -54,8 +54,8 @@ class SpecChecker {
 /// has no problem.
 Problems find_implausible(const SceneSpec& spec);
 
-/// Reports the beam of a frame that sets the time step if it costs kCostlyWall times as many steps as the others need
-/// (scene/slowest_wall.h). Worded as above. REQUIRES: `scene` was built from `spec`.
+/// Reports the wall of a frame or network that sets the time step if it costs kCostlyWall times as many steps as the
+/// others need (scene/slowest_wall.h). Worded as above. REQUIRES: `scene` was built from `spec`.
 Problems find_costly_walls(const SceneSpec& spec, const Scene& scene);
 
 }  // namespace cellcrush

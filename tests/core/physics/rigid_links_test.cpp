@@ -129,6 +129,27 @@ TEST(RigidLinks, AreToldWithTheWallThatSetsTheStep) {
   EXPECT_THAT(facts_of(*scenes::build(listed_hexagons())).modelled, Not(Contains(HasSubstr("Rigid links"))));
 }
 
+TEST(RigidLinks, AreProposedForANetworkWithACostlyWall) {
+  SceneSpec spec = scenes::as_network(scenes::hexagon_specimen(8, 7));
+  spec.loading.speed_m_per_s = 100.0;
+  EXPECT_TRUE(find_costly_walls(spec, *scenes::build(spec)).empty());
+  auto& network = std::get<NetworkWalls>(spec.lattice);
+  const int start = network.walls[0];
+  const auto joint = static_cast<int>(network.joint_count());
+  const Vector2 place(network.joints_mm[2 * start], network.joints_mm[2 * start + 1]);
+  const Vector2 other(network.joints_mm[2 * network.walls[1]], network.joints_mm[2 * network.walls[1] + 1]);
+  const Vector2 split = place + kStub * (other - place).normalized();
+  network.joints_mm.insert(network.joints_mm.end(), {split.x(), split.y()});
+  network.walls[0] = joint;
+  network.walls.insert(network.walls.end(), {start, joint});
+  network.thicknesses_mm.push_back(network.thicknesses_mm.front());
+  const Problems notes = find_costly_walls(spec, *scenes::build(spec));
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].field, "lattice.network.walls");
+  EXPECT_EQ(notes[0].value, "0.02 mm");
+  EXPECT_THAT(notes[0].remedy, HasSubstr("lattice.frame"));
+}
+
 /// The work of the plate and the plateau stress up to a strain.
 struct Outcome {
   double work = 0.0;
