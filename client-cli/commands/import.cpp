@@ -120,10 +120,11 @@ void add_import_command(CLI::App& app, Session& session) {
   command->add_option("FILE", options->files, "The drawing; of CSV also two files, nodes and edges")->required();
   add_option(*command, kOutputOptions, "-o,--output", options->output, "File of the case")->required();
   add_option(*command, kCaseOptions, "--case", options->base,
-             "Case from which all but the walls is taken: a file or preset:NAME");
-  add_option(*command, kCaseOptions, "--unit", options->unit, "Unit of the file: mm, cm, m, um, in, ft, pt or px");
+             "Case from which all but the walls is taken: a file or preset:NAME (default: none)");
+  add_option(*command, kCaseOptions, "--unit", options->unit,
+             "Unit of the file: mm, cm, m, um, in, ft, pt or px (default: as the file tells)");
   add_option(*command, kCaseOptions, "--thickness", options->thickness,
-             "Thickness in mm of walls whose file does not tell it");
+             "Thickness in mm of walls whose file does not tell it (default: none)");
   add_option(*command, kCaseOptions, "--tolerance", options->tolerance,
              "Distance in mm within which ends are one joint (default: a thousandth of the shortest wall)");
   add_option(*command, kCaseOptions, "--keep-crossings", options->keeps_crossings,

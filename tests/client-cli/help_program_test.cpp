@@ -39,6 +39,7 @@ std::vector<std::string> examples_of(const std::string& command) {
 TEST(Examples, EachCommandHasOneToThreeWhichItUnderstands) {
   const FakeServer server({});
   std::ofstream(server.folder() / "my.txtpb") << "depth_mm: 4\n";
+  std::ofstream(server.folder() / "foam.csv") << "x1,y1,x2,y2\n0,0,5,5\n5,5,0,9\n";
   const std::string begin = "cd '" + server.folder().string() + "' && PATH='" +
                             std::filesystem::path(CELLCRUSH_PROGRAM).parent_path().string() + "':$PATH && ";
   const std::vector<std::string> commands = commands_in_help();

@@ -22,7 +22,7 @@ const std::vector<std::regex>& volatile_values() {
              R"((^| )[0-9]+(\.[0-9]+)? (ms|s|min|h)( [0-9]+ (s|min))?\b)",  // times
              R"(STARTS IN)",                                                // the title of a column of times
              R"(\b[0-9]+(\.[0-9]+)? (k|M|G)?(steps|particles)/s\b)",        // rates
-             R"(\b[0-9]+(\.[0-9]+)? (kB|MB|GB|KiB|MiB|GiB)\b)",             // memory and disk
+             R"(\b[0-9]+(\.[0-9]+)? (B|kB|MB|GB|KiB|MiB|GiB)\b)",           // memory and disk
              R"(\b(127\.0\.0\.1|localhost):[0-9]+)",                        // ports
              R"(\+([0-9a-f]{12}|unknown)(-dirty)?\b)",                      // revisions
          })
