@@ -31,7 +31,7 @@ double interval_of_extrapolated(const SeedStatistics& coarse, const SeedStatisti
       of_fine * of_fine / (fine.count - 1) + (share > 0.0 ? of_coarse * of_coarse / (coarse.count - 1) : 0.0);
   if (squares == 0.0) return 0.0;
   const double sum = of_fine + of_coarse;
-  return student_factor(static_cast<int>(sum * sum / squares)) * std::sqrt(sum);
+  return student_factor(static_cast<int>(std::max(1.0, sum * sum / squares))) * std::sqrt(sum);
 }
 
 /// Three meshes that an error C / elements^order leaves: the difference of the coarser two means over that of the finer
