@@ -50,7 +50,7 @@ bool allows_single_fibres(const Scene& scene) {
          (!scene.section.force_based || Laws::kFacts[scene.law].may_be_single_in_force_based);
 }
 
-/// Lays out the lattice, and computes the measures that a frame has not. The last beams of a frame are rigid links.
+/// Lays out the lattice, and computes the measures that a frame has not. The last walls of a list may be rigid links.
 Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
     return lay_out_frame(*frame, *spec.elements_per_wall, links);
@@ -62,7 +62,7 @@ Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   scene.length = envelope[axis];
   scene.width = envelope[1 - axis];
   if (kind != nullptr) scene.collapse_stress = kind->collapse_stress(spec);
-  Layout layout = network != nullptr ? lay_out_network(*network, *spec.elements_per_wall) : kind->lay_out(spec);
+  Layout layout = network != nullptr ? lay_out_network(*network, *spec.elements_per_wall, links) : kind->lay_out(spec);
   const std::vector<Vector2> places = layout.joints;
   perturb(spec.imperfection, layout.joints);
   bow(spec.imperfection, layout.walls);

@@ -1,21 +1,33 @@
 #include "scene/rigid_links.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "geometry/find_parts.h"
+#include "lattice/network.h"
 
 namespace cellcrush {
 namespace {
 
-double listed_length(const FrameWalls& frame, const FrameWalls::Beam& beam) {
-  const FrameWalls::Node& start = frame.nodes[beam.start];
-  const FrameWalls::Node& end = frame.nodes[beam.end];
-  return std::hypot(end.x_mm - start.x_mm, end.y_mm - start.y_mm);
-}
+/// A wall that may be a link, between nodes of a list.
+struct Candidate {
+  int start = 0;
+  int end = 0;
+  double thickness = 0.0;
+  double mass = 0.0;    ///< in any unit, times any depth
+  bool is_free = true;  ///< straight, with nothing on it and nothing that holds, moves or pins its ends
+};
+
+/// What links are looked for in. Lengths in mm.
+struct Candidates {
+  std::vector<Vector2> nodes;
+  std::vector<Candidate> walls;
+
+  [[nodiscard]] double length(const Candidate& wall) const { return (nodes[wall.end] - nodes[wall.start]).norm(); }
+};
 
 /// 1 for each node that is held, moved or pinned.
 std::vector<char> constrained_nodes(const FrameWalls& frame, const LoadsSpec& loads) {
@@ -29,104 +41,128 @@ std::vector<char> constrained_nodes(const FrameWalls& frame, const LoadsSpec& lo
   return constrained;
 }
 
-/// 1 for each beam that is short and free.
-std::vector<char> short_beams(const FrameWalls& frame, const LoadsSpec& loads, double slenderness) {
-  const std::vector<char> constrained = constrained_nodes(frame, loads);
-  std::vector<char> is_short(frame.beams.size(), 0);
-  for (std::size_t b = 0; b < frame.beams.size(); ++b) {
-    const FrameWalls::Beam& beam = frame.beams[b];
-    is_short[b] = listed_length(frame, beam) < slenderness * beam.thickness_mm && constrained[beam.start] == 0 &&
-                  constrained[beam.end] == 0;
+Candidates candidates_of(const SceneSpec& spec, const FrameWalls& frame) {
+  Candidates all;
+  for (const FrameWalls::Node& node : frame.nodes) all.nodes.emplace_back(node.x_mm, node.y_mm);
+  const std::vector<char> constrained = constrained_nodes(frame, spec.loads);
+  for (const FrameWalls::Beam& beam : frame.beams) {
+    const MaterialSpec& material = beam.material ? *beam.material : spec.material;
+    Candidate& wall = all.walls.emplace_back(Candidate{beam.start, beam.end, beam.thickness_mm, 0.0, true});
+    wall.mass = *material.density_kg_per_m3 * beam.thickness_mm * all.length(wall);
+    wall.is_free = constrained[beam.start] == 0 && constrained[beam.end] == 0;
   }
-  for (const LoadsSpec::DistributedLoad& load : loads.distributed_loads) is_short[load.beam] = 0;
+  for (const LoadsSpec::DistributedLoad& load : spec.loads.distributed_loads) all.walls[load.beam].is_free = false;
+  return all;
+}
+
+Candidates candidates_of(const SceneSpec& spec, const NetworkWalls& network) {
+  const Layout layout = lay_out_network(network, 1);
+  Candidates all;
+  all.nodes.assign(layout.joints.begin(), layout.joints.end());
+  for (const LayoutWall& listed : layout.walls) {
+    const MaterialSpec& material = listed.material == 0 ? spec.material : network.materials[listed.material - 1];
+    Candidate& wall =
+        all.walls.emplace_back(Candidate{listed.start, listed.end, listed.thickness, 0.0, listed.rise == 0.0});
+    wall.mass = *material.density_kg_per_m3 * listed.thickness * all.length(wall);
+  }
+  return all;
+}
+
+/// 1 for each wall that is short and free.
+std::vector<char> short_walls(const Candidates& all, double slenderness) {
+  std::vector<char> is_short;
+  is_short.reserve(all.walls.size());
+  for (const Candidate& wall : all.walls) {
+    is_short.push_back(wall.is_free && all.length(wall) < slenderness * wall.thickness ? 1 : 0);
+  }
   return is_short;
 }
 
 /// The part that the links connect each node to, as find_parts gives it.
-std::vector<int> parts_of(const FrameWalls& frame, const std::vector<char>& is_link) {
-  std::vector<FrameWalls::Beam> links;
-  for (std::size_t b = 0; b < frame.beams.size(); ++b) {
-    if (is_link[b] != 0) links.push_back(frame.beams[b]);
+std::vector<int> parts_of(const Candidates& all, const std::vector<char>& is_link) {
+  std::vector<Candidate> links;
+  for (std::size_t w = 0; w < all.walls.size(); ++w) {
+    if (is_link[w] != 0) links.push_back(all.walls[w]);
   }
-  return find_parts(frame.nodes.size(), links);
+  return find_parts(all.nodes.size(), links);
 }
 
 /// 1 for each link of a part that reaches as far as a link must not be long. `reach` is that length over the thickness.
-std::vector<char> links_of_long_parts(const FrameWalls& frame, const std::vector<char>& is_link,
+std::vector<char> links_of_long_parts(const Candidates& all, const std::vector<char>& is_link,
                                       const std::vector<double>& reach) {
-  const std::vector<int> part = parts_of(frame, is_link);
+  const std::vector<int> part = parts_of(all, is_link);
   struct Box {
     Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity());
     Vector2 high = Vector2::Constant(-std::numeric_limits<double>::infinity());
     double thickness = 0.0;
   };
-  std::vector<Box> boxes(frame.nodes.size());
-  for (std::size_t b = 0; b < frame.beams.size(); ++b) {
-    if (is_link[b] == 0) continue;
-    Box& box = boxes[part[frame.beams[b].start]];
-    for (const int node : {frame.beams[b].start, frame.beams[b].end}) {
-      const Vector2 place(frame.nodes[node].x_mm, frame.nodes[node].y_mm);
-      box.low = box.low.cwiseMin(place);
-      box.high = box.high.cwiseMax(place);
+  std::vector<Box> boxes(all.nodes.size());
+  for (std::size_t w = 0; w < all.walls.size(); ++w) {
+    if (is_link[w] == 0) continue;
+    Box& box = boxes[part[all.walls[w].start]];
+    for (const int node : {all.walls[w].start, all.walls[w].end}) {
+      box.low = box.low.cwiseMin(all.nodes[node]);
+      box.high = box.high.cwiseMax(all.nodes[node]);
     }
-    box.thickness = std::max(box.thickness, frame.beams[b].thickness_mm);
+    box.thickness = std::max(box.thickness, all.walls[w].thickness);
   }
-  std::vector<char> is_long(frame.beams.size(), 0);
-  for (std::size_t b = 0; b < frame.beams.size(); ++b) {
-    const Box& box = boxes[part[frame.beams[b].start]];
-    is_long[b] = is_link[b] != 0 && (box.high - box.low).norm() >= reach[b] * box.thickness;
+  std::vector<char> is_long(all.walls.size(), 0);
+  for (std::size_t w = 0; w < all.walls.size(); ++w) {
+    const Box& box = boxes[part[all.walls[w].start]];
+    is_long[w] = is_link[w] != 0 && (box.high - box.low).norm() >= reach[w] * box.thickness;
   }
   return is_long;
 }
 
 /// Splits parts that reach too far: of their links, those remain that are shorter than half of the limit, which is
 /// their limit then. A wall that is listed in pieces of one length keeps none.
-void split_long_parts(const FrameWalls& frame, double slenderness, std::vector<char>& is_link) {
-  std::vector<double> reach(frame.beams.size(), slenderness);
+void split_long_parts(const Candidates& all, double slenderness, std::vector<char>& is_link) {
+  std::vector<double> reach(all.walls.size(), slenderness);
   while (true) {
-    const std::vector<char> is_long = links_of_long_parts(frame, is_link, reach);
+    const std::vector<char> is_long = links_of_long_parts(all, is_link, reach);
     if (std::ranges::count(is_long, 1) == 0) return;
-    for (std::size_t b = 0; b < frame.beams.size(); ++b) {
-      if (is_long[b] == 0) continue;
-      reach[b] *= 0.5;
-      is_link[b] = listed_length(frame, frame.beams[b]) < reach[b] * frame.beams[b].thickness_mm;
+    for (std::size_t w = 0; w < all.walls.size(); ++w) {
+      if (is_long[w] == 0) continue;
+      reach[w] *= 0.5;
+      is_link[w] = all.length(all.walls[w]) < reach[w] * all.walls[w].thickness;
     }
   }
 }
 
-/// Mass of the links over that of all beams.
-double share_of_links(const SceneSpec& spec, const FrameWalls& frame, const std::vector<char>& is_link) {
-  double all = 0.0;
+/// Mass of the links over that of all walls.
+double share_of_links(const Candidates& all, const std::vector<char>& is_link) {
+  double mass = 0.0;
   double of_links = 0.0;
-  for (std::size_t b = 0; b < frame.beams.size(); ++b) {
-    const FrameWalls::Beam& beam = frame.beams[b];
-    const MaterialSpec& material = beam.material ? *beam.material : spec.material;
-    const double mass = *material.density_kg_per_m3 * beam.thickness_mm * listed_length(frame, beam);
-    all += mass;
-    if (is_link[b] != 0) of_links += mass;
+  for (std::size_t w = 0; w < all.walls.size(); ++w) {
+    mass += all.walls[w].mass;
+    if (is_link[w] != 0) of_links += all.walls[w].mass;
   }
-  return of_links / all;
+  return of_links / mass;
 }
 
-std::vector<char> find_links(const SceneSpec& spec, const FrameWalls& frame) {
-  for (double slenderness = spec.numerics.rigid_link_slenderness;; slenderness *= 0.5) {
-    std::vector<char> is_link = short_beams(frame, spec.loads, slenderness);
-    split_long_parts(frame, slenderness, is_link);
-    if (share_of_links(spec, frame, is_link) <= kMostLinkMass) return is_link;
+std::vector<char> find_links(const Candidates& all, double given_slenderness) {
+  for (double slenderness = given_slenderness;; slenderness *= 0.5) {
+    std::vector<char> is_link = short_walls(all, slenderness);
+    split_long_parts(all, slenderness, is_link);
+    if (share_of_links(all, is_link) <= kMostLinkMass) return is_link;
   }
 }
 
-/// Numbers the nodes of links first, body by body.
-std::vector<int> order_of_nodes(const FrameWalls& frame, const std::vector<char>& is_link) {
-  const std::vector<int> part = parts_of(frame, is_link);
-  std::vector<int> body(frame.nodes.size(), static_cast<int>(frame.nodes.size()));
-  for (std::size_t b = 0; b < frame.beams.size(); ++b) {
-    if (is_link[b] == 0) continue;
-    for (const int node : {frame.beams[b].start, frame.beams[b].end}) body[node] = part[node];
+/// Numbers the nodes of links first, body by body, and their walls last.
+FrameOrder order_of(const Candidates& all, const std::vector<char>& is_link) {
+  const std::vector<int> part = parts_of(all, is_link);
+  std::vector<int> body(all.nodes.size(), static_cast<int>(all.nodes.size()));
+  for (std::size_t w = 0; w < all.walls.size(); ++w) {
+    if (is_link[w] == 0) continue;
+    for (const int node : {all.walls[w].start, all.walls[w].end}) body[node] = part[node];
   }
-  std::vector<int> order(frame.nodes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](int node) { return body[node]; });
+  FrameOrder order;
+  order.node.resize(all.nodes.size());
+  std::iota(order.node.begin(), order.node.end(), 0);
+  std::ranges::stable_sort(order.node, {}, [&](int node) { return body[node]; });
+  order.beam.resize(all.walls.size());
+  std::iota(order.beam.begin(), order.beam.end(), 0);
+  std::ranges::stable_partition(order.beam, [&](int wall) { return is_link[wall] == 0; });
   return order;
 }
 
@@ -166,20 +202,40 @@ void reorder(const FrameOrder& order, FrameWalls& frame, LoadsSpec& loads) {
   for (LoadsSpec::DistributedLoad& load : loads.distributed_loads) load.beam = beam[load.beam];
 }
 
+/// The same of a network. No list of it has only some of the walls.
+void reorder(const FrameOrder& order, NetworkWalls& network, LoadsSpec& /*loads*/) {
+  const std::vector<int> node = places_of(order.node);
+  NetworkWalls given = std::move(network);
+  network = {};
+  network.wall_thickness_mm = given.wall_thickness_mm;
+  network.materials = std::move(given.materials);
+  for (const int from : order.node) {
+    network.joints_mm.insert(network.joints_mm.end(), {given.joints_mm[2 * from], given.joints_mm[2 * from + 1]});
+  }
+  for (const int from : order.beam) {
+    network.walls.insert(network.walls.end(), {node[given.walls[2 * from]], node[given.walls[2 * from + 1]]});
+  }
+  if (!given.thicknesses_mm.empty()) network.thicknesses_mm = reordered(given.thicknesses_mm, order.beam);
+  if (!given.rises_mm.empty()) network.rises_mm = reordered(given.rises_mm, order.beam);
+  if (!given.wall_materials.empty()) network.wall_materials = reordered(given.wall_materials, order.beam);
+}
+
+template <class Listed>
+void put_links_first(Listed& listed, LinkedFrame& linked) {
+  const Candidates all = candidates_of(linked.spec, listed);
+  const std::vector<char> is_link = find_links(all, linked.spec.numerics.rigid_link_slenderness);
+  linked.links = static_cast<int>(std::ranges::count(is_link, 1));
+  if (linked.links == 0) return;
+  linked.order = order_of(all, is_link);
+  reorder(linked.order, listed, linked.spec.loads);
+}
+
 }  // namespace
 
 LinkedFrame put_rigid_links_first(const SceneSpec& spec) {
   LinkedFrame linked = {spec, {}, 0};
-  auto* frame = std::get_if<FrameWalls>(&linked.spec.lattice);
-  if (frame == nullptr) return linked;
-  const std::vector<char> is_link = find_links(spec, *frame);
-  linked.links = static_cast<int>(std::ranges::count(is_link, 1));
-  if (linked.links == 0) return linked;
-  linked.order.node = order_of_nodes(*frame, is_link);
-  linked.order.beam.resize(frame->beams.size());
-  std::iota(linked.order.beam.begin(), linked.order.beam.end(), 0);
-  std::ranges::stable_partition(linked.order.beam, [&](int beam) { return is_link[beam] == 0; });
-  reorder(linked.order, *frame, linked.spec.loads);
+  if (auto* frame = std::get_if<FrameWalls>(&linked.spec.lattice)) put_links_first(*frame, linked);
+  if (auto* network = std::get_if<NetworkWalls>(&linked.spec.lattice)) put_links_first(*network, linked);
   return linked;
 }
 

@@ -15,17 +15,17 @@ namespace cellcrush {
 // The alternative, mass added to short walls, was not kept. A wall needs n times the mass of a wall that is n times as
 // long to have its step: a stub of a hundredth of the length, the mass of a hundred walls.
 
-/// Greatest share of the mass of a frame that rigid links may have.
+/// Greatest share of the mass of all walls that rigid links may have.
 inline constexpr double kMostLinkMass = 0.01;
 
-/// A frame whose rigid links are its last beams. The nodes of the links come first, body by body.
+/// A frame or network whose rigid links are its last walls. The nodes of the links come first, body by body.
 struct LinkedFrame {
   SceneSpec spec;
   FrameOrder order;  ///< empty if there are no links
   int links = 0;
 };
 
-/// Finds the rigid links of a frame and puts them in order. A beam is a link if it is shorter than
+/// Finds the rigid links of a frame or network and puts them in order. A straight wall is a link if it is shorter than
 /// numerics.rigid_link_slenderness times its thickness; nothing holds, moves or pins its ends and no distributed load
 /// is on it; and all links that are joined to it lie within as short a distance. Where they do not, the limit is halved
 /// until they do, so that a wall which is listed in short pieces bends. The limit of all is halved until the links have
@@ -33,7 +33,7 @@ struct LinkedFrame {
 /// REQUIRES: a checked spec.
 LinkedFrame put_rigid_links_first(const SceneSpec& spec);
 
-/// Mass of the rigid links of a frame over that of all its walls; 0 for other lattices.
+/// Mass of the rigid links over that of all walls.
 double link_mass_share_of(const Scene& scene);
 
 /// The beam of a frame to which an element belongs, as an index into the given list.

@@ -25,19 +25,16 @@ std::string in_digits(double value, int digits) {
 
 /// What to do about a wall that costs many steps.
 std::string remedy_for(const SceneSpec& spec, const Scene& scene, const SlowestWall& slowest) {
-  if (std::holds_alternative<NetworkWalls>(spec.lattice)) {
-    return "Merge its joints, or list the walls as beams of lattice.frame, which are rigid links where they are short.";
-  }
   const double slenderness = slowest.length / scene.walls.thickness[slowest.wall];
   if (slenderness >= FieldChecker::greatest_of("numerics.rigid_link_slenderness")) {
-    return "Give the beam fewer elements, or merge its nodes.";
+    return "Give the wall fewer elements, or merge its ends.";
   }
   if (slenderness >= spec.numerics.rigid_link_slenderness) {
-    return "Make such beams rigid links by a numerics.rigid_link_slenderness above " + in_digits(slenderness, 3) +
-           ", give them fewer elements, or merge their nodes.";
+    return "Make such walls rigid links by a numerics.rigid_link_slenderness above " + in_digits(slenderness, 3) +
+           ", give them fewer elements, or merge their ends.";
   }
-  return "Merge its nodes. It is no rigid link, because its nodes are held, moved or pinned, it carries a distributed "
-         "load, short beams that are joined to it reach too far, or all of them have more than " +
+  return "Merge its ends. It is no rigid link, because it is an arc, its ends are held, moved or pinned, it carries a "
+         "distributed load, short walls that are joined to it reach too far, or all of them have more than " +
          to_text(100.0 * kMostLinkMass) + " % of the mass.";
 }
 

@@ -71,10 +71,10 @@ std::string slowest_text(const Scene& scene) {
              : wall + ". Half of the walls allow a step " + times_text(slowest.cost) + " times as long.";
 }
 
-/// Beams of a frame that are rigid because they are short.
+/// Walls that are rigid because they are short.
 std::string links_text(const Scene& scene) {
   const std::size_t count = scene.rigid_link_count();
-  return "Rigid links: " + std::to_string(count) + (count == 1 ? " beam" : " beams") + " in " +
+  return "Rigid links: " + std::to_string(count) + (count == 1 ? " wall" : " walls") + " in " +
          std::to_string(scene.rigid.count()) + (scene.rigid.count() == 1 ? " rigid body" : " rigid bodies") +
          ", short for the thickness (numerics.rigid_link_slenderness), with " +
          times_text(100.0 * link_mass_share_of(scene)) + " % of the mass; no mass is added.";

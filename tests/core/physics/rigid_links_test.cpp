@@ -125,14 +125,14 @@ TEST(RigidLinks, AreToldWithTheWallThatSetsTheStep) {
   const Stubbed as_link = hexagons_with_stub();
   const auto link_scene = scenes::build(as_link.spec);
   EXPECT_TRUE(find_costly_walls(as_link.spec, *link_scene).empty());
-  EXPECT_THAT(facts_of(*link_scene).modelled, Contains(HasSubstr("Rigid links: 1 beam")));
+  EXPECT_THAT(facts_of(*link_scene).modelled, Contains(HasSubstr("Rigid links: 1 wall")));
   EXPECT_THAT(facts_of(*scenes::build(listed_hexagons())).modelled, Not(Contains(HasSubstr("Rigid links"))));
 }
 
-TEST(RigidLinks, AreProposedForANetworkWithACostlyWall) {
+/// A network with a stub at the first joint.
+SceneSpec network_with_stub() {
   SceneSpec spec = scenes::as_network(scenes::hexagon_specimen(8, 7));
   spec.loading.speed_m_per_s = 100.0;
-  EXPECT_TRUE(find_costly_walls(spec, *scenes::build(spec)).empty());
   auto& network = std::get<NetworkWalls>(spec.lattice);
   const int start = network.walls[0];
   const auto joint = static_cast<int>(network.joint_count());
@@ -143,11 +143,42 @@ TEST(RigidLinks, AreProposedForANetworkWithACostlyWall) {
   network.walls[0] = joint;
   network.walls.insert(network.walls.end(), {start, joint});
   network.thicknesses_mm.push_back(network.thicknesses_mm.front());
-  const Problems notes = find_costly_walls(spec, *scenes::build(spec));
+  return spec;
+}
+
+TEST(RigidLinks, AreMadeOfANetworksShortWalls) {
+  SceneSpec spec = network_with_stub();
+  const auto as_link = scenes::build(spec);
+  EXPECT_EQ(as_link->rigid_link_count(), 1u);
+  EXPECT_TRUE(find_costly_walls(spec, *as_link).empty());
+  const double plain = scenes::build(scenes::as_network(scenes::hexagon_specimen(8, 7)))->stable_step;
+  EXPECT_NEAR(as_link->stable_step / plain, 1.0, 0.05);
+  // The last of the list is the last element.
+  const auto listed = static_cast<int>(std::get<NetworkWalls>(spec.lattice).wall_count());
+  EXPECT_EQ(beam_of_element(*as_link, static_cast<int>(as_link->element_count()) - 1), listed - 1);
+  spec.numerics.rigid_link_slenderness = 0.0;
+  const auto as_beam = scenes::build(spec);
+  EXPECT_LT(as_beam->stable_step, 1e-2 * as_link->stable_step);
+  const Problems notes = find_costly_walls(spec, *as_beam);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0].field, "lattice.network.walls");
   EXPECT_EQ(notes[0].value, "0.02 mm");
-  EXPECT_THAT(notes[0].remedy, HasSubstr("lattice.frame"));
+  EXPECT_THAT(notes[0].remedy, HasSubstr("numerics.rigid_link_slenderness"));
+}
+
+/// The walls of a frame, as a network.
+SceneSpec as_network(SceneSpec spec) {
+  const FrameWalls frame = std::get<FrameWalls>(spec.lattice);
+  NetworkWalls network;
+  for (const FrameWalls::Node& node : frame.nodes) {
+    network.joints_mm.insert(network.joints_mm.end(), {node.x_mm, node.y_mm});
+  }
+  for (const FrameWalls::Beam& beam : frame.beams) {
+    network.walls.insert(network.walls.end(), {beam.start, beam.end});
+    network.thicknesses_mm.push_back(beam.thickness_mm);
+  }
+  spec.lattice = network;
+  return spec;
 }
 
 /// The work of the plate and the plateau stress up to a strain.
@@ -226,6 +257,16 @@ TEST(RigidLinks, CrushAFoamAsItsBeams) {
   EXPECT_NEAR(as_links.support_impulse / as_beams.support_impulse, 1.0, 0.03);
   EXPECT_LT(as_links.ledger, 0.006);
   EXPECT_LT(as_links.momentum_error, 1e-9);
+}
+
+TEST(RigidLinks, OfAFoamAreThoseOfItsFrame) {
+  const SceneSpec frame = foam(1.0, 1);
+  const auto of_frame = scenes::build(frame);
+  const auto of_network = scenes::build(as_network(frame));
+  EXPECT_EQ(of_network->rigid_link_count(), of_frame->rigid_link_count());
+  EXPECT_EQ(of_network->rigid.offset, of_frame->rigid.offset);
+  EXPECT_EQ(of_network->frame_order.beam, of_frame->frame_order.beam);
+  EXPECT_EQ(of_network->stable_step, of_frame->stable_step);
 }
 
 TEST(RigidLinks, AreNotMadeOfBeamsThatAreHeldLoadedOrManyInARow) {
