@@ -5,7 +5,8 @@
 
 namespace cellcrush {
 
-/// Joints and walls of a network in the order of its lists. The last walls are rigid links. REQUIRES: a checked network.
+/// Joints and walls of a network in the order of its lists. The last walls are rigid links.
+/// REQUIRES: a checked network.
 Layout lay_out_network(const NetworkWalls& network, int elements_per_wall, int links = 0);
 
 /// Whether its joints have more than three walls in the mean, so that it bears by stretching its walls. These are then

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "fields/field_checker.h"
 #include "geometry/find_parts.h"
 #include "lattice/network.h"
 
@@ -144,7 +145,7 @@ std::vector<char> find_links(const Candidates& all, double given_slenderness) {
   for (double slenderness = given_slenderness;; slenderness *= 0.5) {
     std::vector<char> is_link = short_walls(all, slenderness);
     split_long_parts(all, slenderness, is_link);
-    if (share_of_links(all, is_link) <= kMostLinkMass) return is_link;
+    if (!(share_of_links(all, is_link) > kMostLinkMass)) return is_link;
   }
 }
 
@@ -234,6 +235,10 @@ void put_links_first(Listed& listed, LinkedFrame& linked) {
 
 LinkedFrame put_rigid_links_first(const SceneSpec& spec) {
   LinkedFrame linked = {spec, {}, 0};
+  // A mesh is built of a spec with problems in its numerics too.
+  const double slenderness = spec.numerics.rigid_link_slenderness;
+  if (!(slenderness > 0.0 && slenderness <= FieldChecker::greatest_of("numerics.rigid_link_slenderness")))
+    return linked;
   if (auto* frame = std::get_if<FrameWalls>(&linked.spec.lattice)) put_links_first(*frame, linked);
   if (auto* network = std::get_if<NetworkWalls>(&linked.spec.lattice)) put_links_first(*network, linked);
   return linked;
