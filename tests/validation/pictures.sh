@@ -1,8 +1,7 @@
 #!/bin/sh
 # Draws what slow_half.sh has left in FOLDER: strips like Figures 17, 19, 20 and 26 to 28 of the paper, charts like
-# Figures 18, 21, 24 and 25, and courses.csv with densification and salient peaks. Crushes that have not come to their
-# end are left out, and strips of those without frames. The charts of plateaus also have the crushes of example_2.csv
-# and records/slow_half_earlier.csv; those in FOLDER replace them.
+# Figures 18, 21, 24 and 25. Crushes that have not come to their end are left out, and strips of those without frames.
+# The charts of plateaus also have the crushes of example_2.csv.
 #   tests/validation/pictures.sh build/ci/bin/validation_report FOLDER [PICTURES]
 set -eu
 report=$1
@@ -37,9 +36,7 @@ curves() {
 strip type-i-2 0.05,0.1,0.2,0.27 "2 m/s"
 for speed in 10 50 100; do strip type-i-$speed 0.05,0.1,0.2,0.4 "$speed m/s"; done
 for speed in 2 10; do
-  for type in ii iii; do
-    for reading in as-counted as-stated; do strip type-$type-$reading-$speed 0.05,0.1,0.2,0.4 "$speed m/s"; done
-  done
+  for type in ii iii; do strip type-$type-as-counted-$speed 0.05,0.1,0.2,0.4 "$speed m/s"; done
 done
 strip type-i-2-plate-friction 0.05,0.1,0.2,0.4 "2 m/s"
 for name in inclusions-0 inclusions-2 inclusions-0-frictionless; do strip $name 0.13,0.25,0.4,0.55,0.7 ""; done
@@ -48,13 +45,9 @@ strip inclusions-6 0.13,0.25,0.4,0.55,0.65 ""
 curves type-i-slow.svg strain "type-i-2=2 m/s" \
   "type-i-2-plate-friction=2 m/s, friction 0.2 at the plates" "type-i-10=10 m/s"
 curves inclusions-0.svg travel "inclusions-0=no inclusions" \
-  "inclusions-0-seed-2=imperfections of 0.001 mm" \
   "inclusions-0-frictionless=no friction at the plates"
-curves inclusions-2.svg travel "inclusions-0=no inclusions" "inclusions-2=2 lines" \
-  "inclusions-2-seed-2=imperfections of 0.001 mm"
+curves inclusions-2.svg travel "inclusions-0=no inclusions" "inclusions-2=2 lines"
 curves inclusions-6.svg travel "inclusions-0=no inclusions" "inclusions-6=6 lines"
-curves inclusions-step.svg travel "inclusions-0=chosen step" \
-  "inclusions-0-papers-step=step of 2e-8 s"
 
 "$report" theory "$pictures/type-i-plateaus.svg" tables="$example_2,$folder/slow_half.csv" type-i/2
 "$report" fits "$pictures/plateaus-seeds.svg" tables="$example_2" type-i/2 type-ii-as-counted/8 \

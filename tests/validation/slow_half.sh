@@ -50,19 +50,15 @@ crush_inclusions() {
   run "$name" "inclusions-$lines" end_strain=$end_strain samples=2000 frame_count=40 "$@"
 }
 for lines in 0 2 6; do crush_inclusions inclusions-$lines $lines plate_friction=0.2; done
-for lines in 6 2 0; do
-  crush_inclusions inclusions-$lines-seed-2 $lines plate_friction=0.2 amplitude=0.001 seed=2
-done
 crush_inclusions inclusions-0-frictionless 0 plate_friction=0
 run type-i-2-plate-friction type-i speed=2 frame_count=40 plate_friction=0.2
-crush_inclusions inclusions-0-papers-step 0 plate_friction=0.2 time_step=2e-8
 # Elements per wall: as many as an hour or two allows.
 crush_types() {
-  reading=$1 speed=$2 elements=$3
+  speed=$1 elements=$2
   for type in ii iii; do
-    run type-$type-$reading-$speed type-$type-$reading speed=$speed elements=$elements end_strain=0.45 frame_count=40
+    run type-$type-as-counted-$speed type-$type-as-counted speed=$speed elements=$elements end_strain=0.45 \
+      frame_count=40
   done
 }
-crush_types as-counted 10 8
-crush_types as-counted 2 4
-crush_types as-stated 10 4
+crush_types 10 8
+crush_types 2 4
