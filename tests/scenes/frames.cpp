@@ -4,7 +4,9 @@
 #include <random>
 
 #include "cellcrush/fidelity.h"
+#include "cellcrush/simd.h"
 #include "lattice/lattice.h"
+#include "scene/frame.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
 #include "step/advance_step.h"
@@ -119,7 +121,10 @@ SceneSpec listed(SceneSpec spec) {
 }
 
 SceneSpec as_network(const SceneSpec& spec) {
-  const Layout layout = kind_of(spec)->lay_out(fill_in_fidelity(spec));
+  SceneSpec out = fill_in_fidelity(spec);
+  const auto* frame = std::get_if<FrameWalls>(&spec.lattice);
+  const Layout layout =
+      frame == nullptr ? kind_of(out)->lay_out(out) : lay_out_frame(*frame, *out.elements_per_wall, 0);
   NetworkWalls network;
   for (const Vector2& joint : layout.joints) {
     network.joints_mm.insert(network.joints_mm.end(), {joint.x(), joint.y()});
@@ -128,7 +133,6 @@ SceneSpec as_network(const SceneSpec& spec) {
     network.walls.insert(network.walls.end(), {wall.start, wall.end});
     network.thicknesses_mm.push_back(wall.thickness);
   }
-  SceneSpec out = fill_in_fidelity(spec);
   out.lattice = std::move(network);
   return out;
 }
@@ -208,6 +212,15 @@ std::string name_of(CrushMode mode) {
     case CrushMode::mixed: break;
   }
   return "mixed";
+}
+
+std::string bits_of_target(const std::string& target) { return target.starts_with("avx") ? "fused" : "separate"; }
+
+std::vector<std::string> distinct_targets() {
+  std::vector<std::string> targets = simd_targets();
+  const auto repeated = std::ranges::unique(targets, {}, bits_of_target);
+  targets.erase(repeated.begin(), repeated.end());
+  return targets;
 }
 
 }  // namespace cellcrush::scenes

@@ -89,8 +89,8 @@ std::shared_ptr<Scene> build(const SceneSpec& spec);
 /// them.
 SceneSpec listed(SceneSpec spec);
 
-/// The same lattice as a network, before any imperfection. REQUIRES: a checked spec of a regular lattice without
-/// inclusions.
+/// The same walls as a network, before any imperfection. REQUIRES: a checked spec of a regular lattice without
+/// inclusions, or of a frame of one material without pins.
 SceneSpec as_network(const SceneSpec& spec);
 
 /// Small velocities in all directions for every particle, the same ones each time: what no symmetry hides from.
@@ -136,6 +136,13 @@ double distance_between(const State& one, const State& other);
 /// As in tables and pages.
 std::string name_of(RunStatus::Kind kind);
 std::string name_of(CrushMode mode);
+
+/// Which bits a kernel gives: "fused" with fused multiply-add, else "separate". All kernels of either give the same
+/// (GoldenHash).
+std::string bits_of_target(const std::string& target);
+
+/// The best kernel of either bits; of a processor without fused multiply-add only one.
+std::vector<std::string> distinct_targets();
 
 /// Calls visit() with every kernel that the processor has, one after the other.
 template <class Visit>

@@ -270,7 +270,7 @@ class OracleOfElements : public testing::TestWithParam<Rule> {
         for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
           const std::shared_ptr<Scene> scene = scenes::build(spec_of(GetParam(), hardening, area, precision));
           impose_random_motions(*scene, kSteps);
-          for (const std::string& target : distinct_targets()) {
+          for (const std::string& target : scenes::distinct_targets()) {
             ASSERT_TRUE(use_simd_target(target));
             SCOPED_TRACE(std::string(hardening.name) + " hardening, constant " +
                          (area == AreaRule::constant_area ? "area, " : "volume, ") +

@@ -180,10 +180,4 @@ reference::Lattice lattice_of(const Scene& scene) {
   return lattice;
 }
 
-std::vector<std::string> distinct_targets() {
-  std::vector<std::string> targets = simd_targets();
-  if (targets.front() == "avx512") std::erase(targets, "avx2");
-  return targets;
-}
-
 }  // namespace cellcrush

@@ -29,7 +29,4 @@ reference::ElementHistory element_history_of(const Scene& scene, const State& st
 /// A state as the oracle has it.
 reference::Instant instant_of(const Scene& scene, const State& state);
 
-/// Kernels that may give different bits. Of those with fused multiply-add, which give the same (GoldenHash), the best.
-std::vector<std::string> distinct_targets();
-
 }  // namespace cellcrush
