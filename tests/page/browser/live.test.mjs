@@ -46,7 +46,10 @@ test('of a crush whose daemon is killed on the way, the page has the samples of 
 });
 
 test('ten tabs follow a crush to its end, and one of them can start another', async () => {
-  const job = await createJob('type-i', (each) => (each.loading.endStrain = 0.4));
+  const job = await createJob('type-i', (each) => {
+    each.lattice.hexagon.columns = 30;
+    each.loading.endStrain = 0.4;
+  });
   const context = await browser.newContext();
   const tabs = [];
   for (let i = 0; i < 10; ++i) {
