@@ -9,26 +9,16 @@
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
-#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
 
-/// Places the faces of the plates at the surfaces of the walls. The envelope of a frame is that of its joints.
-void put_plates(bool is_listed, Scene& scene) {
+/// Places the faces of the plates at the surfaces of the walls.
+void put_plates(const MeshMeasures& mesh, Scene& scene) {
+  scene.length = mesh.length;
+  scene.width = mesh.width;
+  scene.solid_area = mesh.solid_area;
   const int axis = scene.plates.axis;
-  if (scene.length == 0.0) {
-    Vector2 least = scene.position.front();
-    Vector2 most = least;
-    for (const Vector2& place : scene.position) {
-      least = least.cwiseMin(place);
-      most = most.cwiseMax(place);
-    }
-    scene.length = (most - least)[axis];
-    scene.width = (most - least)[1 - axis];
-  }
-  // A column, say: nothing in it can close.
-  if (is_listed && scene.solid_area >= kClosed * scene.length * scene.width) scene.solid_area = 0.0;
   double low = scene.position.front()[axis];
   double high = low;
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
@@ -79,7 +69,7 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
   scene->contact = plan.contact;
   scene->plates = plan.plates;
   if (scene->plates.present) {
-    put_plates(regular_lattice_of(spec) == nullptr, *scene);
+    put_plates(measures, *scene);
   }
   scene->schedule = plan.schedule;
   prepare_search(spec, between_stages, *scene);

@@ -174,7 +174,7 @@ Problems name_beams(const Scene& scene, const std::vector<InitialOverlap>& overl
   Problems problems;
   for (const InitialOverlap& overlap : overlaps) {
     const auto [one, other] =
-        std::minmax({beam_of_element(scene, overlap.first), beam_of_element(scene, overlap.second)});
+        std::minmax({listed_wall_of(scene, overlap.first), listed_wall_of(scene, overlap.second)});
     if (named.emplace(one, other).second) {
       problems.push_back({field_of_beam(other), "",
                           "overlaps " + field_of_beam(one) + " before loading, at " + place_text(overlap.place) + ".",

@@ -11,11 +11,11 @@ namespace {
 
 /// Penetration of a free particle at plate speed, as a fraction of the thickness of the thinnest wall (E9).
 constexpr double kImpactDepth = 0.16;
-/// Greatest travel in a step with which contacts still hold beams apart, as a fraction of the thinnest one's thickness.
-/// Bars that meet at 200 to 1000 m/s at five angles bounce off each other up to 0.5 of it and go through at 0.6.
-constexpr double kMostTravel = 0.4;
 /// Greatest phase angle omega dt of the lightest particle on its contact at a given step, rad; the 0.6 below E9.
 constexpr double kMostPhase = 0.6;
+/// Greatest travel in a step, as a fraction of the thinnest wall's thickness. At a given step a free particle sinks in
+/// by the travel over kMostPhase: here by two thirds of the thickness.
+constexpr double kMostTravel = 0.4;
 
 /// Angular frequency sqrt(k / m_min) of the lightest particle on its contact, 1/s.
 double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {

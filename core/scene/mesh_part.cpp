@@ -111,7 +111,7 @@ SceneSpec mesh_part_of(const SceneSpec& spec) {
 }
 
 std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
-  const LinkedFrame linked = put_rigid_links_first(given);
+  const LinkedSpec linked = put_rigid_links_first(given);
   const SceneSpec& part = linked.spec;
   auto scene = std::make_shared<Scene>();
   scene->depth = *part.depth_mm;
@@ -156,11 +156,15 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   // A regular lattice has those of its layout, before any imperfection.
   const int axis = crush_axis_of(part);
   measures.length = scene.length > 0.0 ? scene.length : extent_of(scene, axis);
-  const double width = scene.length > 0.0 ? scene.width : extent_of(scene, 1 - axis);
-  measures.closing_strain = closing_strain_of(scene.solid_area, measures.length * width);
-  const double solid_mass = scene.materials.front().density * measures.length * width * scene.depth;
+  measures.width = scene.length > 0.0 ? scene.width : extent_of(scene, 1 - axis);
+  const double envelope = measures.length * measures.width;
+  const bool can_close = regular_lattice_of(part) != nullptr || scene.solid_area < kClosed * envelope;
+  measures.solid_area = can_close ? scene.solid_area : 0.0;
+  measures.closing_strain = closing_strain_of(scene.solid_area, envelope);
+  const double solid_mass = scene.materials.front().density * envelope * scene.depth;
   measures.relative_density = solid_mass > 0.0 ? scene.total_mass / solid_mass : 0.0;
   measures.steps = steps_of(scene);
+  measures.slowest_wall = slowest_wall_of(scene);
   measures.lightest_mass = std::ranges::min(scene.mass);
   measures.shortest_element = std::ranges::min(scene.walls.undeformed_length);
   measures.thinnest_wall = std::ranges::min(scene.elements, {}, &Element::thickness).thickness;

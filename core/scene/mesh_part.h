@@ -5,6 +5,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
+#include "scene/slowest_wall.h"
 #include "scene/time_step.h"
 
 namespace cellcrush {
@@ -34,6 +35,8 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 struct MeshMeasures {
   std::size_t element_count = 0;
   double length = 0.0;            ///< envelope of the joints along the crush
+  double width = 0.0;             ///< and across it
+  double solid_area = 0.0;        ///< that can close: 0 of listed walls that fill their envelope, as a column does
   double relative_density = 0.0;  ///< real mass over that of the solid envelope
   double closing_strain = 0.0;    ///< between plates (scene/solid_area.h)
   MeshSteps steps;
@@ -41,9 +44,10 @@ struct MeshMeasures {
   double shortest_element = 0.0;
   double thinnest_wall = 0.0;
   double approach_speed = 0.0;  ///< mm/s, of what loads, motions and rigid walls move (E9a)
-  Material material;            ///< of the lattice
-  bool contact = false;         ///< whether walls touch each other
-  bool rigid_walls = false;     ///< whether there are rigid walls
+  SlowestWall slowest_wall;
+  Material material;         ///< of the lattice
+  bool contact = false;      ///< whether walls touch each other
+  bool rigid_walls = false;  ///< whether there are rigid walls
   /// Mass of as many particles as there are, each the lightest, over that of the lightest rigid wall with a mass.
   double pressed_share = 0.0;
   Problems overlaps;  ///< walls that overlap, or stand in a rigid wall, before loading

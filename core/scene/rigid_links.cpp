@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "fields/field_checker.h"
 #include "geometry/find_parts.h"
 #include "lattice/network.h"
 
@@ -222,7 +221,7 @@ void reorder(const FrameOrder& order, NetworkWalls& network, LoadsSpec& /*loads*
 }
 
 template <class Listed>
-void put_links_first(Listed& listed, LinkedFrame& linked) {
+void put_links_first(Listed& listed, LinkedSpec& linked) {
   const Candidates all = candidates_of(linked.spec, listed);
   const std::vector<char> is_link = find_links(all, linked.spec.numerics.rigid_link_slenderness);
   linked.links = static_cast<int>(std::ranges::count(is_link, 1));
@@ -233,12 +232,8 @@ void put_links_first(Listed& listed, LinkedFrame& linked) {
 
 }  // namespace
 
-LinkedFrame put_rigid_links_first(const SceneSpec& spec) {
-  LinkedFrame linked = {spec, {}, 0};
-  // A mesh is built of a spec with problems in its numerics too.
-  const double slenderness = spec.numerics.rigid_link_slenderness;
-  if (!(slenderness > 0.0 && slenderness <= FieldChecker::greatest_of("numerics.rigid_link_slenderness")))
-    return linked;
+LinkedSpec put_rigid_links_first(const SceneSpec& spec) {
+  LinkedSpec linked = {spec, {}, 0};
   if (auto* frame = std::get_if<FrameWalls>(&linked.spec.lattice)) put_links_first(*frame, linked);
   if (auto* network = std::get_if<NetworkWalls>(&linked.spec.lattice)) put_links_first(*network, linked);
   return linked;
@@ -255,7 +250,7 @@ double link_mass_share_of(const Scene& scene) {
   return mass / scene.total_mass;
 }
 
-int beam_of_element(const Scene& scene, int element) {
+int listed_wall_of(const Scene& scene, int element) {
   if (element >= scene.rigid.first_element) {
     return scene.frame_order.beam_of(static_cast<int>(scene.walls.start.size()) + element - scene.rigid.first_element);
   }

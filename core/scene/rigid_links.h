@@ -19,7 +19,7 @@ namespace cellcrush {
 inline constexpr double kMostLinkMass = 0.01;
 
 /// A frame or network whose rigid links are its last walls. The nodes of the links come first, body by body.
-struct LinkedFrame {
+struct LinkedSpec {
   SceneSpec spec;
   FrameOrder order;  ///< empty if there are no links
   int links = 0;
@@ -31,12 +31,12 @@ struct LinkedFrame {
 /// until they do, so that a wall which is listed in short pieces bends. The limit of all is halved until the links have
 /// at most kMostLinkMass of the mass. Other lattices are returned as they are: their walls are longer.
 /// REQUIRES: a checked spec.
-LinkedFrame put_rigid_links_first(const SceneSpec& spec);
+LinkedSpec put_rigid_links_first(const SceneSpec& spec);
 
 /// Mass of the rigid links over that of all walls.
 double link_mass_share_of(const Scene& scene);
 
 /// The beam of a frame to which an element belongs, as an index into the given list.
-int beam_of_element(const Scene& scene, int element);
+int listed_wall_of(const Scene& scene, int element);
 
 }  // namespace cellcrush

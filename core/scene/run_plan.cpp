@@ -130,8 +130,14 @@ RunPlan plan_run(const SceneSpec& given, const MeshMeasures& mesh, Problems& pro
 }
 
 bool prevents_meshing(const Problems& problems) {
-  constexpr std::array kPaths = {"lattice", "material",        "depth_mm",           "elements_per_wall",
-                                 "section", "loading.gravity", "loading.rigid_walls"};
+  constexpr std::array kPaths = {"lattice",
+                                 "material",
+                                 "depth_mm",
+                                 "elements_per_wall",
+                                 "section",
+                                 "loading.gravity",
+                                 "loading.rigid_walls",
+                                 "numerics.rigid_link_slenderness"};
   return std::ranges::any_of(problems, [&](const Problem& problem) {
     return std::ranges::any_of(kPaths, [&](const char* path) { return problem.field.starts_with(path); });
   });

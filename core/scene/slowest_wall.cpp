@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -24,8 +25,8 @@ std::string in_digits(double value, int digits) {
 }
 
 /// What to do about a wall that costs many steps.
-std::string remedy_for(const SceneSpec& spec, const Scene& scene, const SlowestWall& slowest) {
-  const double slenderness = slowest.length / scene.walls.thickness[slowest.wall];
+std::string remedy_for(const SceneSpec& spec, const SlowestWall& slowest) {
+  const double slenderness = slowest.length / slowest.thickness;
   if (slenderness >= FieldChecker::greatest_of("numerics.rigid_link_slenderness")) {
     return "Give the wall fewer elements, or merge its ends.";
   }
@@ -38,59 +39,60 @@ std::string remedy_for(const SceneSpec& spec, const Scene& scene, const SlowestW
          to_text(100.0 * kMostLinkMass) + " % of the mass.";
 }
 
-/// The middle of a wall.
-std::string place_of(const Scene& scene, const SlowestWall& slowest) {
-  const Walls& walls = scene.walls;
-  const Vector2 middle = 0.5 * (scene.position[walls.start[slowest.wall]] + scene.position[walls.end[slowest.wall]]);
-  return "(" + in_digits(middle.x(), 6) + ", " + in_digits(middle.y(), 6) + ") mm";
+std::string place_of(const SlowestWall& slowest) {
+  return "(" + in_digits(slowest.middle.x(), 6) + ", " + in_digits(slowest.middle.y(), 6) + ") mm";
 }
 
 }  // namespace
 
 SlowestWall slowest_wall_of(const Scene& scene) {
+  const Walls& walls = scene.walls;
   std::vector<double> steps;
+  std::size_t slow = 0;
   SlowestWall slowest;
   visit_steps_of_walls(scene, [&](const WallBlock& block, int wall, double, double stable) {
-    if (steps.empty() || stable < steps[slowest.wall]) {
-      slowest = {wall, block.elements, block.elements * scene.walls.undeformed_length[wall]};
+    if (steps.empty() || stable < steps[slow]) {
+      slow = steps.size();
+      slowest.listed = wall;
+      slowest.elements = block.elements;
     }
     steps.push_back(stable);
   });
-  if (!steps.empty()) {
-    const double step = steps[slowest.wall];
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::ranges::nth_element(steps, middle);
-    slowest.cost = *middle / step;
-  }
+  if (steps.empty()) return slowest;
+  const int wall = std::exchange(slowest.listed, scene.frame_order.beam_of(slowest.listed));
+  slowest.length = slowest.elements * walls.undeformed_length[wall];
+  slowest.thickness = walls.thickness[wall];
+  slowest.middle = 0.5 * (scene.position[walls.start[wall]] + scene.position[walls.end[wall]]);
+  const double step = steps[slow];
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  slowest.cost = *middle / step;
   return slowest;
 }
 
-std::string words_of(const Scene& scene, const SlowestWall& slowest) {
-  const Walls& walls = scene.walls;
-  return in_digits(slowest.length, 3) + " mm long and " + in_digits(walls.thickness[slowest.wall], 3) +
-         " mm thick, in " + std::to_string(slowest.elements) + (slowest.elements == 1 ? " element" : " elements") +
-         ", at " + place_of(scene, slowest);
+std::string words_of(const SlowestWall& slowest) {
+  return in_digits(slowest.length, 3) + " mm long and " + in_digits(slowest.thickness, 3) + " mm thick, in " +
+         std::to_string(slowest.elements) + (slowest.elements == 1 ? " element" : " elements") + ", at " +
+         place_of(slowest);
 }
 
 std::string times_text(double times) { return in_digits(times, 2); }
 
-Problems find_costly_walls(const SceneSpec& spec, const Scene& scene) {
+Problems note_costly_wall(const SceneSpec& spec, const SlowestWall& slowest, StepBound bound) {
   const bool is_network = std::holds_alternative<NetworkWalls>(spec.lattice);
-  if ((!is_network && !std::holds_alternative<FrameWalls>(spec.lattice)) ||
-      scene.schedule.bound != StepBound::elements) {
-    return {};  // walls of regular lattices are nearly of one length
-  }
-  const SlowestWall slowest = slowest_wall_of(scene);
-  if (slowest.cost <= kCostlyWall) {
-    return {};
-  }
-  return {{is_network ? "lattice.network.walls"
-                      : "lattice.frame.beams[" + std::to_string(scene.frame_order.beam_of(slowest.wall)) + "]",
+  const bool is_listed = is_network || std::holds_alternative<FrameWalls>(spec.lattice);
+  // Walls of regular lattices are nearly of one length.
+  if (!is_listed || bound != StepBound::elements || slowest.cost <= kCostlyWall) return {};
+  return {{is_network ? "lattice.network.walls" : "lattice.frame.beams[" + std::to_string(slowest.listed) + "]",
            in_digits(slowest.length, 3) + " mm",
-           "is the length of a wall at " + place_of(scene, slowest) +
+           "is the length of a wall at " + place_of(slowest) +
                ", which sets the time step: half of the walls allow one " + times_text(slowest.cost) +
                " times as long, and the run would take as many times fewer steps.",
-           remedy_for(spec, scene, slowest)}};
+           remedy_for(spec, slowest)}};
+}
+
+Problems find_costly_walls(const SceneSpec& spec, const Scene& scene) {
+  return note_costly_wall(spec, slowest_wall_of(scene), scene.schedule.bound);
 }
 
 }  // namespace cellcrush

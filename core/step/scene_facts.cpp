@@ -65,7 +65,7 @@ std::string search_text(const Scene& scene) {
 /// The wall whose elements set the step, and what it costs.
 std::string slowest_text(const Scene& scene) {
   const SlowestWall slowest = slowest_wall_of(scene);
-  const std::string wall = "in a wall " + words_of(scene, slowest);
+  const std::string wall = "in a wall " + words_of(slowest);
   return slowest.cost < kWorthTelling
              ? wall + ", as in others."
              : wall + ". Half of the walls allow a step " + times_text(slowest.cost) + " times as long.";

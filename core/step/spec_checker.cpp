@@ -1,6 +1,7 @@
 #include "cellcrush/spec_checker.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "cellcrush/fidelity.h"
@@ -8,6 +9,7 @@
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
+#include "scene/slowest_wall.h"
 
 namespace cellcrush {
 namespace {
@@ -35,6 +37,9 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given, const BeforeMesh
   const MeshMeasures& mesh = mesh_of(spec, before_mesh).measures;
   const RunPlan plan = plan_run(spec, mesh, verdict.problems);
   if (verdict.problems.empty()) {
+    verdict.notes = find_implausible(given);
+    std::ranges::copy(note_costly_wall(spec, mesh.slowest_wall, plan.schedule.bound),
+                      std::back_inserter(verdict.notes));
     verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
     verdict.step_count = plan.schedule.step_count;
     verdict.most_memory_bytes = memory_.most_of_run(spec, verdict.element_count);

@@ -24,6 +24,7 @@ class SpecChecker {
 
   struct Verdict {
     Problems problems;
+    Problems notes;                      ///< find_implausible() and find_costly_walls(); none if there are problems
     std::int64_t element_count = 0;      ///< 0 if there are problems
     std::int64_t step_count = 0;         ///< 0 if there are problems
     std::int64_t most_memory_bytes = 0;  ///< most_memory_of_run; 0 if there are problems

@@ -155,7 +155,7 @@ TEST(RigidLinks, AreMadeOfANetworksShortWalls) {
   EXPECT_NEAR(as_link->stable_step / plain, 1.0, 0.05);
   // The last of the list is the last element.
   const auto listed = static_cast<int>(std::get<NetworkWalls>(spec.lattice).wall_count());
-  EXPECT_EQ(beam_of_element(*as_link, static_cast<int>(as_link->element_count()) - 1), listed - 1);
+  EXPECT_EQ(listed_wall_of(*as_link, static_cast<int>(as_link->element_count()) - 1), listed - 1);
   spec.numerics.rigid_link_slenderness = 0.0;
   const auto as_beam = scenes::build(spec);
   EXPECT_LT(as_beam->stable_step, 1e-2 * as_link->stable_step);
@@ -164,21 +164,6 @@ TEST(RigidLinks, AreMadeOfANetworksShortWalls) {
   EXPECT_EQ(notes[0].field, "lattice.network.walls");
   EXPECT_EQ(notes[0].value, "0.02 mm");
   EXPECT_THAT(notes[0].remedy, HasSubstr("numerics.rigid_link_slenderness"));
-}
-
-/// The walls of a frame, as a network.
-SceneSpec as_network(SceneSpec spec) {
-  const FrameWalls frame = std::get<FrameWalls>(spec.lattice);
-  NetworkWalls network;
-  for (const FrameWalls::Node& node : frame.nodes) {
-    network.joints_mm.insert(network.joints_mm.end(), {node.x_mm, node.y_mm});
-  }
-  for (const FrameWalls::Beam& beam : frame.beams) {
-    network.walls.insert(network.walls.end(), {beam.start, beam.end});
-    network.thicknesses_mm.push_back(beam.thickness_mm);
-  }
-  spec.lattice = network;
-  return spec;
 }
 
 /// The work of the plate and the plateau stress up to a strain.
@@ -262,7 +247,7 @@ TEST(RigidLinks, CrushAFoamAsItsBeams) {
 TEST(RigidLinks, OfAFoamAreThoseOfItsFrame) {
   const SceneSpec frame = foam(1.0, 1);
   const auto of_frame = scenes::build(frame);
-  const auto of_network = scenes::build(as_network(frame));
+  const auto of_network = scenes::build(scenes::as_network(frame));
   EXPECT_EQ(of_network->rigid_link_count(), of_frame->rigid_link_count());
   EXPECT_EQ(of_network->rigid.offset, of_frame->rigid.offset);
   EXPECT_EQ(of_network->frame_order.beam, of_frame->frame_order.beam);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -44,6 +46,12 @@ bool expect_same_verdict(SpecChecker& checker, const SceneSpec& spec) {
   const SceneFacts facts = built.scene ? facts_of(*built.scene) : SceneFacts();
   EXPECT_EQ(verdict.element_count, facts.element_count);
   EXPECT_EQ(verdict.step_count, facts.step_count);
+  Problems notes;
+  if (built.scene) {
+    notes = find_implausible(spec);
+    std::ranges::copy(find_costly_walls(spec, *built.scene), std::back_inserter(notes));
+  }
+  EXPECT_EQ(text_of(verdict.notes), text_of(notes));
   expect_memory_bound(verdict, spec, built);
   return !verdict.problems.empty();
 }
