@@ -108,7 +108,7 @@ std::string job_question(Connection& connection, const std::string& name) {
 
 std::string sweep_question(Connection& connection, const std::string& name) {
   const v1::Sweep sweep = fetch_sweep(connection, name);
-  return fmt::format("Delete {} with its {} jobs and their results?", name, sweep.jobs_size());
+  return fmt::format("Delete {} with its {} and all results?", name, job_count_text(sweep.jobs_size()));
 }
 
 // Asks for confirmation and calls the method, whose request has a name and whose response is empty.

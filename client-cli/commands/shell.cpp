@@ -4,6 +4,7 @@
 
 #include "commands/commands.h"
 #include "help/shell_files.h"
+#include "terminal/sweep_text.h"
 #include "terminal/terminal.h"
 #include "usage/man_page.h"
 
@@ -32,7 +33,7 @@ void print_names(Connection& connection) {
   const auto sweeps =
       connection.call(connection.sweeps(), &v1::Sweeps::Stub::ListSweeps, v1::ListSweepsRequest(), kTyping);
   for (const v1::Sweep& sweep : sweeps.sweeps())
-    fmt::print("{}\t{} jobs {}\n", sweep.name(), sweep.jobs_size(), printable(sweep.case_().title()));
+    fmt::print("{}\t{} {}\n", sweep.name(), job_count_text(sweep.jobs_size()), printable(sweep.case_().title()));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "plots/sweep_map.h"
 #include "terminal/case_text.h"
 #include "terminal/summary_text.h"
+#include "terminal/sweep_text.h"
 
 namespace cellcrush::client {
 
@@ -88,7 +89,7 @@ std::string sweep_subtitle(const SweepResults& results) {
   const v1::SweepTable& table = results.table;
   std::string fields;
   for (const std::string& field : table.fields()) fields += (fields.empty() ? "" : ", ") + axis_label(field);
-  return fmt::format("{} jobs over {}   ({})", results.sweep.jobs_size(), fields, results.sweep.name());
+  return fmt::format("{} over {}   ({})", job_count_text(results.sweep.jobs_size()), fields, results.sweep.name());
 }
 
 }  // namespace

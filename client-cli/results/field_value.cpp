@@ -113,6 +113,7 @@ FieldWords words_of(std::string_view path) {
   words.name.resize(words.name.size() - std::min(suffix.size(), words.name.size()));
   for (const char letter : unit) words.unit += letter == '2' ? "²" : letter == '3' ? "³" : std::string(1, letter);
   std::replace(words.name.begin(), words.name.end(), '_', ' ');
+  if (path == "elements_per_wall") words.name += " or beam";  // of a frame
   return words;
 }
 

@@ -11,6 +11,7 @@
 #include "command_error.h"
 #include "results/field_value.h"
 #include "terminal/number_text.h"
+#include "terminal/sweep_text.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
@@ -43,7 +44,8 @@ std::vector<const Entry*> find_shown(const SweepView& view, int room) {
 }
 
 std::string counts_text(const SweepView& view) {
-  std::string text = fmt::format("{} of {} jobs ended", view.count_ended(), view.jobs().size());
+  std::string text =
+      fmt::format("{} of {} ended", view.count_ended(), job_count_text(static_cast<int>(view.jobs().size())));
   for (const v1::Job::State state :
        {v1::Job::RUNNING, v1::Job::PENDING, v1::Job::SUSPENDED, v1::Job::FAILED, v1::Job::CANCELLED}) {
     if (const int count = view.count(state); count > 0)
@@ -126,7 +128,7 @@ std::vector<std::string> sweep_progress_lines(const SweepView& view, int width, 
   const auto rows = job_rows(view, shown, width);
   lines.insert(lines.end(), rows.begin(), rows.end());
   const auto hidden = view.jobs().size() - shown.size();
-  if (hidden > 0) lines.push_back(cut(fmt::format("... and {} more jobs", hidden), width));
+  if (hidden > 0) lines.push_back(cut(fmt::format("... and {} more job{}", hidden, hidden == 1 ? "" : "s"), width));
   return lines;
 }
 

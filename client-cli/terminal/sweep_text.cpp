@@ -194,7 +194,7 @@ std::string warnings_text(const v1::Convergence& convergence, int width) {
 }  // namespace
 
 std::string sweep_line(const v1::Sweep& sweep) {
-  std::string text = fmt::format("{}: {} job{}", sweep.name(), sweep.jobs_size(), sweep.jobs_size() == 1 ? "" : "s");
+  std::string text = fmt::format("{}: {}", sweep.name(), job_count_text(sweep.jobs_size()));
   if (const std::string counts = counts_text(sweep); !counts.empty()) text += ", " + counts;
   return printable(text) + '\n';
 }
@@ -236,6 +236,8 @@ std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps, int width) {
 }
 
 std::string run_count_text(int count) { return fmt::format("{} run{}", count, count == 1 ? "" : "s"); }
+
+std::string job_count_text(int count) { return fmt::format("{} job{}", count, count == 1 ? "" : "s"); }
 
 std::string convergence_text(const v1::Convergence& convergence, int width) {
   if (convergence.quantities_size() == 0) {

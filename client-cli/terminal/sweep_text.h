@@ -20,6 +20,9 @@ std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps, int width = te
 /// "1 run", "15 runs".
 std::string run_count_text(int count);
 
+/// "1 job", "15 jobs".
+std::string job_count_text(int count);
+
 /// The means and the limit of each quantity, the mesh that meets the wanted error, and the warnings of the runs.
 std::string convergence_text(const v1::Convergence& convergence, int width);
 

@@ -26,9 +26,12 @@ bool print_findings(const store::Verification& found) {
   return found.problems.empty();
 }
 
+/// "1 job, 0 sweeps, 2 results".
 std::string counts_of(const store::Verification& found) {
-  return std::to_string(found.jobs) + " jobs, " + std::to_string(found.sweeps) + " sweeps, " +
-         std::to_string(found.results) + " results";
+  const auto counted = [](auto count, const char* name) {
+    return std::to_string(count) + " " + name + (count == 1 ? "" : "s");
+  };
+  return counted(found.jobs, "job") + ", " + counted(found.sweeps, "sweep") + ", " + counted(found.results, "result");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted, const BeforeM
     for (const auto& problem : *problems) out.problems.push_back(to_proto(problem));
   }
   if (!out.problems.empty()) return out;
-  for (const auto& note : find_implausible(reading.spec)) out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
+  for (const auto& note : verdict.notes) out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
   out.element_count = verdict.element_count;
   out.element_steps = verdict.element_count * verdict.step_count;
   out.most_memory_bytes = memory_of_worker(

@@ -26,7 +26,7 @@ class CaseChecker {
 
   struct Verdict {
     std::vector<v1::Problem> problems;
-    std::vector<v1::Problem> notes;  ///< notes on implausible values; empty if there are problems
+    std::vector<v1::Problem> notes;  ///< those of check_case; empty if there are problems
     std::int64_t element_count = 0;  ///< 0 if there are problems
     std::int64_t element_steps = 0;  ///< elements times steps of the run; 0 if there are problems
     /// The prediction of check_case, or slightly more (cellcrush/spec_checker.h); 0 if there are problems.

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "cellcrush/fidelity.h"
 #include "cellcrush/sample.h"
 #include "translate/case_to_spec.h"
+#include "translate/embedded_rows.h"
 #include "translate/presets.h"
 #include "translate/spec_to_case.h"
 
@@ -35,37 +35,24 @@ struct MeasuredRow {
   LoadingSpec::Direction direction = LoadingSpec::Direction::x;
 };
 
-MeasuredRow read_row(const std::string& line) {
-  std::istringstream cells(line);
-  const auto next = [&cells] {
-    std::string cell;
-    std::getline(cells, cell, ',');
-    return cell;
-  };
+MeasuredRow read_measured_row(Cells& cells) {
   MeasuredRow row;
-  row.preset = next();
-  row.quantity = next();
-  row.speed = next();
+  row.preset = cells.text();
+  row.quantity = cells.text();
+  row.speed = cells.text();
   row.speed_m_per_s = std::stod(row.speed);
-  row.elements_per_wall = std::stoi(next());
-  row.error = std::stod(next());
-  row.uncertainty = std::stod(next());
-  row.scatter = std::stod(next());
-  row.columns = std::stoi(next());
-  row.rows = std::stoi(next());
-  row.direction = next() == "y" ? LoadingSpec::Direction::y : LoadingSpec::Direction::x;
+  row.elements_per_wall = cells.count();
+  row.error = cells.number();
+  row.uncertainty = cells.number();
+  row.scatter = cells.number();
+  row.columns = cells.count();
+  row.rows = cells.count();
+  row.direction = cells.text() == "y" ? LoadingSpec::Direction::y : LoadingSpec::Direction::x;
   return row;
 }
 
 const std::vector<MeasuredRow>& measured_rows() {
-  static const std::vector<MeasuredRow> kRows = [] {
-    std::vector<MeasuredRow> rows;
-    std::istringstream lines(measured_errors_text());
-    std::string line;
-    std::getline(lines, line);  // the names of the columns
-    while (std::getline(lines, line)) rows.push_back(read_row(line));
-    return rows;
-  }();
+  static const std::vector<MeasuredRow> kRows = rows_of(measured_errors_text(), read_measured_row);
   return kRows;
 }
 

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <iterator>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include "translate/embedded_rows.h"
 #include "translate/measured_errors.h"
 #include "translate/presets.h"
 
@@ -26,34 +28,21 @@ struct Difference {
   double uncertainty = 0.0;  ///< half-width of its 95 % confidence interval
 };
 
-std::vector<Difference> read_differences() {
-  std::vector<Difference> all;
-  std::istringstream lines(small_specimens_text());
-  std::string line;
-  std::getline(lines, line);  // the names of the columns
-  while (std::getline(lines, line)) {
-    std::istringstream cells(line);
-    const auto next = [&cells] {
-      std::string cell;
-      std::getline(cells, cell, ',');
-      return cell;
-    };
-    Difference row;
-    row.preset = next();
-    row.quantity = next();
-    row.speed_m_per_s = std::stod(next());
-    next();  // elements per wall
-    row.columns = std::stoi(next());
-    row.rows = std::stoi(next());
-    row.difference = std::stod(next());
-    row.uncertainty = std::stod(next());
-    all.push_back(row);
-  }
-  return all;
+Difference read_difference(Cells& cells) {
+  Difference row;
+  row.preset = cells.text();
+  row.quantity = cells.text();
+  row.speed_m_per_s = cells.number();
+  cells.text();  // elements per wall
+  row.columns = cells.count();
+  row.rows = cells.count();
+  row.difference = cells.number();
+  row.uncertainty = cells.number();
+  return row;
 }
 
 std::vector<Difference> differences_of(const std::string& preset) {
-  static const std::vector<Difference> kAll = read_differences();
+  static const std::vector<Difference> kAll = rows_of(small_specimens_text(), read_difference);
   std::vector<Difference> found;
   std::ranges::copy_if(kAll, std::back_inserter(found), [&](const Difference& row) { return row.preset == preset; });
   return found;

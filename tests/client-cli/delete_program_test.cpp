@@ -34,7 +34,7 @@ TEST(Delete, AnyOtherAnswerDeletesNothing) {
   const FakeServer server(deletable_script());
   for (const char* answer : {"\n", "n\n", "what?\n", "\x04"}) {
     Program program({"delete", "sweeps/test", "--server", server.address()}, 120);
-    ASSERT_TRUE(program.wait_for_output("Delete sweeps/test with its 2 jobs and their results? [y/N] "));
+    ASSERT_TRUE(program.wait_for_output("Delete sweeps/test with its 2 jobs and all results? [y/N] "));
     program.type(answer);
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.exit_code, 2);

@@ -172,7 +172,7 @@ TEST(SweepWatch, CtrlCLeavesTheSweepRunningAndSaysSo) {
   script.sweeps.hold = true;
   const FakeServer server(script);
   Program program({"watch", "sweeps/test", "--server", server.address()});
-  ASSERT_TRUE(program.wait_for_output("0 of 1 jobs ended"));
+  ASSERT_TRUE(program.wait_for_output("0 of 1 job ended"));
   program.interrupt();
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exit_code, 130);

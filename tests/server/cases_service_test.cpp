@@ -73,6 +73,9 @@ TEST_F(CasesServiceTest, ABeamThatCostsManyStepsIsNotedUnlessItIsARigidLink) {
   ASSERT_EQ(response.notes_size(), 1) << response.DebugString();
   EXPECT_EQ(response.notes(0).field(), "lattice.frame.beams[1]");
   EXPECT_THAT(response.notes(0).message(), HasSubstr("sets the time step"));
+  const auto created = client().create(job_of(submitted));
+  ASSERT_EQ(created.notes_size(), 1);
+  EXPECT_EQ(created.notes(0).SerializeAsString(), response.notes(0).SerializeAsString());
 }
 
 TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {

@@ -106,7 +106,7 @@ def plot_curves(results: "Results", ax: "Optional[matplotlib.axes.Axes]" = None,
 
 
 class _Picture:
-    """A frame as lines, coloured by plastic fraction, which can show another one."""
+    """A frame as lines, coloured by plastic fraction, rigid ones as the plates; it can show another one."""
 
     def __init__(self, results: "Results", ax: Any, font_pt: float, low: Array, high: Array) -> None:
         collections = need("matplotlib.collections", "python3-matplotlib")
@@ -117,6 +117,7 @@ class _Picture:
         self._lines = collections.LineCollection([], cmap="inferno_r", linewidths=np.maximum(
             self._mesh.thickness_mm * scale, 0.35))
         self._lines.set_clim(-0.25, 1.0)  # elastic walls stay visible on white
+        self._lines.set_cmap(self._lines.get_cmap().with_extremes(bad=GREY))
         ax.add_collection(self._lines)
         self._plate: Any = None
         if self._mesh.impact_plate_mm != self._mesh.support_plate_mm:
@@ -130,7 +131,9 @@ class _Picture:
 
     def show(self, index: int) -> Tuple[Any, Any]:
         self._lines.set_segments(self._frames.position_mm[index][self._mesh.element_nodes])
-        self._lines.set_array(self._frames.plastic_fraction[index])
+        fraction = np.ma.array(self._frames.plastic_fraction[index])
+        fraction[len(fraction) - self._mesh.rigid_element_count:] = np.ma.masked
+        self._lines.set_array(fraction)
         self._title.set_text(f"strain {self._frames.strain[index]:.2f}")
         if self._plate is not None:
             travel = self._frames.strain[index] * self._mesh.length_mm

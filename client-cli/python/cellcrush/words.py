@@ -26,7 +26,8 @@ def words_of(name: str) -> str:
     """
     last = name.rsplit(".", 1)[-1]
     suffix = next((suffix for suffix in _UNITS if last.endswith(suffix)), "")
-    return last[: len(last) - len(suffix)].replace("_", " ")
+    of_frame = " or beam" if name == "elements_per_wall" else ""
+    return last[: len(last) - len(suffix)].replace("_", " ") + of_frame
 
 
 def label_of(name: str) -> str:

@@ -9,6 +9,8 @@ import unittest
 import urllib.request
 import warnings
 import zlib
+from dataclasses import replace
+from types import SimpleNamespace
 
 import cellcrush as cc
 import cellcrush.aio
@@ -17,6 +19,8 @@ import meshio
 import numpy as np
 import pandas
 from cellcrush.means import mean_table
+from cellcrush.plots import GREY, plot_frame
+from matplotlib.colors import to_hex
 from support import PRESET, SLOW, SMALL, WithServer
 
 
@@ -193,6 +197,14 @@ class Sweeps(WithServer):
     def test_a_picture_fits_its_frame(self):
         positions = self.job.frames.position_mm[-1]
         self.assertEqual(self.job.plot_frame(1.0).get_xlim(), (positions[:, 0].min(), positions[:, 0].max()))
+
+    def test_rigid_walls_are_drawn_as_the_plates(self):
+        rigid = SimpleNamespace(frames=self.job.frames, mesh=replace(self.job.mesh, rigid_element_count=3))
+        lines = plot_frame(rigid, 1.0).collections[0]
+        lines.update_scalarmappable()
+        *walls, plate = [tuple(colour) for colour in lines.get_colors()]
+        self.assertEqual(to_hex(plate), GREY)
+        self.assertEqual(walls.count(plate), 2)
 
     def test_a_player_needs_no_other_host(self):
         player = self.job.animate()
