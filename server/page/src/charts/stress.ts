@@ -1,6 +1,6 @@
 // Stress at both plates against strain, beside theory; without plates, forces of the rigid walls.
 import { Warning_Kind, type Sample, type Summary, type Theory } from "../../gen/cellcrush/v1/sample_pb";
-import { given, number, unitBySize, type Unit } from "../dom/format";
+import { number, unitBySize, type Unit } from "../dom/format";
 import type { Band, ChartData, Level, Mark, Series } from "./chart_data";
 import { finite, quantile, runningMean, thin, type Axis } from "./curves";
 
@@ -40,7 +40,7 @@ function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top:
     if (!value) return;
     const beyond = value > top ? ", beyond the chart" : "";
     const shown = value * unit.factor;
-    levels.push({ value: shown, colour: "ink-2", dash, label: `${label}: ${given(shown)} ${unit.name}${beyond}` });
+    levels.push({ value: shown, colour: "ink-2", dash, label: `${label}: ${number(shown)} ${unit.name}${beyond}` });
   };
   add(theory?.shockMpa, "shock theory (Eq. 51)", [8, 4]);
   add(summary?.front?.shockMpa, "shock theory, measured jumps (Eq. 52)", [10, 3, 2, 3]);

@@ -21,7 +21,8 @@ const kUnits: [RegExp, string][] = [[/_kg_per_m3$/, "kg/m³"], [/_m_per_s2$/, "m
 export function nameOf(path: string): { words: string; unit: string } {
   const name = path.slice(path.lastIndexOf(".") + 1);
   const [pattern, unit] = kUnits.find(([ending]) => ending.test(name)) ?? [/$/, ""];
-  return { words: name.replace(pattern, "").replaceAll("_", " "), unit };
+  const ofFrame = path === "elements_per_wall" ? " or beam" : "";
+  return { words: name.replace(pattern, "").replaceAll("_", " ") + ofFrame, unit };
 }
 
 const kLabels: Record<string, string> = {
