@@ -112,6 +112,11 @@ class ForceBasedStep {
     for (const MovedElement& element : moved) {
       histories_.push_back(element.history);
     }
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
+        places_.push_back({e, i});
+      }
+    }
   }
 
   std::vector<ElementForces> advance() {
@@ -125,7 +130,7 @@ class ForceBasedStep {
     for (ElementHistory* history : histories_) {
       history->yielded_before = had_yielded;
     }
-    Eigen::VectorXd forces = balance(no_strains(), yielding_sections(), borne());
+    UnitForces forces = balance(no_strains(), yielding_sections(), borne());
     if (had_yielded || any_yields()) {
       forces += work_exact_correction(forces, before, strains);
     }
@@ -143,16 +148,10 @@ class ForceBasedStep {
   using OfSection = Eigen::Vector2d;
   /// Of all sections, element by element.
   using Flexibilities = std::vector<Eigen::Matrix2d>;
-
-  [[nodiscard]] std::vector<Place> places() const {
-    std::vector<Place> all;
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-      for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
-        all.push_back({e, i});
-      }
-    }
-    return all;
-  }
+  /// n of each element, then m at each node, of a unit of one or two elements; or what is conjugate to them.
+  using UnitForces = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 5, 1>;
+  using Shape = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 5>;
+  using UnitFlexibility = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 5, 5>;
 
   /// gamma = h / sqrt(12)
   [[nodiscard]] double gyration(std::size_t e) const { return elements_[e].thickness / std::sqrt(12.0); }
@@ -167,12 +166,12 @@ class ForceBasedStep {
     return static_cast<Eigen::Index>(elements_.size() + node);
   }
 
-  [[nodiscard]] Eigen::VectorXd no_strains() const { return Eigen::VectorXd::Zero(moment(elements_.size()) + 1); }
+  [[nodiscard]] UnitForces no_strains() const { return UnitForces::Zero(moment(elements_.size()) + 1); }
 
   /// What is conjugate to the forces: the stretches and the turns of the step over lengths. The turn at a node of two
   /// elements is that between them.
-  [[nodiscard]] Eigen::VectorXd strains_of_unit() const {
-    Eigen::VectorXd strains = no_strains();
+  [[nodiscard]] UnitForces strains_of_unit() const {
+    UnitForces strains = no_strains();
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       strains[static_cast<Eigen::Index>(e)] = elements_[e].stretch / elements_[e].strained;
     }
@@ -189,9 +188,9 @@ class ForceBasedStep {
   }
 
   /// Forces of a section from those of the unit.
-  [[nodiscard]] Eigen::MatrixXd shape(const Place& at) const {
+  [[nodiscard]] Shape shape(const Place& at) const {
     const double s = rule_.sections[at.section].position;
-    Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(2, no_strains().size());  // b_i
+    Shape shape = Shape::Zero(2, no_strains().size());  // b_i
     shape(0, static_cast<Eigen::Index>(at.element)) = 1.0;
     shape(1, moment(at.element)) = 1.0 - s;
     shape(1, moment(at.element + 1)) = s;
@@ -225,7 +224,7 @@ class ForceBasedStep {
 
   [[nodiscard]] Flexibilities elastic_sections() const {
     Flexibilities all;
-    for (const Place& at : places()) {
+    for (const Place& at : places_) {
       all.push_back(flexibility(at, [](std::size_t) { return false; }));
     }
     return all;
@@ -234,16 +233,16 @@ class ForceBasedStep {
   /// Of sections whose fibres that yielded in the newest step are soft.
   [[nodiscard]] Flexibilities yielding_sections() const {
     Flexibilities all;
-    for (const Place& at : places()) {
+    for (const Place& at : places_) {
       all.push_back(flexibility(at, [&](std::size_t f) -> bool { return histories_[at.element]->yields[f]; }));
     }
     return all;
   }
 
   /// The same, but for those fibres which the sections' strains under the forces of an elastic unit would unload.
-  [[nodiscard]] Flexibilities sections_ahead(const Eigen::VectorXd& elastic_forces) const {
+  [[nodiscard]] Flexibilities sections_ahead(const UnitForces& elastic_forces) const {
     Flexibilities all;
-    for (const Place& at : places()) {
+    for (const Place& at : places_) {
       const ElementHistory& history = *histories_[at.element];
       const OfSection strains =
           (shape(at) * elastic_forces - history.borne[at.section]) / elements_[at.element].material.modulus;
@@ -258,14 +257,13 @@ class ForceBasedStep {
 
   /// Forces with which the sections take up the strains of the unit, and what they bear out of balance:
   /// sum W b^T f b Q = q + sum W b^T f S (E5b).
-  [[nodiscard]] Eigen::VectorXd balance(const Eigen::VectorXd& strains, const Flexibilities& sections,
-                                        const std::vector<OfSection>& borne) const {
-    Eigen::MatrixXd flexibility = Eigen::MatrixXd::Zero(strains.size(), strains.size());
-    Eigen::VectorXd right = strains;
-    const std::vector<Place> all = places();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const double weight = rule_.sections[all[k].section].weight;
-      const Eigen::MatrixXd b = shape(all[k]);
+  [[nodiscard]] UnitForces balance(const UnitForces& strains, const Flexibilities& sections,
+                                   const std::vector<OfSection>& borne) const {
+    UnitFlexibility flexibility = UnitFlexibility::Zero(strains.size(), strains.size());
+    UnitForces right = strains;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const double weight = rule_.sections[places_[k].section].weight;
+      const Shape b = shape(places_[k]);
       flexibility += weight * b.transpose() * sections[k] * b;
       right += weight * b.transpose() * sections[k] * borne[k];
     }
@@ -285,13 +283,13 @@ class ForceBasedStep {
 
   /// Strains of all sections in the step.
   [[nodiscard]] std::vector<OfSection> strains_of_sections() const {
-    const Eigen::VectorXd strains = strains_of_unit();
+    const UnitForces strains = strains_of_unit();
     Flexibilities sections = elastic_sections();
     if (is_settled()) {
       const std::vector<OfSection> nothing(sections.size(), OfSection::Zero());  // what they bear is in balance
       return strains_under(balance(strains, sections, nothing), sections, nothing);
     }
-    Eigen::VectorXd forces = balance(strains, sections, borne());
+    UnitForces forces = balance(strains, sections, borne());
     if (any_yields()) {
       sections = sections_ahead(forces);
       forces = balance(strains, sections, borne());
@@ -300,21 +298,19 @@ class ForceBasedStep {
   }
 
   /// Strains with which the sections go from what they bear to what the forces of the unit put on them.
-  [[nodiscard]] std::vector<OfSection> strains_under(const Eigen::VectorXd& forces, const Flexibilities& sections,
+  [[nodiscard]] std::vector<OfSection> strains_under(const UnitForces& forces, const Flexibilities& sections,
                                                      const std::vector<OfSection>& borne) const {
     std::vector<OfSection> strains;
-    const std::vector<Place> all = places();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      strains.push_back(sections[k] * (shape(all[k]) * forces - borne[k]));
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      strains.push_back(sections[k] * (shape(places_[k]) * forces - borne[k]));
     }
     return strains;
   }
 
   /// All fibres under the strains of their sections.
   void move_fibres(const std::vector<OfSection>& strains) {
-    const std::vector<Place> all = places();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const Place& at = all[k];
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const Place& at = places_[k];
       ElementHistory& history = *histories_[at.element];
       OfSection& borne = history.borne[at.section];
       borne.setZero();
@@ -331,19 +327,17 @@ class ForceBasedStep {
 
   /// Half of what the work of the sections is more than that of the end forces, as a multiple of the forces with which
   /// an elastic unit takes up the strains; the rest is owed to the next step (E5h).
-  [[nodiscard]] Eigen::VectorXd work_exact_correction(const Eigen::VectorXd& forces,
-                                                      const std::vector<OfSection>& borne_before,
-                                                      const std::vector<OfSection>& strains) const {
+  [[nodiscard]] UnitForces work_exact_correction(const UnitForces& forces, const std::vector<OfSection>& borne_before,
+                                                 const std::vector<OfSection>& strains) const {
     ElementHistory& history = *histories_.front();
     const std::vector<OfSection> borne_now = borne();
-    const std::vector<Place> all = places();
     double work = 0.0;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      work += rule_.sections[all[k].section].weight * (borne_before[k] + borne_now[k]).dot(strains[k]);
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      work += rule_.sections[places_[k].section].weight * (borne_before[k] + borne_now[k]).dot(strains[k]);
     }
-    const Eigen::VectorXd ends = strains_of_unit();
-    const std::vector<OfSection> nothing(all.size(), OfSection::Zero());
-    const Eigen::VectorXd elastic = balance(ends, elastic_sections(), nothing);
+    const UnitForces ends = strains_of_unit();
+    const std::vector<OfSection> nothing(places_.size(), OfSection::Zero());
+    const UnitForces elastic = balance(ends, elastic_sections(), nothing);
     const double missing = work - (history.end_forces + forces).dot(ends) + history.owed;
     const double whole = elastic.dot(ends);
     const Material& material = elements_.front().data.material;
@@ -360,7 +354,7 @@ class ForceBasedStep {
     return 0.5 * (before.area * before.thickness + after.area * after.thickness) / std::sqrt(12.0);
   }
 
-  [[nodiscard]] std::vector<ElementForces> nodal_forces_of(const Eigen::VectorXd& forces) {
+  [[nodiscard]] std::vector<ElementForces> nodal_forces_of(const UnitForces& forces) {
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       elements_[e].shorten(rule_, forces[static_cast<Eigen::Index>(e)]);
     }
@@ -380,6 +374,7 @@ class ForceBasedStep {
   const ElementRule& rule_;
   std::vector<DeformedElement>& elements_;
   std::vector<ElementHistory*> histories_;
+  std::vector<Place> places_;         // of all sections
   std::vector<double> plastic_work_;  // of each element, over its volume
 };
 
