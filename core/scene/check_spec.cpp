@@ -14,6 +14,7 @@
 #include "push/half_planes.h"
 #include "scene/mesh_part.h"
 #include "scene/rigid_links.h"
+#include "scene/unit_sets.h"
 
 namespace cellcrush {
 namespace {
@@ -228,7 +229,9 @@ Problems check_spec(const SceneSpec& spec) {
   check_numerics(spec.numerics, check);
   check.within_limits("output.sample_count", spec.output.sample_count);
   check.within_limits("output.frame_count", spec.output.frame_count);
-  return check.take();
+  Problems problems = check.take();
+  ask_about_units_first(spec, problems);
+  return problems;
 }
 
 Problems check_overlap(const SceneSpec& spec, const Scene& scene) {

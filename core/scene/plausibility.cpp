@@ -5,20 +5,13 @@
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/quasi_static.h"
+#include "scene/unit_sets.h"
 
 namespace cellcrush {
 namespace {
 
-// Range of solids: densities from polymers to osmium, stiffness from rubbers to diamond, and their yield strains.
-constexpr double kLightest = 300.0;      // kg/m^3
-constexpr double kHeaviest = 23000.0;    // kg/m^3
-constexpr double kSoftest = 500.0;       // MPa
-constexpr double kStiffest = 1.3e6;      // MPa
-constexpr double kLeastYield = 2e-5;     // strain
-constexpr double kGreatestYield = 0.05;  // strain
-constexpr double kThickest = 0.25;       // of the side
-constexpr double kThinnest = 5e-4;       // of the side
-constexpr double kFastest = 0.1;         // fraction of the speed of an elastic wave in a bar of the wall material
+constexpr double kThickest = 0.25;  // of the side
+constexpr double kThinnest = 5e-4;  // of the side
 
 std::string percent(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }
 
@@ -105,6 +98,10 @@ Problems find_implausible(const SceneSpec& spec) {
   FieldChecker notes;
   if (const RegularLattice* lattice = regular_lattice_of(spec)) {
     check_walls(path_of_lattice(spec) + "wall_thickness_mm", *lattice, notes);
+  }
+  if (const auto units = find_other_units(spec)) {
+    notes.add(units->field, units->value, units->message, units->remedy);
+    return notes.take();  // all else follows from them
   }
   const MaterialSpec& material = spec.material;
   if (!material.youngs_modulus_mpa || !material.yield_stress_mpa || !material.density_kg_per_m3) {

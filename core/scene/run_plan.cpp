@@ -11,6 +11,7 @@
 #include "scene/contact_law.h"
 #include "scene/quasi_static.h"
 #include "scene/time_step.h"
+#include "scene/unit_sets.h"
 
 namespace cellcrush {
 namespace {
@@ -112,6 +113,7 @@ RunPlan plan_run(const SceneSpec& given, const MeshMeasures& mesh, Problems& pro
   RunPlan plan;
   check_stability(spec, mesh, problems);
   if (!problems.empty()) {
+    ask_about_units_first(given, problems);
     return plan;
   }
   plan.contact = contact_law_of(spec, mesh);
@@ -126,6 +128,7 @@ RunPlan plan_run(const SceneSpec& given, const MeshMeasures& mesh, Problems& pro
   if (problems.empty()) {
     plan.schedule = schedule_of(spec, step, end);
   }
+  ask_about_units_first(given, problems);
   return plan;
 }
 

@@ -1,5 +1,6 @@
-// The bits of small whole crushes on every target, and of every preset's first steps on one target of either bits. They
-// change only by a commit that says why. The program core_one_lane has the kernels built with one lane (core/CMakeLists.txt).
+// The bits of small whole crushes on every target, and of every preset's first steps on one target of either bits.
+// They change only by a commit that says why. The program core_one_lane has the kernels built with one lane
+// (core/CMakeLists.txt).
 // Their bits are those of the full width: neither how walls and pairs are laid side by side, nor the order of their
 // sums depends on it.
 #include <gtest/gtest.h>

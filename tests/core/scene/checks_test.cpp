@@ -10,6 +10,7 @@
 
 #include "cellcrush/spec_checker.h"
 #include "fields/field_checker.h"
+#include "scene/unit_sets.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
@@ -215,6 +216,81 @@ TEST(Plausibility, UnitsThatAreMistakenAndWhatIsBeyondTheModelAreNotedByName) {
   };
   EXPECT_THAT(at_speed(600), ElementsAre("loading.speed_m_per_s"));
   EXPECT_THAT(at_speed(400), IsEmpty());
+}
+
+/// The same hexagons, in other units: aluminium, sides of 4 mm, walls of 0.2 mm, 100 m/s.
+SceneSpec hexagons_in(double length, double stress, double density, double speed = 1.0) {
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
+  scenes::cells_of(spec).own.clear();
+  scenes::cells_of(spec).side_mm = 4.0 * length;
+  scenes::cells_of(spec).wall_thickness_mm = 0.2 * length;
+  spec.material.youngs_modulus_mpa = 69000.0 * stress;
+  spec.material.yield_stress_mpa = 76.0 * stress;
+  spec.material.density_kg_per_m3 = 2700.0 * density;
+  spec.loading.speed_m_per_s = 100.0 * speed;
+  return spec;
+}
+
+TEST(OtherUnits, AreNamedAsASetWithTheConvertedFields) {
+  struct Written {
+    SceneSpec spec;
+    const char* units;
+    std::vector<const char*> remedies;
+  };
+  const char* const kDensity = "material.density_kg_per_m3 as 2700 kg/m^3";
+  const char* const kModulus = "material.youngs_modulus_mpa as 69000 MPa";
+  const char* const kYield = "material.yield_stress_mpa as 76 MPa";
+  const char* const kWall = "lattice.hexagon.wall_thickness_mm as 0.2 mm";
+  const char* const kSpeed = "loading.speed_m_per_s as 100 m/s";
+  for (const auto& [spec, units, remedies] : std::vector<Written>{
+           {hexagons_in(1.0, 1.0, 1e-12), "tonne/mm^3", {kDensity}},
+           {hexagons_in(1.0, 1.0, 1e-12, 1e3), "tonne/mm^3", {kDensity, kSpeed}},
+           {hexagons_in(1.0, 1.0, 1e-9), "MPa and kg/mm^3", {kDensity}},
+           {hexagons_in(1.0, 1e-3, 1e-9), "kN, ms and kg/mm^3", {kModulus, kYield, kDensity}},
+           {hexagons_in(1.0, 1e-3, 1e-3), "GPa and g/cm^3", {kModulus, kYield, kDensity}},
+           {hexagons_in(1.0, 1.0, 1e-3), "MPa and g/cm^3", {kDensity}},
+           {hexagons_in(1.0, 1e-3, 1.0), "GPa and kg/m^3", {kModulus, kYield}},
+           {hexagons_in(1e-3, 1e6, 1.0), "(SI)", {kModulus, kYield, kWall, "all other lengths times 1000"}},
+           {hexagons_in(1.0, 1e6, 1.0), "mm, Pa", {kModulus, kYield}},
+           {hexagons_in(1e-3, 1.0, 1.0), "m, MPa", {kWall}},
+           {hexagons_in(0.1, 1e2, 1e-3), "cm, N/cm^2 and g/cm^3", {kModulus, kDensity, kWall}},
+           {hexagons_in(0.1, 1e2, 1e-8, 1e2), "N s^2/cm^4", {kModulus, kDensity, kWall, kSpeed}}}) {
+    const auto asked = find_other_units(spec);
+    ASSERT_TRUE(asked) << units;
+    EXPECT_THAT(asked->message, HasSubstr(units));
+    for (const char* remedy : remedies) EXPECT_THAT(asked->remedy, HasSubstr(remedy)) << units;
+    EXPECT_EQ(find_implausible(spec).back().message, asked->message);
+  }
+  EXPECT_FALSE(find_other_units(hexagons_in(1.0, 1.0, 1.0)));
+  EXPECT_FALSE(find_other_units(hexagons_in(1.0, 1e3, 1.0))) << "in no units";
+}
+
+TEST(OtherUnits, ComeBeforeWhatFollowsFromThem) {
+  SceneSpec tonnes = hexagons_in(1.0, 1.0, 1e-12);  // below the range of densities
+  SceneSpec slow = hexagons_in(1.0, 1.0, 1e-9);
+  slow.loading.speed_m_per_s = 1e-5;  // more steps than any machine can do
+  for (const SceneSpec& spec : {tonnes, slow}) {
+    const Problems problems = build_scene(spec).problems;
+    ASSERT_THAT(fields_of(problems), ElementsAre("material.density_kg_per_m3"));
+    EXPECT_THAT(problems[0].remedy, HasSubstr("2700 kg/m^3"));
+  }
+}
+
+TEST(OtherUnits, OfFramesAndNetworksAreNamedToo) {
+  SceneSpec network = scenes::as_network(hexagons_in(1e-3, 1e6, 1.0));
+  SceneSpec frame = scenes::elastic_frame(scenes::bar(20e-3, 0.5e-3, 4));
+  frame.material = network.material;
+  SceneSpec of_beams = frame;
+  std::get<FrameWalls>(of_beams.lattice).beams[0].material = frame.material;
+  of_beams.material = {};
+  for (const SceneSpec& spec : {network, frame, of_beams}) {
+    const auto asked = find_other_units(spec);
+    ASSERT_TRUE(asked);
+    EXPECT_THAT(asked->message, HasSubstr("(SI)"));
+    EXPECT_THAT(asked->remedy, HasSubstr("youngs_modulus_mpa as 69000 MPa"));
+    EXPECT_THAT(asked->remedy, HasSubstr("lengths times 1000"));
+  }
+  EXPECT_THAT(find_other_units(of_beams)->field, "lattice.frame.beams[0].material.youngs_modulus_mpa");
 }
 
 TEST(Plausibility, ANoteSaysWhatMayBeMeant) {
