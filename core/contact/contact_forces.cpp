@@ -60,7 +60,7 @@ void evaluate_contact_forces(const Scene& scene, State& state, std::size_t band,
   ContactLists& lists = state.contacts[band];
   workspace.parts.resize(static_cast<std::size_t>(workers.count()));
   find_overlaps(scene, state, lists, workspace, workers);
-  remember_touches(scene, scene.bands[band], lists, workspace, sums.of_next_band);
+  remember_touches(scene, state, scene.bands[band], lists, workspace, sums.of_next_band);
   for (const NewContact& pair : workspace.new_contacts) {
     mark_contact_tiles(scene, state, pair.ball, pair.segment);
   }

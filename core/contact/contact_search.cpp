@@ -11,6 +11,7 @@
 
 #include "contact/search/candidate_lists.h"
 #include "contact/search/pair_search.h"
+#include "contact/start_overlaps.h"
 #include "contact/touch/contact_stages.h"
 #include "geometry/bucket_grid.h"
 
@@ -70,13 +71,13 @@ void drop_faces(State& state) {
 }
 
 /// Adapts the touching pairs to walls that have changed, and releases those of a ball that now ends its segment.
-void renew_touching(const Scene& scene, ContactLists& lists) {
+void renew_touching(const Scene& scene, const State& state, ContactLists& lists) {
   TouchMemory& touching = lists.touching;
   lists.released.clear();
   for (std::size_t i = 0; i < touching.count(); ++i) {
     const Element& segment = scene.elements[touching.segment[i]];
     const int ball = touching.ball[i];
-    touching.reach[i] = scene.reach_of(ball, touching.segment[i]);
+    touching.reach[i] = reach_now(scene, state, ball, touching.segment[i]);
     touching.side[i] = ball == segment.start || ball == segment.end ? 0 : touching.side[i];
     if (touching.side[i] == 0) {
       lists.released.push_back(static_cast<int>(i));
@@ -165,6 +166,7 @@ void find_contacts(const Scene& scene, State& state, Workers& workers) {
   if (!scene.contact.present) {
     return;
   }
+  note_parted_walls(scene, state);
   bool is_planar = true;
   for (std::size_t band = 0; band < scene.bands.size() && is_planar && searches_faces(scene, state); ++band) {
     is_planar = find_band_contacts(scene, state, band, workers);
@@ -188,7 +190,7 @@ void change_topology(const Scene& scene, State& state, TopologyChange change, st
     case TopologyChange::borders_near: search_space(scene, state); break;
     case TopologyChange::walls_changed:
       lists.searched_position.clear();
-      renew_touching(scene, lists);
+      renew_touching(scene, state, lists);
       if (state.contacts.size() > 1 || !searches_faces(scene, state)) {
         search_space(scene, state);
       }

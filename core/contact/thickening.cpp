@@ -5,14 +5,16 @@
 #include <utility>
 
 #include "contact/contact_tiles.h"
+#include "contact/start_overlaps.h"
 #include "contact/touch_geometry-inl.h"
 
 namespace cellcrush {
 namespace {
 
-double reach_with(const Scene& scene, int ball, int segment, double growth) {
-  const double before = scene.reach_of(ball, segment);
-  return growth > 0.0 ? std::min(before + growth, scene.most_reach_of(ball, segment)) : before;
+/// `most`: the greatest reach of the pair.
+double reach_with(const Scene& scene, int ball, int segment, double growth, double most) {
+  const double before = std::min(scene.full_reach_of(ball, segment), most);
+  return growth > 0.0 ? std::min(before + growth, most) : before;
 }
 
 /// Adds a force to the end of an element and its reverse to the start.
@@ -42,17 +44,19 @@ void push_along(const Scene& scene, State& state, const GrownTouch& touch, doubl
 }  // namespace
 
 double reach_at(const Scene& scene, const State& state, int ball, int segment, double share) {
+  const double most = most_reach_now(scene, state, ball, segment);
   const auto at_node = [&](int node) {
-    return reach_with(scene, ball, segment, growth_of_ball(state, ball) + growth_of_ball(state, node));
+    return reach_with(scene, ball, segment, growth_of_ball(state, ball) + growth_of_ball(state, node), most);
   };
   return std::lerp(at_node(scene.elements[segment].start), at_node(scene.elements[segment].end),
                    HWY_NAMESPACE::share_of_end(share));
 }
 
 double greatest_reach(const Scene& scene, const State& state, int ball, int segment) {
-  return reach_with(scene, ball, segment,
-                    growth_of_ball(state, ball) + half_thickness_now(scene, state, segment) -
-                        0.5 * scene.elements[segment].thickness);
+  return reach_with(
+      scene, ball, segment,
+      growth_of_ball(state, ball) + half_thickness_now(scene, state, segment) - 0.5 * scene.elements[segment].thickness,
+      scene.most_reach_of(ball, segment));
 }
 
 double growth_of_reach(const Scene& scene, const State& state, std::size_t first, std::size_t end) {
@@ -75,7 +79,8 @@ void push_elements_apart(const Scene& scene, State& state, int ball, double forc
 
 void push_by_growth(const Scene& scene, State& state, const GrownTouch& touch) {
   const Element& ends = scene.elements[touch.segment];
-  const double limit = scene.most_reach_of(touch.ball, touch.segment) - scene.reach_of(touch.ball, touch.segment);
+  const double limit =
+      most_reach_now(scene, state, touch.ball, touch.segment) - reach_now(scene, state, touch.ball, touch.segment);
   const double of_ball = state.radius_growth[touch.ball];
   const double at_start = of_ball + state.radius_growth[ends.start];
   const double at_end = of_ball + state.radius_growth[ends.end];

@@ -38,8 +38,8 @@ inline double half_thickness_now(const Scene& scene, const State& state, int seg
   return 0.5 * element.thickness + std::max(growth_of_ball(state, element.start), growth_of_ball(state, element.end));
 }
 
-/// Distance at which a ball and a segment touch, mm (E8, E8a, E8d): with the foot at `share` of the segment, and where
-/// that is greatest.
+/// Distance at which a ball and a segment touch, mm (E8, E8a, E8d, E8f): with the foot at `share` of the segment, and
+/// the greatest anywhere on it once they have parted.
 double reach_at(const Scene& scene, const State& state, int ball, int segment, double share);
 double greatest_reach(const Scene& scene, const State& state, int ball, int segment);
 

@@ -79,6 +79,7 @@ State place_particles(const Scene& scene) {
     state.fastest_step.resize(1);
   }
   state.contacts.resize(scene.bands.size());
+  state.parted.assign(scene.start_overlaps.pairs.size(), 0);
   state.rigid_centre = scene.rigid.centre;
   state.rigid_velocity.assign(scene.rigid.count(), Vector2::Zero());
   state.rigid_rotation.assign(scene.rigid.count(), 0.0);

@@ -29,7 +29,7 @@ void put_plates(const MeshMeasures& mesh, Scene& scene) {
   scene.plates.support_face = high;
 }
 
-/// REQUIRES: walls that overlap before loading have been refused.
+/// REQUIRES: walls that cross before loading have been refused; the overlaps of the others are known.
 void prepare_search(const SceneSpec& spec, const std::function<void()>& between_stages, Scene& scene) {
   scene.bands = {whole_band(scene)};
   if (!scene.contact.present) {
@@ -72,6 +72,7 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
     put_plates(measures, *scene);
   }
   scene->schedule = plan.schedule;
+  scene->start_overlaps = measures.start_overlaps;
   prepare_search(spec, between_stages, *scene);
   between_stages();
   scene->fidelity = describe_fidelity(given);

@@ -170,16 +170,24 @@ std::string place_text(const Vector2& place) { return "(" + to_text(place.x()) +
 
 std::string field_of_beam(int beam) { return "lattice.frame.beams[" + std::to_string(beam) + "]"; }
 
-Problems name_beams(const Scene& scene, const std::vector<InitialOverlap>& overlaps) {
+/// The walls that cross, each pair once.
+Problems name_crossings(const SceneSpec& spec, const Scene& scene, const std::vector<InitialCrossing>& crossings) {
+  const bool is_network = std::holds_alternative<NetworkWalls>(spec.lattice);
   std::set<std::pair<int, int>> named;
   Problems problems;
-  for (const InitialOverlap& overlap : overlaps) {
+  for (const InitialCrossing& crossing : crossings) {
     const auto [one, other] =
-        std::minmax({listed_wall_of(scene, overlap.first), listed_wall_of(scene, overlap.second)});
-    if (named.emplace(one, other).second) {
-      problems.push_back({field_of_beam(other), "",
-                          "overlaps " + field_of_beam(one) + " before loading, at " + place_text(overlap.place) + ".",
-                          "Move their nodes apart, connect the beams at a node, make them thinner, or set "
+        std::minmax({listed_wall_of(scene, crossing.first), listed_wall_of(scene, crossing.second)});
+    if (!named.emplace(one, other).second) continue;
+    const std::string place = " before loading, at " + place_text(crossing.place) + ".";
+    if (is_network) {
+      problems.push_back({"lattice.network.walls[" + std::to_string(2 * other) + "]", "",
+                          "begins wall " + std::to_string(other) + ", whose mid-line meets that of wall " +
+                              std::to_string(one) + " without a joint" + place,
+                          "Divide both walls at a joint there, or move their joints apart."});
+    } else {
+      problems.push_back({field_of_beam(other), "", "crosses " + field_of_beam(one) + " without a node" + place,
+                          "Connect the beams at a node there, move their nodes apart, or set "
                           "lattice.frame.self_contact to false."});
     }
   }
@@ -234,27 +242,25 @@ Problems check_spec(const SceneSpec& spec) {
   return problems;
 }
 
-Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
-  constexpr std::size_t kMostOverlaps = 20;  // enough to see what is wrong
-  const InitialOverlaps overlaps = find_initial_overlaps(scene, kMostOverlaps);
-  const auto* frame = std::get_if<FrameWalls>(&spec.lattice);
-  const bool is_network = std::holds_alternative<NetworkWalls>(spec.lattice);
-  const std::string field = frame != nullptr ? "lattice.frame.beams"
-                            : is_network     ? "lattice.network.walls"
-                                             : path_of_lattice(spec) + "wall_thickness_mm";
-  if (overlaps.too_dense && overlaps.found.empty()) {
-    return {{field, "",
-             "are too thick or too tangled for contact: each particle has hundreds of elements within reach.",
+Problems check_crossings(const SceneSpec& spec, const Scene& scene, StartOverlaps& touching) {
+  constexpr std::size_t kMostCrossings = 20;  // enough to see what is wrong
+  InitialOverlaps overlaps = find_initial_overlaps(scene, kMostCrossings);
+  touching = std::move(overlaps.touching);
+  const bool is_regular = regular_lattice_of(spec) != nullptr;
+  if (overlaps.too_dense && overlaps.crossings.empty()) {
+    const bool is_network = std::holds_alternative<NetworkWalls>(spec.lattice);
+    return {{is_regular   ? path_of_lattice(spec) + "wall_thickness_mm"
+             : is_network ? "lattice.network.walls"
+                          : "lattice.frame.beams",
+             "", "are too thick or too tangled for contact: each particle has hundreds of elements within reach.",
              "Use thinner walls or longer elements."}};
   }
-  if (frame != nullptr) {
-    return name_beams(scene, overlaps.found);
+  if (is_regular && !overlaps.crossings.empty()) {
+    return {{"lattice.imperfection.amplitude_mm", "",
+             "makes walls cross before loading, first at " + place_text(overlaps.crossings.front().place) + ".",
+             "Use a smaller lattice.imperfection.amplitude_mm or bow_mm."}};
   }
-  if (overlaps.found.empty()) {
-    return {};
-  }
-  return {{field, "", "makes walls overlap before loading, first at " + place_text(overlaps.found.front().place) + ".",
-           "Use thinner walls, or a smaller lattice.imperfection.amplitude_mm or bow_mm."}};
+  return name_crossings(spec, scene, overlaps.crossings);
 }
 
 }  // namespace cellcrush

@@ -35,8 +35,9 @@ void check_network(const SceneSpec& spec, FieldChecker& check);
 /// The least distance of two joints that a wall of a network connects, mm; endless where none is sound.
 double shortest_wall_of(const NetworkWalls& network);
 
-/// Problems of walls that overlap before loading: contact would throw them apart in the first step. Names the beams of
-/// a frame, or the thickness of a lattice, and the position. REQUIRES: the mesh of the spec, as for the search.
-Problems check_overlap(const SceneSpec& spec, const Scene& scene);
+/// Problems of walls whose mid-lines cross or touch before loading without a joint: contact cannot know their sides.
+/// Names the walls and the position. Walls that only overlap are no problem; they are written to `touching`. REQUIRES:
+/// the mesh of the spec, as for the search.
+Problems check_crossings(const SceneSpec& spec, const Scene& scene, StartOverlaps& touching);
 
 }  // namespace cellcrush

@@ -185,11 +185,11 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
 MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures = measure_sound_mesh(part, scene);
   if (measures.contact) {
-    measures.overlaps = check_overlap(part, scene);
+    measures.misplaced = check_crossings(part, scene, measures.start_overlaps);
   }
   const auto* frame = std::get_if<FrameWalls>(&part.lattice);
   const Problems sunk = find_walls_in_half_planes(scene, frame == nullptr ? 0 : frame->nodes.size());
-  measures.overlaps.insert(measures.overlaps.end(), sunk.begin(), sunk.end());
+  measures.misplaced.insert(measures.misplaced.end(), sunk.begin(), sunk.end());
   return measures;
 }
 

@@ -50,13 +50,14 @@ struct MeshMeasures {
   bool rigid_walls = false;  ///< whether there are rigid walls
   /// Mass of as many particles as there are, each the lightest, over that of the lightest rigid wall with a mass.
   double pressed_share = 0.0;
-  Problems overlaps;  ///< walls that overlap, or stand in a rigid wall, before loading
+  Problems misplaced;            ///< walls that cross each other, or stand in a rigid wall, before loading
+  StartOverlaps start_overlaps;  ///< empty without contact
 };
 
-/// Measures a mesh, and searches for walls that overlap. REQUIRES: `scene` is the mesh of the part.
+/// Measures a mesh, and searches for walls that cross or overlap. REQUIRES: `scene` is the mesh of the part.
 MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene);
 
-/// The same for a mesh without overlaps.
+/// The same for a mesh of which it is known that nothing crosses; without the overlaps.
 MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene);
 
 }  // namespace cellcrush

@@ -117,7 +117,7 @@ RunPlan plan_run(const SceneSpec& given, const MeshMeasures& mesh, Problems& pro
     return plan;
   }
   plan.contact = contact_law_of(spec, mesh);
-  problems = mesh.overlaps;
+  problems = mesh.misplaced;
   if (has_plates(spec)) {
     plan.plates = plates_of(spec, mesh, plan.contact.stiffness);
     if (spec.loading.quasi_static) plan.plates.end_travel = end_strain_of(spec, mesh).first * mesh.length;

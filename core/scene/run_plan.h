@@ -14,7 +14,7 @@ struct RunPlan {
 };
 
 /// Plans the run of a spec on its mesh. Adds the problems that only the mesh reveals: an unstable step, walls that
-/// overlap or stand in a rigid wall before loading, too many steps. The plan is valid only if there are no problems.
+/// cross or stand in a rigid wall before loading, too many steps. The plan is valid only if there are no problems.
 RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& problems);
 
 /// Whether any problem of a spec prevents its mesh from being built.

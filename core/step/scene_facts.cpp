@@ -80,6 +80,15 @@ std::string links_text(const Scene& scene) {
          times_text(100.0 * link_mass_share_of(scene)) + " % of the mass; no mass is added.";
 }
 
+/// Walls that overlap before loading.
+std::string overlaps_text(const Scene& scene) {
+  const std::size_t count = scene.start_overlaps.walls().size();
+  const Vector2& place = scene.position[scene.start_overlaps.pairs.front().ball];
+  return "Overlaps before loading: " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
+         " of walls, at sharp joints or side by side, first at (" + to_text(place.x()) + ", " + to_text(place.y()) +
+         ") mm. Until they have parted, they push each other only when closer than before loading.";
+}
+
 std::string step_text(const Scene& scene) {
   switch (scene.schedule.bound) {
     case StepBound::asked_for: return "as requested (numerics.time_step_s).";
@@ -105,6 +114,9 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   if (scene.contact.present) {
     lines.push_back("Contact between walls: penalty, ball to capsule, " + friction_words(scene.contact.friction));
     lines.push_back("Contacts are searched " + search_text(scene));
+    if (!scene.start_overlaps.empty()) {
+      lines.push_back(overlaps_text(scene));
+    }
   } else {
     lines.emplace_back("Contact between walls: none, as requested (lattice.frame.self_contact).");
   }
@@ -187,6 +199,11 @@ MeshView mesh_of(const Scene& scene) {
             static_cast<int>(scene.walls.start.size()));
   for (int& wall : mesh.element_wall) wall = scene.frame_order.beam_of(wall);
   mesh.rigid_elements = static_cast<int>(scene.rigid_element_count());
+  for (const StartOverlap& pair : scene.start_overlaps.pairs) {
+    if (mesh.overlap_particle.empty() || mesh.overlap_particle.back() != pair.ball) {
+      mesh.overlap_particle.push_back(pair.ball);
+    }
+  }
   mesh.length = scene.length;
   mesh.width = scene.width;
   mesh.impact_plate = scene.plates.impact_face;

@@ -78,8 +78,8 @@ TEST(SignFlip, ABallPressedPastTheMidLineIsPulledThroughUnlessItsSideIsRemembere
   EXPECT_NEAR(mindful.state.velocity[2].y(), 1e3 * 100.0, 1e3);
 }
 
-// Walls that lie in each other from the start are a wound spring that no work was done on. It is refused by name
-// (InitialOverlap.ABeamWithinReachOfAnotherIsNamed).
+// Walls that lie in each other from the start are a wound spring that no work was done on. Their reach is the distance
+// at which they stand (StartOverlaps.*).
 TEST(StartOverlap, WallsThatBeginInEachOtherFlyApartOnEnergyThatNobodyPut) {
   const auto scene = scenes::build(scenes::beam_over_beam(0.0, 0.0));
   scene->position[2].y() = scene->position[3].y() = 0.5 * kReach;

@@ -2,6 +2,7 @@
 
 #include "contact/search/candidate_lists.h"
 #include "contact/search/pair_search.h"
+#include "contact/start_overlaps.h"
 #include "contact/thickening.h"
 #include "contact/touch_geometry-inl.h"
 #include "geometry/bucket_grid.h"
@@ -56,7 +57,7 @@ bool list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
       const bool is_near = off.x * off.x + off.y * off.y < range * range;
       if (ball != element.start && ball != element.end && is_near) {
         const int segment = static_cast<int>(e);
-        add_candidate(lists, {ball, segment, scene.reach_of(ball, segment)});
+        add_candidate(lists, {ball, segment, reach_now(scene, state, ball, segment)});
         is_planar = is_planar && !crosses_segment(scene, state, ball, element);
       }
     });

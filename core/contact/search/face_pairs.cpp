@@ -10,6 +10,7 @@
 #include <span>
 
 #include "contact/search/candidate_lists.h"
+#include "contact/start_overlaps.h"
 #include "contact/thickening.h"
 #include "contact/topology/face_loops.h"
 #include "geometry/bucket_grid.h"
@@ -137,7 +138,7 @@ class FaceFinder {
     pairs_.crossed = pairs_.crossed || cross_each_other(state_, scene_.elements[element_[before]], element) ||
                      cross_each_other(state_, scene_.elements[element_[corner]], element);
     if ((!is_outer_ || band_.owns(ball)) && !is_listed_elsewhere(ball, segment)) {
-      pairs_.candidates.push_back({ball, segment, scene_.reach_of(ball, segment)});
+      pairs_.candidates.push_back({ball, segment, reach_now(scene_, state_, ball, segment)});
     }
     return true;
   }

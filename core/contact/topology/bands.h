@@ -25,7 +25,7 @@ LatticeBand whole_band(const Scene& scene);
 /// Bands are as small as these conditions allow. The lattice stays a single band if
 ///  - it is small,
 ///  - the caches do not hold the bands of two steps, as for rows of many thousand elements,
-///  - a step needs more than walls, plates and contacts without friction.
+///  - a step needs more than walls, plates and contacts without friction, or walls overlap before loading.
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const std::vector<FaceLoop>& loops);
 
 /// The band that owns each particle.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "contact/topology/wall_paths.h"
@@ -18,6 +21,19 @@ struct Pair {
   int ball;
   int segment;
 };
+
+/// A segment that a ball overlaps.
+struct Overlap {
+  StartOverlap pair;  ///< of the wall, `nearest` is the segment
+  double distance;    ///< mm
+
+  [[nodiscard]] auto order() const { return std::tuple(pair.ball, pair.first_segment, distance, pair.nearest); }
+};
+
+/// Distance over reach up to which a ball is on the mid-line of a segment.
+constexpr double kOnMidLine = 1e-6;
+/// Reach over distance of those that overlap: round-off of walls that move as one must not make them touch.
+constexpr double kKeptDistance = 1.0 - 0x1p-20;
 
 /// Points along elements, by which elements are found.
 struct Marks {
@@ -36,7 +52,7 @@ bool boxes_meet(const Vector2& a, const Vector2& b, const Vector2& c, const Vect
 
 class OverlapFinder {
  public:
-  OverlapFinder(const Scene& scene, std::size_t most) : scene_(scene), most_(most), paths_(scene) {
+  OverlapFinder(const Scene& scene, std::size_t most_crossings) : scene_(scene), most_(most_crossings), paths_(scene) {
     const double count = static_cast<double>(scene.element_count());
     visits_left_ = kMostOverlapVisits * (count + static_cast<double>(scene.particle_count()));
     for (const Element& element : scene.elements) {
@@ -76,10 +92,10 @@ class OverlapFinder {
     }
   }
 
-  InitialOverlaps take() { return {std::move(found_), visits_left_ < 0.0}; }
+  InitialOverlaps take() { return {std::move(crossings_), by_ball_and_wall(), visits_left_ < 0.0}; }
 
  private:
-  [[nodiscard]] bool may_go_on() const { return visits_left_ >= 0.0 && found_.size() < most_; }
+  [[nodiscard]] bool may_go_on() const { return visits_left_ >= 0.0 && crossings_.size() < most_; }
 
   [[nodiscard]] Vector2 span_of(const Element& element) const {
     return scene_.position[element.end] - scene_.position[element.start];
@@ -124,11 +140,87 @@ class OverlapFinder {
   void keep_touching(std::vector<Pair>& pairs) {
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.ball < b.ball; });
     for (const Pair& pair : pairs) {
-      if (distance_to(scene_.elements[pair.segment], pair.ball) < paths_.reach_of(pair.ball, pair.segment)) {
+      const double distance = distance_to(scene_.elements[pair.segment], pair.ball);
+      const double reach = paths_.reach_of(pair.ball, pair.segment);
+      if (distance < kOnMidLine * reach) {
         add(scene_.incidence[scene_.incidence_offset[pair.ball]], pair.segment, scene_.position[pair.ball]);
+      } else if (distance < reach) {
+        overlaps_.push_back({pair_of(pair), distance});
       }
     }
     pairs.clear();
+  }
+
+  /// The elements of a wall: from the first on, `stride` apart, before the end.
+  struct ElementsOfWall {
+    int wall;  ///< as listed
+    int first;
+    int end;
+    int stride;
+  };
+
+  /// Those of the wall that has an element.
+  [[nodiscard]] ElementsOfWall wall_with(int element) const {
+    if (element >= scene_.rigid.first_element) {
+      const int wall = static_cast<int>(scene_.walls.start.size()) + element - scene_.rigid.first_element;
+      return {scene_.frame_order.beam_of(wall), element, element + 1, 1};
+    }
+    const auto after = std::ranges::upper_bound(scene_.walls.blocks, element, {}, &WallBlock::first_element);
+    const WallBlock& block = *std::prev(after);
+    const int of_block = (element - block.first_element) % block.walls;
+    const int first = block.first_element + of_block;
+    return {scene_.frame_order.beam_of(block.first_wall + of_block), first,
+            first + (block.elements - 1) * block.walls + 1, block.walls};
+  }
+
+  [[nodiscard]] bool has_particle(const ElementsOfWall& wall, int particle) const {
+    for (int e = wall.first; e < wall.end; e += wall.stride) {
+      if (scene_.elements[e].start == particle || scene_.elements[e].end == particle) return true;
+    }
+    return false;
+  }
+
+  /// The pair of a ball and the wall of a segment. Of the ball's own wall only the segment counts: it never parts from
+  /// the rest.
+  [[nodiscard]] StartOverlap pair_of(const Pair& found) const {
+    const ElementsOfWall wall = wall_with(found.segment);
+    StartOverlap pair = {
+        found.ball, wall_of_ball(found.ball, wall), wall.wall, found.segment, wall.first, wall.end, wall.stride, 0.0};
+    if (has_particle(wall, found.ball)) {
+      pair.first_segment = found.segment;
+      pair.end_segment = found.segment + 1;
+      pair.stride = 1;
+    }
+    return pair;
+  }
+
+  /// The wall of a ball, of a joint one that has a joint of the other wall, or else the first.
+  [[nodiscard]] int wall_of_ball(int ball, const ElementsOfWall& other) const {
+    const int first = scene_.incidence_offset[ball];
+    for (int k = first; k < scene_.incidence_offset[ball + 1]; ++k) {
+      const ElementsOfWall own = wall_with(scene_.incidence[k]);
+      const int start = scene_.elements[own.first].start;
+      if (has_particle(other, start == ball ? scene_.elements[own.end - 1].end : start)) return own.wall;
+    }
+    return wall_with(scene_.incidence[first]).wall;
+  }
+
+  /// What was found for a ball and a wall as one pair.
+  StartOverlaps by_ball_and_wall() {
+    std::ranges::sort(overlaps_, {}, &Overlap::order);
+    StartOverlaps all;
+    if (overlaps_.empty()) return all;
+    all.offset.assign(scene_.particle_count() + 1, 0);
+    for (const Overlap& overlap : overlaps_) {
+      const bool is_known = !all.pairs.empty() && all.pairs.back().ball == overlap.pair.ball &&
+                            all.pairs.back().first_segment == overlap.pair.first_segment;
+      if (is_known) continue;
+      all.pairs.push_back(overlap.pair);
+      all.pairs.back().reach = kKeptDistance * overlap.distance;
+      ++all.offset[overlap.pair.ball + 1];
+    }
+    std::partial_sum(all.offset.begin(), all.offset.end(), all.offset.begin());
+    return all;
   }
 
   Marks place_marks() {
@@ -160,9 +252,9 @@ class OverlapFinder {
   }
 
   void add(int first, int second, const Vector2& place) {
-    const auto same = [&](const InitialOverlap& other) { return other.first == first && other.second == second; };
-    if (found_.size() < most_ && std::none_of(found_.begin(), found_.end(), same)) {
-      found_.push_back({first, second, place});
+    const auto same = [&](const InitialCrossing& other) { return other.first == first && other.second == second; };
+    if (crossings_.size() < most_ && std::none_of(crossings_.begin(), crossings_.end(), same)) {
+      crossings_.push_back({first, second, place});
     }
   }
 
@@ -171,13 +263,22 @@ class OverlapFinder {
   WallPaths paths_;
   double mean_length_ = 0.0;
   double visits_left_ = 0.0;
-  std::vector<InitialOverlap> found_;
+  std::vector<InitialCrossing> crossings_;
+  std::vector<Overlap> overlaps_;
 };
 
 }  // namespace
 
-InitialOverlaps find_initial_overlaps(const Scene& scene, std::size_t most) {
-  OverlapFinder finder(scene, most);
+std::vector<std::pair<int, int>> StartOverlaps::walls() const {
+  std::vector<std::pair<int, int>> walls;
+  for (const StartOverlap& pair : pairs) walls.emplace_back(std::minmax(pair.ball_wall, pair.wall));
+  std::ranges::sort(walls);
+  walls.erase(std::ranges::unique(walls).begin(), walls.end());
+  return walls;
+}
+
+InitialOverlaps find_initial_overlaps(const Scene& scene, std::size_t most_crossings) {
+  OverlapFinder finder(scene, most_crossings);
   finder.find_touching();
   finder.find_crossing();
   return finder.take();

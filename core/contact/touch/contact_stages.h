@@ -29,8 +29,8 @@ std::size_t find_awake_candidates(const ContactLists& lists, std::size_t first, 
 /// to ContactWorkspace::before; Touches::known has their indices there.
 ///
 /// Nearly all pairs touch for many steps. They are copied in long runs between the few that are added or removed.
-void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
-                      std::vector<NewContact>& of_next_band);
+void remember_touches(const Scene& scene, const State& state, const LatticeBand& band, ContactLists& lists,
+                      ContactWorkspace& workspace, std::vector<NewContact>& of_next_band);
 
 /// Overwrites TouchMemory::linked of the pairs of a ball. `index`: see pairs_of_ball.
 void link_pairs_of_ball(const Scene& scene, TouchMemory& touching, int ball, int index);

@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include "contact/search/candidate_lists.h"
+#include "contact/start_overlaps.h"
 #include "contact/touch_geometry-inl.h"
 #include "simd/points-inl.h"
 
@@ -30,7 +31,7 @@ struct PairArrays {
   const double* reach = lists.touching.reach.data();
   const double* radius_growth = state.radius_growth.data();
   const bool has_grown = lists.reach_growth > 0.0;
-  const bool has_limits = !scene.limited_reaches.segment.empty();
+  const bool has_limits = !scene.limited_reaches.segment.empty() || !scene.start_overlaps.empty();
   int* side = lists.touching.side.data();
   int* start = touches.start.data();
   int* end = touches.end.data();
@@ -68,7 +69,7 @@ template <class D>
 HWY_INLINE Lane<D> limits_of_growth(const PairArrays& arrays, Lane<D> before, std::size_t i) {
   double most[Lane<D>::kWidth];
   for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
-    most[lane] = arrays.scene.most_reach_of(arrays.ball[i + lane], arrays.segment[i + lane]);
+    most[lane] = most_reach_now(arrays.scene, arrays.state, arrays.ball[i + lane], arrays.segment[i + lane]);
   }
   return Lane<D>::load(most) - before;
 }

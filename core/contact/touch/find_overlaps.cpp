@@ -14,6 +14,7 @@
 
 #include "cellcrush/tuning.h"
 #include "contact/search/candidate_lists.h"
+#include "contact/start_overlaps.h"
 #include "contact/touch_geometry-inl.h"
 #include "simd/points-inl.h"
 
@@ -90,7 +91,7 @@ HWY_INLINE void grow(const Scene& scene, const State& state, int segment, Tested
   const double of_start = state.radius_growth[tested.start[i]];
   const double of_end = state.radius_growth[tested.end[i]];
   if (of_ball + of_start + of_end > 0.0) {
-    const double most = scene.most_reach_of(tested.ball[i], segment);
+    const double most = most_reach_now(scene, state, tested.ball[i], segment);
     const double before = tested.reach[i];
     tested.reach[i] = std::min(before + of_ball + of_start, most);
     tested.taper[i] = std::min(before + of_ball + of_end, most) - tested.reach[i];

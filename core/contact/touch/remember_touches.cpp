@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "contact/search/candidate_lists.h"
+#include "contact/start_overlaps.h"
 #include "contact/touch/contact_stages.h"
 
 namespace cellcrush {
@@ -77,6 +78,7 @@ void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit)
 /// Writes the pairs that touch from now on, one after the other.
 struct Writer {
   const Scene& scene;
+  const State& state;
   const std::vector<int>& released;  ///< indices into the earlier pairs
   ContactWorkspace& workspace;
   TouchMemory& after;
@@ -99,7 +101,7 @@ struct Writer {
     note_change(pair.ball);
     after.ball[count] = pair.ball;
     after.segment[count] = pair.segment;
-    after.reach[count] = scene.reach_of(pair.ball, pair.segment);
+    after.reach[count] = reach_now(scene, state, pair.ball, pair.segment);
     after.place[count] = pair.index;
     after.linked[count] = 0;
     after.side[count] = 0;
@@ -133,15 +135,15 @@ void link_pairs_of_ball(const Scene& scene, TouchMemory& touching, int ball, int
   }
 }
 
-void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
-                      std::vector<NewContact>& of_next_band) {
+void remember_touches(const Scene& scene, const State& state, const LatticeBand& band, ContactLists& lists,
+                      ContactWorkspace& workspace, std::vector<NewContact>& of_next_band) {
   classify_found(band, lists, workspace, of_next_band);
   std::swap(lists.touching, workspace.before);
   const std::size_t count = workspace.before.count() - lists.released.size() + workspace.new_contacts.size();
   visit_kept(lists.touching, workspace.before, [&](auto& field, const auto&) { resize_with_room(field, count); });
   workspace.touches.resize(count);
   workspace.changes.clear();
-  Writer writer = {scene, lists.released, workspace, lists.touching};
+  Writer writer = {scene, state, lists.released, workspace, lists.touching};
   for (const NewContact& pair : workspace.new_contacts) {
     writer.copy_until(pair.next);
     writer.put(pair);

@@ -259,7 +259,8 @@ struct Summary {
   double energy_error_relative = 0.0;
   double deepest_penetration = 0.0;
   std::int64_t step_count = 0;
-  std::int64_t rigid_link_count = 0;  ///< beams of a frame that were rigid (scene/rigid_links.h)
+  std::int64_t rigid_link_count = 0;     ///< beams of a frame that were rigid (scene/rigid_links.h)
+  std::int64_t start_overlap_count = 0;  ///< pairs of walls that overlapped before loading (StartOverlaps)
   /// The mode that most evaluations found; of equally frequent ones, the first.
   CrushMode crush_mode = CrushMode::none;
   std::optional<double> crush_mode_strain;  ///< strain of the first evaluation that found it

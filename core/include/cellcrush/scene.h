@@ -236,6 +236,33 @@ struct LimitedReaches {
   std::vector<double> reach;  ///< mm, the greatest
 };
 
+/// A ball that overlaps a wall before loading (E8f, contact/topology/initial_overlap.h). Until it has parted from the
+/// wall, the reach between them is at most the distance at which they stand.
+struct StartOverlap {
+  int ball = 0;
+  int ball_wall = 0;      ///< a wall of the ball, if possible one that shares a joint with the other, as listed
+  int wall = 0;           ///< the wall that it overlaps, as listed (FrameOrder)
+  int nearest = 0;        ///< the element of that wall that is nearest to the ball before loading
+  int first_segment = 0;  ///< the elements of the wall: this one and those `stride` apart, before end_segment
+  int end_segment = 0;
+  int stride = 1;
+  double reach = 0.0;  ///< mm, the greatest until they have parted
+
+  [[nodiscard]] bool has(int segment) const {
+    return segment >= first_segment && segment < end_segment && (segment - first_segment) % stride == 0;
+  }
+};
+
+/// All of them, P, by ball and wall. N particles.
+struct StartOverlaps {
+  std::vector<int> offset;          ///< N + 1, by ball, into pairs; empty if there are none
+  std::vector<StartOverlap> pairs;  ///< P
+
+  [[nodiscard]] bool empty() const { return pairs.empty(); }
+  /// The pairs of walls, as listed, the lower number first; ascending, each once.
+  [[nodiscard]] std::vector<std::pair<int, int>> walls() const;
+};
+
 /// Fictitious masses (E11b): real masses times `mass`, real rotary inertias times `mass` and `rotary`.
 struct MassScaling {
   double mass = 1.0;
@@ -301,6 +328,7 @@ struct Scene {
   bool constant_area = false;  ///< walls keep their section area, as in the paper, instead of their volume (E5c)
   ContactLaw contact;
   LimitedReaches limited_reaches;  ///< empty without contact
+  StartOverlaps start_overlaps;    ///< empty without contact
   ContactFaces faces;              ///< for the contact search, where their premise holds
   Plates plates;
   std::vector<RigidWall> rigid_walls;
@@ -323,7 +351,7 @@ struct Scene {
   [[nodiscard]] double full_reach_of(int ball, int segment) const {
     return radius[ball] + 0.5 * elements[segment].thickness;
   }
-  /// Greatest distance at which a ball and a segment touch, mm (E8a); infinite if no short path joins them.
+  /// Greatest distance at which a ball and a segment touch once they have parted, mm (E8a); infinite if no short path joins them.
   [[nodiscard]] double most_reach_of(int ball, int segment) const {
     if (!limited_reaches.offset.empty()) {
       for (int k = limited_reaches.offset[ball]; k < limited_reaches.offset[ball + 1]; ++k) {
@@ -334,7 +362,8 @@ struct Scene {
     }
     return std::numeric_limits<double>::infinity();
   }
-  /// Distance at which a ball and a segment touch, mm (E8, E8a), with the thickness before loading.
+  /// Distance at which a ball and a segment touch once they have parted, mm (E8, E8a), with the thickness before
+  /// loading.
   [[nodiscard]] double reach_of(int ball, int segment) const {
     return std::min(full_reach_of(ball, segment), most_reach_of(ball, segment));
   }
@@ -372,14 +401,15 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
                elements, walls, bands, rigid, frame_order, pins, incidence_offset, incidence, joint_count,
                wall_end_offset, wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity,
                initial_spin, depth, materials, law, section, single_fibres, slow_loading, constant_area, contact,
-               limited_reaches, faces, plates, rigid_walls, mass_scaling, mass_damping, schedule, length, width,
-               total_mass, solid_area, stable_step, collapse_stress, fidelity, watched] = scene;
+               limited_reaches, start_overlaps, faces, plates, rigid_walls, mass_scaling, mass_damping, schedule,
+               length, width, total_mass, solid_area, stable_step, collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;
   const auto& [node, beam] = frame_order;
   const auto& [pin_offset, pin_joint] = pins;
   const auto& [reach_offset, segment, reach] = limited_reaches;
+  const auto& [overlap_offset, overlap_pairs] = start_overlaps;
   const auto& [premise, side, thick_ends, faces_of_bands, border] = faces;
   const auto list = [&visit](const auto&... arrays) { (visit(arrays), ...); };
   list(position, mass, inertia, inverse_mass, inverse_inertia, radius, elements, bands, incidence_offset, incidence,
@@ -390,6 +420,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   list(node, beam);
   list(pin_offset, pin_joint);
   list(reach_offset, segment, reach);
+  list(overlap_offset, overlap_pairs);
   list(side, thick_ends, border);
   for (const FacesOfBand& of_band : faces_of_bands) {
     visit_arrays(of_band, visit);

@@ -60,12 +60,13 @@ SceneFacts facts_of(const Scene& scene);
 
 /// Geometry that stays constant during a run, in the units of the solver.
 struct MeshView {
-  std::vector<float> position;     ///< x0 y0 x1 y1 ... of N particles before loading, mm
-  std::vector<int> element_nodes;  ///< start0 end0 start1 end1 ... of E elements
-  std::vector<float> thickness;    ///< mm, of E elements
-  std::vector<int> element_wall;   ///< of E elements: number of its wall, or of its beam in the list of a frame
-  int rigid_elements = 0;          ///< of stiff cells or rigid links; they come last
-  double length = 0.0;             ///< envelope along the crush, mm
+  std::vector<float> position;        ///< x0 y0 x1 y1 ... of N particles before loading, mm
+  std::vector<int> element_nodes;     ///< start0 end0 start1 end1 ... of E elements
+  std::vector<float> thickness;       ///< mm, of E elements
+  std::vector<int> element_wall;      ///< of E elements: number of its wall, or of its beam in the list of a frame
+  int rigid_elements = 0;             ///< of stiff cells or rigid links; they come last
+  std::vector<int> overlap_particle;  ///< whose walls overlapped others before loading, ascending (StartOverlaps)
+  double length = 0.0;                ///< envelope along the crush, mm
   double width = 0.0;
   double impact_plate = 0.0;  ///< the plates' faces before loading, along the crush, mm
   double support_plate = 0.0;

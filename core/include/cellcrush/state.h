@@ -138,6 +138,9 @@ struct State {
   /// buckets. -1: none.
   std::int64_t crossing_step = -1;
 
+  /// One for each of Scene::start_overlaps, 1: has parted (E8f). Written by find_contacts.
+  std::vector<std::uint8_t> parted;
+
   // Written by evaluate_contact_forces and evaluate_plate_forces, which add to forces that integrate_motion has
   // cleared.
   LaneVector<ContactForce> contact_force;  ///< N, of walls and plates
@@ -174,7 +177,7 @@ void visit_fields(S& state, Visitor&& visit) {
          reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
          length, inverse_length, shortening, thickening, thickening_slope, radius_growth, fibres, single_fibres,
          wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
-         contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
+         parted, contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
          rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, ledger, derived_steps,
          derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
@@ -192,7 +195,7 @@ void visit_fields(S& state, Visitor&& visit) {
   for (auto& lists : contacts) {
     visit_search_fields(lists, visit);
   }
-  list(crossing_step);
+  list(crossing_step, parted);
   for (auto& lists : contacts) {
     visit_touch_fields(lists, visit);
   }

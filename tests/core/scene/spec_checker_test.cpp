@@ -125,7 +125,7 @@ TEST(SpecChecker, SaysOfEverySpecWhatBuildingItsSceneSaysWhateverWasCheckedBefor
   }
 }
 
-TEST(SpecChecker, SaysOfAFrameThatOverlapsWhatBuildingItsSceneSays) {
+TEST(SpecChecker, SaysOfAFrameThatCrossesWhatBuildingItsSceneSays) {
   SpecChecker checker;
   SceneSpec spec = scenes::elastic_frame(
       scenes::touching_beams({{0.0, 0.0}, {20.0, 0.0}, {10.0, -5.0}, {10.0, 5.0}}, {{0, 1}, {2, 3}}, 0.5, 4));
@@ -157,8 +157,8 @@ TEST(SpecChecker, SaysOfScalingsOutOfRangeWhatBuildingTheirScenesSays) {
   }
 }
 
-// Thick walls of few and many elements, and joints thrown far: where bounds do not decide, and on either side of what
-// is refused.
+// Thick walls of few and many elements, and joints thrown far: walls that overlap before loading, and on either side
+// of what is refused.
 TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) {
   SceneSpec spec = scenes::hexagon_specimen(3, 3);
   SpecChecker checker;
@@ -176,9 +176,7 @@ TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) 
     check_lattice(scenes::hexagons(4, 3, 4.0, thickness, 2.0));
     check_lattice(scenes::squares(4, 3, 4.0, thickness));
   }
-  EXPECT_GT(refused, 5) << "triangles whose walls meet at small angles";
-  EXPECT_LT(refused, 45);
-  refused = 0;
+  EXPECT_EQ(refused, 0) << "walls that meet at small angles overlap, but do not cross";
   spec.imperfection = {0.05, 1};
   for (const int elements : {12, 48, 64}) {
     for (double thickness = 0.4; thickness <= 2.01; thickness += 0.4) {
