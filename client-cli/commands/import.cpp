@@ -24,6 +24,7 @@ struct ImportOptions {
   std::string unit;
   std::optional<double> thickness;
   std::optional<double> tolerance;
+  double bond = kBondTolerance;
   bool keeps_crossings = false;
 };
 
@@ -43,6 +44,12 @@ std::string places_text(const std::vector<DrawnPlace>& places) {
   return places.size() > kShown ? text + fmt::format(" and {} more", places.size() - kShown) : text;
 }
 
+std::vector<DrawnPlace> middles_of(const std::vector<Bond>& bonds) {
+  std::vector<DrawnPlace> middles;
+  for (const Bond& bond : bonds) middles.push_back(bond.middle);
+  return middles;
+}
+
 /// What was read and done, a line each.
 std::string report_text(const Drawing& drawing, const JoinedWalls& joined, double mm) {
   std::string text = fmt::format("{} walls between {} joints, 1 unit of the file = {:.6g} mm\n",
@@ -51,6 +58,9 @@ std::string report_text(const Drawing& drawing, const JoinedWalls& joined, doubl
     if (is_so) text += "  " + line + "\n";
   };
   tell(joined.merged > 0, fmt::format("{} ends merged within {:.3g} mm", joined.merged, joined.tolerance_mm));
+  tell(!joined.bonds.empty(),
+       fmt::format("{} pairs of walls face to face: bonded into one of both thicknesses, at {} mm", joined.bonds.size(),
+                   places_text(middles_of(joined.bonds))));
   tell(joined.divided > 0, fmt::format("{} ends met a wall between its joints: joined there", joined.divided));
   tell(!joined.crossings.empty(),
        fmt::format("{} crossings of walls, at {} mm", joined.crossings.size(), places_text(joined.crossings)));
@@ -85,6 +95,7 @@ google::protobuf::Struct report_json(const Drawing& drawing, const JoinedWalls& 
   count("divided", joined.divided);
   count("duplicates", joined.duplicates);
   count("without_length", static_cast<double>(joined.lengths.size()));
+  places("bonds_mm", middles_of(joined.bonds));
   places("crossings_mm", joined.crossings);
   places("loose_mm", joined.loose);
   places("islands_mm", joined.islands);
@@ -96,7 +107,8 @@ google::protobuf::Struct report_json(const Drawing& drawing, const JoinedWalls& 
 ExitCode run_import(Session& session, const ImportOptions& options) {
   const Drawing drawing = read_drawing(options.files);
   const double mm = mm_of_unit(options, drawing);
-  const JoinedWalls joined = join_walls(drawing, {mm, options.tolerance, options.thickness, !options.keeps_crossings});
+  const JoinedWalls joined =
+      join_walls(drawing, {mm, options.tolerance, options.thickness, options.bond, !options.keeps_crossings});
   v1::Case out;
   if (!options.base.empty()) out = read_case(options.base, {}, session.connection());
   out.set_title(std::filesystem::path(options.files.front()).stem().string());
@@ -127,6 +139,10 @@ void add_import_command(CLI::App& app, Session& session) {
              "Thickness in mm of walls whose file does not tell it (default: none)");
   add_option(*command, kCaseOptions, "--tolerance", options->tolerance,
              "Distance in mm within which ends are one joint (default: a thousandth of the shortest wall)");
+  add_option(*command, kCaseOptions, "--bond", options->bond,
+             "Walls face to face, a thickness apart to within this share of it, become one wall of both; 0: they slide "
+             "(default: 0.05)")
+      ->check(CLI::Range(0.0, 0.5).description(""));
   add_option(*command, kCaseOptions, "--keep-crossings", options->keeps_crossings,
              "Do not join walls where they cross");
   add_examples(*command,

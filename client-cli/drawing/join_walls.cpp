@@ -69,6 +69,7 @@ class Joiner {
  public:
   Joiner(const Drawing& drawing, const JoinOptions& options) : options_(options) {
     scale(drawing);
+    out_.bonds = bond_walls(options.bond, lines_);
     out_.tolerance_mm = options.tolerance_mm.value_or(kTolerance * shortest_);
     if (!(out_.tolerance_mm > 0.0)) refuse("The tolerance is 0 mm. Give a positive one with --tolerance.");
   }
@@ -85,13 +86,6 @@ class Joiner {
   }
 
  private:
-  struct Line {
-    DrawnPlace start;
-    DrawnPlace end;
-    double rise;
-    double thickness;
-  };
-
   void scale(const Drawing& drawing) {
     const double mm = options_.mm_per_unit;
     shortest_ = std::numeric_limits<double>::infinity();
@@ -104,8 +98,11 @@ class Joiner {
       shortest_ = std::min(shortest_, length);
       const auto thickness = wall.thickness ? std::optional(mm * *wall.thickness) : options_.thickness_mm;
       if (!thickness) refuse(fmt::format("{} has no thickness. Give that of such walls with --thickness.", wall.name));
-      lines_.push_back(
-          {{mm * wall.start.x, mm * wall.start.y}, {mm * wall.end.x, mm * wall.end.y}, mm * wall.rise, *thickness});
+      lines_.push_back({{mm * wall.start.x, mm * wall.start.y},
+                        {mm * wall.end.x, mm * wall.end.y},
+                        mm * wall.rise,
+                        thickness,
+                        wall.name});
     }
     if (lines_.empty()) refuse("No line has a length. Check the unit and the tolerance.");
   }
@@ -122,12 +119,12 @@ class Joiner {
       grid.add(place, static_cast<int>(joints_.size()) - 1);
       return static_cast<int>(joints_.size()) - 1;
     };
-    for (const Line& line : lines_) {
+    for (const DrawnWall& line : lines_) {
       const int start = joint_at(line.start);
-      walls_.push_back({start, joint_at(line.end), line.rise, line.thickness});
+      walls_.push_back({start, joint_at(line.end), line.rise, *line.thickness});
     }
     std::set<std::pair<double, double>> places;
-    for (const Line& line : lines_) {
+    for (const DrawnWall& line : lines_) {
       places.insert({line.start.x, line.start.y});
       places.insert({line.end.x, line.end.y});
     }
@@ -309,7 +306,7 @@ class Joiner {
 
   JoinOptions options_;
   double shortest_ = 0.0;
-  std::vector<Line> lines_;
+  std::vector<DrawnWall> lines_;  // in mm
   std::vector<DrawnPlace> joints_;
   std::vector<Wall> walls_;
   JoinedWalls out_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cellcrush/v1/case.pb.h"
+#include "drawing/bond_walls.h"
 #include "drawing/drawing.h"
 
 namespace cellcrush::client {
@@ -14,6 +15,7 @@ struct JoinOptions {
   double mm_per_unit = 1.0;
   std::optional<double> tolerance_mm;  ///< within which places are one joint; default: kTolerance of the shortest wall
   std::optional<double> thickness_mm;  ///< of walls whose file does not say it
+  double bond = kBondTolerance;        ///< see bond_walls; 0: no walls are bonded
   bool joins_crossings = true;         ///< whether walls that cross are joined there
 };
 
@@ -26,6 +28,7 @@ struct JoinedWalls {
   int merged = 0;                     ///< ends of walls that became one joint, less one for each joint
   std::vector<std::string> lengths;   ///< names of walls without length, left out
   int duplicates = 0;                 ///< walls that were drawn twice, left out
+  std::vector<Bond> bonds;            ///< where walls face to face became one
   int divided = 0;                    ///< ends that met a wall between its joints, which was divided there
   std::vector<DrawnPlace> crossings;  ///< where walls cross that are joined there, or are not
   std::vector<DrawnPlace> loose;      ///< joints with one wall
@@ -33,7 +36,7 @@ struct JoinedWalls {
   std::vector<int> island_walls;      ///< walls of each of these
 };
 
-/// Joins the ends of walls that lie within the tolerance of each other, divides straight walls where ends of others
+/// Bonds walls face to face, joins the ends of walls that lie within the tolerance of each other, divides straight walls where ends of others
 /// meet them and, if asked, where they cross, and leaves out what is there twice. Joints are numbered in the order of
 /// the walls. Throws CommandError (refused) if a wall has no thickness, or nothing is left.
 JoinedWalls join_walls(const Drawing& drawing, const JoinOptions& options);

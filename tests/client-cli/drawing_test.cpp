@@ -35,12 +35,74 @@ std::vector<int> walls_of(const JoinedWalls& joined) {
 }
 
 TEST(JoinWalls, EndsWithinTheToleranceAreOneJoint) {
-  const JoinedWalls joined = join({line(0, 0, 1, 0), line(1.0005, 0, 1, 1)}, JoinOptions{1.0, 1e-3, {}, true});
+  const JoinedWalls joined = join({line(0, 0, 1, 0), line(1.0005, 0, 1, 1)}, JoinOptions{.tolerance_mm = 1e-3});
   EXPECT_THAT(joints_of(joined), ElementsAre(0, 0, 1, 0, 1, 1));
   EXPECT_THAT(walls_of(joined), ElementsAre(0, 1, 1, 2));
   EXPECT_EQ(joined.merged, 1);
   EXPECT_THAT(joined.loose, SizeIs(2));
   EXPECT_THAT(joined.islands, SizeIs(0));
+}
+
+/// Walls as thick as `thickness`, bonded; all their numbers, in the order of the walls.
+std::vector<double> bonded(std::vector<DrawnWall> walls, double thickness, double share = kBondTolerance) {
+  for (DrawnWall& wall : walls) wall.thickness = thickness;
+  bond_walls(share, walls);
+  std::vector<double> numbers;
+  for (const DrawnWall& wall : walls) {
+    numbers.insert(numbers.end(), {wall.start.x, wall.start.y, wall.end.x, wall.end.y, *wall.thickness});
+  }
+  return numbers;
+}
+
+TEST(BondWalls, FaceToFaceAreOneWallOfBothThicknesses) {
+  const std::vector<DrawnWall> foils = {line(0, 0, 10, 0), line(10, 0.49, 0, 0.49)};
+  EXPECT_THAT(bonded(foils, 0.5), ElementsAre(0, 0.245, 10, 0.245, 1.0));
+  EXPECT_THAT(bonded(foils, 0.5, 0.0), SizeIs(10));
+  EXPECT_THAT(bonded(foils, 0.4), SizeIs(10));                                         // 1.2 thicknesses apart
+  EXPECT_THAT(bonded(foils, 0.6), SizeIs(10));                                         // 0.8 of one
+  EXPECT_THAT(bonded({line(0, 0, 10, 0), line(9.7, 0.5, 20, 0.5)}, 0.5), SizeIs(10));  // hardly side by side
+  EXPECT_THAT(bonded({line(0, 0, 10, 0), line(0, 0.5, 10, 0.6)}, 0.5), SizeIs(10));    // not parallel
+  EXPECT_THAT(bonded({line(0, 0, 10, 0), line(0, 0, 10, 0)}, 0.5), SizeIs(10));        // the same place
+}
+
+TEST(BondWalls, AStackIsOneWall) {
+  EXPECT_THAT(bonded({line(0, 0, 10, 0), line(0, 0.5, 10, 0.5), line(10, 1, 0, 1)}, 0.5),
+              ElementsAre(0, 0.5, 10, 0.5, 1.5));
+}
+
+TEST(BondWalls, WhatIsBeyondTheBondAndWhatEndsOnItStayJoined) {
+  const JoinedWalls joined = join({line(0, 0, 20, 0), line(5, 0.5, 12, 0.5), line(12, 0.5, 20, 8), line(8, 0, 8, -9)},
+                                  JoinOptions{.thickness_mm = 0.5});
+  EXPECT_THAT(joined.bonds, SizeIs(1));
+  EXPECT_EQ(joined.bonds.front().middle, (DrawnPlace{8.5, 0.25}));
+  EXPECT_EQ(joined.bonds.front().length, 7.0);
+  EXPECT_EQ(joined.bonds.front().thickness, 1.0);
+  // From left to right: a single foil, both in two parts, and where they part again two single ones.
+  EXPECT_THAT(joints_of(joined), ElementsAre(5, 0.25, 8, 0.25, 12, 0.25, 20, 8, 8, -9, 0, 0, 20, 0));
+  EXPECT_THAT(walls_of(joined), ElementsAre(0, 1, 1, 2, 2, 3, 1, 4, 5, 0, 2, 6));
+  EXPECT_THAT(joined.network.thicknesses_mm(), ElementsAre(1.0, 1.0, 0.5, 0.5, 0.5, 0.5));
+  EXPECT_THAT(joined.islands, SizeIs(0));
+  const JoinedWalls sliding = join({line(0, 0, 20, 0), line(5, 0.5, 12, 0.5)}, {.thickness_mm = 0.5, .bond = 0.0});
+  EXPECT_THAT(sliding.islands, SizeIs(1));
+}
+
+// Foils that meet as the sides of hexagons do, a little out of place: the double walls of an expanded honeycomb.
+TEST(BondWalls, ExpandedFoilsBecomeHexagonsWithDoubleWalls) {
+  const double slope = 5.0 * std::sqrt(0.75);
+  std::vector<DrawnWall> walls;
+  for (const int side : {-1, 1}) {
+    const double face = 0.05 * side;
+    walls.push_back(line(0, face, 5, face));
+    walls.push_back(line(5.02, face, 7.5, face + side * slope));
+    walls.push_back(line(0, face, -2.5, face + side * slope));
+  }
+  walls[3] = line(5.03, 0.05, 0.01, 0.05);
+  const JoinedWalls joined = join(walls, JoinOptions{.tolerance_mm = 0.04, .thickness_mm = 0.1});
+  EXPECT_EQ(joined.network.walls_size() / 2, 5);
+  EXPECT_EQ(joined.network.joints_mm_size() / 2, 6);
+  EXPECT_THAT(joined.bonds, SizeIs(1));
+  EXPECT_EQ(std::ranges::count(joined.network.thicknesses_mm(), 0.2), 1);
+  EXPECT_THAT(joined.loose, SizeIs(4));
 }
 
 TEST(JoinWalls, AnEndThatMeetsAWallDividesIt) {
@@ -53,7 +115,7 @@ TEST(JoinWalls, WallsThatCrossAreJoinedThereOrNamed) {
   const std::vector<DrawnWall> cross = {line(-1, 0, 1, 0), line(0, -1, 0, 1)};
   EXPECT_THAT(join(cross).crossings, ElementsAre(DrawnPlace{0, 0}));
   EXPECT_EQ(join(cross).network.walls_size() / 2, 4);
-  const JoinedWalls kept = join(cross, JoinOptions{1.0, {}, {}, false});
+  const JoinedWalls kept = join(cross, JoinOptions{.joins_crossings = false});
   EXPECT_THAT(kept.crossings, ElementsAre(DrawnPlace{0, 0}));
   EXPECT_EQ(kept.network.walls_size() / 2, 2);
   EXPECT_THAT(kept.islands, SizeIs(1));
