@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "chart/colour_map.h"
@@ -15,7 +16,9 @@ constexpr int kShades = 32;
 constexpr double kThinnestWall = 0.5;  // units; thinner lines vanish
 constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the specimen's longer side
 constexpr double kMarginShare = 1.5;   // around the drawing, in thicknesses of a plate
+constexpr double kSmallestRing = 2.5;  // units, radius
 constexpr Colour kPlateColour{0.35, 0.36, 0.40};
+constexpr Colour kOverlapColour{0.80, 0.15, 0.55};
 
 double impact_plate_now(const LatticeStage& stage) {
   return stage.impact_plate_mm + stage.strain * (stage.support_plate_mm - stage.impact_plate_mm);
@@ -119,6 +122,24 @@ void draw_walls(cairo_t* context, const Projection& projection, const LatticeSta
   cairo_set_line_cap(context, CAIRO_LINE_CAP_BUTT);
 }
 
+// Rings round the particles where walls overlapped before loading.
+void draw_overlaps(cairo_t* context, const Projection& projection, const LatticeStage& stage) {
+  if (stage.overlap_particle.empty()) return;
+  const double thickest = projection.scale() * static_cast<double>(std::ranges::max(stage.thickness_mm));
+  const double radius = std::max(thickest, kSmallestRing);
+  for (const int particle : stage.overlap_particle) {
+    const auto at = 2 * static_cast<std::size_t>(particle);
+    const double x = projection.x(stage.position_mm[at]);
+    const double y = projection.y(stage.position_mm[at + 1]);
+    if (!std::isfinite(x + y)) continue;
+    cairo_new_sub_path(context);
+    cairo_arc(context, x, y, radius, 0.0, 2.0 * std::numbers::pi);
+  }
+  set_colour(context, kOverlapColour);
+  cairo_set_line_width(context, 1.0);
+  cairo_stroke(context);
+}
+
 }  // namespace
 
 double drawing_scale(const Rectangle& place, const Box& box) {
@@ -169,6 +190,7 @@ void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, cons
     draw_plate(context, projection, box, stage, stage.support_plate_mm, 1.0);
   }
   draw_walls(context, projection, stage);
+  draw_overlaps(context, projection, stage);
 }
 
 }  // namespace cellcrush::client

@@ -13,6 +13,7 @@ struct LatticeStage {
   std::vector<float> thickness_mm{};      ///< of each wall
   std::vector<float> plastic_fraction{};  ///< of each wall
   int rigid_elements = 0;                 ///< the last ones, of stiff cells or rigid links
+  std::vector<int> overlap_particle{};    ///< whose walls overlapped others before loading
   double impact_plate_mm = 0.0;           ///< face of the plate at the start
   double support_plate_mm = 0.0;
   bool along_y = false;  ///< the direction of loading
@@ -44,7 +45,7 @@ std::vector<Box> find_boxes(const std::vector<LatticeStage>& stages);
 double drawing_scale(const Rectangle& place, const Box& box);
 
 /// Draws a lattice and its plates into `place`, with the same scale for x and y: walls with their thickness, coloured
-/// by plastic fraction; rigid ones on top, in the colour of the plates.
+/// by plastic fraction; rigid ones on top, in the colour of the plates; rings where walls overlapped before loading.
 void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const LatticeStage& stage);
 
 }  // namespace cellcrush::client

@@ -101,6 +101,7 @@ LatticeStage lattice_stage(const MeshFrame& frame) {
           .thickness_mm = {mesh.thickness_mm().begin(), mesh.thickness_mm().end()},
           .plastic_fraction = {field.plastic_fraction().begin(), field.plastic_fraction().end()},
           .rigid_elements = mesh.rigid_element_count(),
+          .overlap_particle = {mesh.overlap_particle().begin(), mesh.overlap_particle().end()},
           .impact_plate_mm = mesh.impact_plate_mm(),
           .support_plate_mm = mesh.support_plate_mm(),
           .along_y = mesh.along_y(),

@@ -158,6 +158,11 @@ void add_rigid_links_row(Table& table, const v1::Summary& summary) {
   table.add({"rigid links", count_text(summary.rigid_link_count()), "", "beams too short to bend"});
 }
 
+void add_overlaps_row(Table& table, const v1::Summary& summary) {
+  if (summary.start_overlap_count() == 0) return;
+  table.add({"overlaps before loading", count_text(summary.start_overlap_count()), "", "pairs of walls"});
+}
+
 std::string warning_text(const v1::Warning& warning, int width) {
   return wrapped(fmt::format("Warning ({}): {}", v1::Warning::Kind_Name(warning.kind()), printable(warning.message())),
                  width, "  ", "    ") +
@@ -198,6 +203,7 @@ std::string summary_text(const v1::Job& job, int width) {
   }
   add_fibre_strain_row(table, summary, plates);
   add_rigid_links_row(table, summary);
+  add_overlaps_row(table, summary);
   if (summary.has_valid_to_time_s()) {
     table.add(
         {"valid to time", quantity_text(summary.valid_to_time_s(), "s"), "", "the frame is closed from there on"});

@@ -66,9 +66,15 @@ v1::Mesh ResultReader::mesh() const {
     read_all(open_result_dataset(file_.id(), "mesh/element_wall", H5T_STD_I32LE, 1), H5T_NATIVE_INT32,
              *out.mutable_element_wall());
   }
+  if (has("mesh/overlap_particle")) {
+    read_all(open_result_dataset(file_.id(), "mesh/overlap_particle", H5T_STD_I32LE, 1), H5T_NATIVE_INT32,
+             *out.mutable_overlap_particle());
+  }
   out.set_particle_count(out.position_mm_size() / 2);
   const auto is_particle = [&out](int node) { return node >= 0 && node < out.particle_count(); };
-  if (out.element_nodes_size() != 2 * out.thickness_mm_size() || !std::ranges::all_of(out.element_nodes(), is_particle))
+  if (out.element_nodes_size() != 2 * out.thickness_mm_size() ||
+      !std::ranges::all_of(out.element_nodes(), is_particle) ||
+      !std::ranges::all_of(out.overlap_particle(), is_particle))
     throw damaged_result("its mesh contradicts itself");
   const Hdf5Handle group(H5Gopen2(file_.id(), "mesh", H5P_DEFAULT), H5Gclose, "Opening the group mesh");
   const auto number = [&group](const char* name) { return read_number_attribute(group.id(), name); };

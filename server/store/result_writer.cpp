@@ -97,6 +97,11 @@ void ResultWriter::write_mesh(const v1::Mesh& mesh) {
       write_dataset(mesh_.id(), "element_wall", H5T_NATIVE_INT32, {element_count_}, mesh.element_wall().data());
   attach_scales(walls.id(), {elements_.id()});
   describe(walls.id(), "", "number, from 0, of the wall of each element");
+  if (const auto count = static_cast<hsize_t>(mesh.overlap_particle_size()); count > 0) {
+    const auto overlaps =
+        write_dataset(mesh_.id(), "overlap_particle", H5T_NATIVE_INT32, {count}, mesh.overlap_particle().data());
+    describe(overlaps.id(), "", "particles, from 0, of walls that overlapped others before loading");
+  }
   write_attribute(mesh_.id(), "rigid_element_count", static_cast<std::int64_t>(mesh.rigid_element_count()));
   write_attribute(mesh_.id(), "length_mm", mesh.length_mm());
   write_attribute(mesh_.id(), "width_mm", mesh.width_mm());

@@ -185,6 +185,7 @@ v1::Mesh to_proto(const MeshView& mesh) {
   out.mutable_thickness_mm()->Assign(mesh.thickness.begin(), mesh.thickness.end());
   out.mutable_element_wall()->Assign(mesh.element_wall.begin(), mesh.element_wall.end());
   out.set_rigid_element_count(mesh.rigid_elements);
+  out.mutable_overlap_particle()->Assign(mesh.overlap_particle.begin(), mesh.overlap_particle.end());
   out.set_length_mm(mesh.length);
   out.set_width_mm(mesh.width);
   out.set_impact_plate_mm(mesh.impact_plate);
@@ -239,6 +240,7 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& 
   for (const Warning& warning : summary.warnings) *out.add_warnings() = to_proto(warning);
   out.set_step_count(summary.step_count);
   out.set_rigid_link_count(summary.rigid_link_count);
+  out.set_start_overlap_count(summary.start_overlap_count);
   out.set_solver_seconds(time.processor);
   *out.mutable_theory() = to_proto(summary.theory);
   out.set_crush_mode(to_proto(summary.crush_mode));

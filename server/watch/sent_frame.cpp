@@ -199,6 +199,7 @@ std::vector<v1::MeshChunk> chunks_of(const v1::Mesh& mesh, std::size_t chunk_byt
   int thicknesses = 0;
   int positions = 0;
   int walls = 0;
+  int overlaps = 0;
   do {
     Room room(std::max<std::size_t>(chunk_bytes, sizeof(float)));
     v1::Mesh& part = *out.emplace_back().mutable_mesh();
@@ -207,8 +208,10 @@ std::vector<v1::MeshChunk> chunks_of(const v1::Mesh& mesh, std::size_t chunk_byt
     room.take(mesh.thickness_mm(), thicknesses, *part.mutable_thickness_mm());
     room.take(mesh.position_mm(), positions, *part.mutable_position_mm());
     room.take(mesh.element_wall(), walls, *part.mutable_element_wall());
+    room.take(mesh.overlap_particle(), overlaps, *part.mutable_overlap_particle());
   } while (nodes < mesh.element_nodes_size() || thicknesses < mesh.thickness_mm_size() ||
-           positions < mesh.position_mm_size() || walls < mesh.element_wall_size());
+           positions < mesh.position_mm_size() || walls < mesh.element_wall_size() ||
+           overlaps < mesh.overlap_particle_size());
   number_parts(out);
   return out;
 }

@@ -170,6 +170,14 @@ TEST(Picture, RigidElementsHaveTheColourOfThePlates) {
   EXPECT_THAT(render_job_picture(PictureFormat::svg, make_history(), {stage}), ContainsRegex(stroke));
 }
 
+TEST(Picture, ParticlesOfWallsThatOverlappedHaveRings) {
+  const std::string stroke = "stroke(:|=.)rgb.80%, ?15%, ?55%";
+  MeshFrame stage = synthetic_stage(10, 4, 0.3);
+  EXPECT_THAT(render_job_picture(PictureFormat::svg, make_history(), {stage}), Not(ContainsRegex(stroke)));
+  stage.mesh.add_overlap_particle(5);
+  EXPECT_THAT(render_job_picture(PictureFormat::svg, make_history(), {stage}), ContainsRegex(stroke));
+}
+
 TEST(NodeChart, ShowsHowTheWatchedNodesOfAFrameMoved) {
   JobHistory history;
   history.job.mutable_case_()->mutable_lattice()->mutable_frame()->set_end_time_s(0.02);

@@ -67,6 +67,12 @@ TEST(SummaryText, CountsRigidLinksIfThereAreAny) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("summary {}"), 140), Not(HasSubstr("rigid")));
 }
 
+TEST(SummaryText, CountsOverlapsBeforeLoadingIfThereAreAny) {
+  EXPECT_THAT(summary_text(from_text<v1::Job>("summary { start_overlap_count: 1234 }"), 140),
+              ContainsRegex("overlaps before loading +1,?234 +pairs of walls"));
+  EXPECT_THAT(summary_text(from_text<v1::Job>("summary {}"), 140), Not(HasSubstr("overlaps")));
+}
+
 TEST(SummaryText, SaysWhereAndWhenAFibreWasStrainedMost) {
   auto job = from_text<v1::Job>(R"(words { plates: true } summary { fibre_strain {
     largest: 0.1234 wall: 17 x_mm: 3.5 y_mm: 12.25 nominal_strain: 0.31 time_s: 0.002 } })");

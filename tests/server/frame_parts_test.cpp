@@ -21,6 +21,7 @@ v1::Mesh mesh_of(int particles) {
   out.set_particle_count(particles);
   out.set_length_mm(3.0);
   out.set_rigid_element_count(2);
+  for (int i = 0; i < particles; i += 3) out.add_overlap_particle(i);
   for (const int apart : {1, 50}) {
     for (int i = 0; i + apart < particles; ++i) {
       out.add_element_nodes(i);

@@ -54,7 +54,7 @@ class ResultFileTest : public ::testing::Test {
     std::filesystem::create_directories(path_.parent_path());
     const auto mesh = testing::from_text<v1::Mesh>(
         "particle_count: 3 element_nodes: [0, 1, 1, 2] thickness_mm: [0.5, 0.25] "
-        "element_wall: [0, 1] rigid_element_count: 1");
+        "element_wall: [0, 1] rigid_element_count: 1 overlap_particle: [0, 2]");
     ResultWriter writer(path_, mesh);
     for (int i = 0; i < kSamples; ++i) {
       v1::Sample sample;
@@ -139,6 +139,7 @@ TEST_F(ResultFileTest, TheHistoryIsExtendibleAndCompressed) {
 TEST_F(ResultFileTest, SaysWhatItIsAndWhatCameOut) {
   const ResultReader reader(path_);
   EXPECT_EQ(reader.mesh().rigid_element_count(), 1);
+  EXPECT_THAT(reader.mesh().overlap_particle(), ::testing::ElementsAre(0, 2));
   EXPECT_NE(reader.text_attribute("case").find("\"wall_thickness_mm\":0.3464"), std::string::npos);
   EXPECT_EQ(reader.text_attribute("case_hash"), hash_of(testing::small_case()));
   EXPECT_EQ(reader.text_attribute("case_hash").size(), 64U);

@@ -1,7 +1,7 @@
 """Samples, meshes and frames as numpy arrays."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Iterable, Iterator, List, Sequence, Tuple
 
 import numpy as np
@@ -61,6 +61,8 @@ class Mesh:
     support_plate_mm: float
     along_y: bool  # whether the crush is along y
     rigid_element_count: int = 0  # elements of stiff cells or rigid links; they come last
+    # Particles of walls that overlapped others before loading.
+    overlap_particle: Array = field(default_factory=lambda: np.zeros(0, np.int32))
 
     def __repr__(self) -> str:
         return (f"<mesh of {len(self.position_mm)} particles and {len(self.element_nodes)} elements, "
@@ -96,7 +98,7 @@ def mesh_from(chunks: Iterable[MeshChunk]) -> Mesh:
                 np.array(whole.element_nodes, np.int32).reshape(-1, 2), np.array(whole.thickness_mm, np.float32),
                 np.array(whole.element_wall or [0] * len(whole.thickness_mm), np.int32),
                 whole.length_mm, whole.width_mm, whole.impact_plate_mm, whole.support_plate_mm, whole.along_y,
-                whole.rigid_element_count)
+                whole.rigid_element_count, np.array(whole.overlap_particle, np.int32))
 
 
 def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:

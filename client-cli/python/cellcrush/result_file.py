@@ -95,7 +95,8 @@ class ResultFile(Results):
             strain = frames["fibre_strain"][()] if "fibre_strain" in frames else np.zeros((len(frames["time_s"]), 0),
                                                                                           np.float32)
             self._mesh = Mesh(mesh["position_mm"][()], mesh["beam_nodes"][()], mesh["thickness_mm"][()], walls,
-                              **{name: mesh.attrs[name] for name in mesh.attrs if name in Mesh.__annotations__})
+                              **{name: mesh.attrs[name] for name in mesh.attrs if name in Mesh.__annotations__},
+                              **{name: mesh[name][()] for name in ("overlap_particle",) if name in mesh})
             self._frames = Frames(frames["time_s"][()], frames["strain"][()], frames["position_mm"][()],
                                   frames["plastic_fraction"][()], strain)
         self.case = parse_case(self.attributes["case"], str(path))

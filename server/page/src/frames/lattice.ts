@@ -9,6 +9,8 @@ export interface Lattice {
   thickness: Float32Array;
   /** Elements from this one on are rigid. */
   firstRigid: number;
+  /** Places in `ends` of the particles where walls overlapped before loading, each once. */
+  overlaps: number[];
   undeformed: Float32Array;
   /** Plates across the crush, if any. */
   plates: boolean;
@@ -18,11 +20,18 @@ export interface Lattice {
   supportPlate: number;
 }
 
+// The first place of each particle in a list.
+function placesOf(particles: number[], list: number[]): number[] {
+  const wanted = new Set(particles);
+  return list.flatMap((particle, at) => wanted.delete(particle) ? [at] : []);
+}
+
 export function latticeOf(mesh: Mesh): Lattice {
   return {
     ends: Uint32Array.from(mesh.elementNodes),
     thickness: Float32Array.from(mesh.thicknessMm),
     firstRigid: mesh.thicknessMm.length - mesh.rigidElementCount,
+    overlaps: placesOf(mesh.overlapParticle, mesh.elementNodes),
     undeformed: Float32Array.from(mesh.positionMm),
     plates: mesh.supportPlateMm > mesh.impactPlateMm,
     alongY: mesh.alongY,

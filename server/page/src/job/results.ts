@@ -77,6 +77,8 @@ export function resultsList(s: Summary, note: string): HTMLElement {
         `wall ${wall}, at (${number(xMm)}, ${number(yMm)}) mm before loading, at ${when}`);
   }
   if (s.rigidLinkCount) add("Rigid links", "rigid_link_count", count(s.rigidLinkCount), "beams too short to bend");
+  if (s.startOverlapCount)
+    add("Overlaps before loading", "start_overlap_count", count(s.startOverlapCount), "pairs of walls");
   add("Energy ledger error", "energy_error_relative", percent(s.energyErrorRelative, 3));
   add("Deepest penetration", "deepest_penetration", percent(s.deepestPenetration),
       "of the thickness of the thinner wall");

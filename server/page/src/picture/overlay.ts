@@ -1,5 +1,5 @@
-// What is drawn over the walls: plates, the place where the impact plate started, a scale bar, the wall under the
-// pointer.
+// What is drawn over the walls: plates, the place where the impact plate started, rings where walls overlapped before
+// loading, a scale bar, the wall under the pointer.
 import type { Box, Lattice } from "../frames/lattice";
 import type { Camera } from "./camera";
 import { themeColour } from "./colours";
@@ -53,6 +53,21 @@ function scaleBar(context: CanvasRenderingContext2D, camera: Camera): void {
   context.textAlign = "left";
 }
 
+// Rings where walls overlapped before loading.
+function startOverlaps(context: CanvasRenderingContext2D, camera: Camera, lattice: Lattice, segments: Segments): void {
+  const { values } = segments;
+  context.lineWidth = 1;
+  context.strokeStyle = themeColour("accent");
+  for (const end of lattice.overlaps) {
+    const at = kSegmentFloats * (end >> 1);
+    const place = at + 2 * (end & 1);
+    const radius = Math.max(values[at + 4] * camera.scale, 3);
+    const ring = new Path2D();
+    ring.arc(camera.toScreenX(values[place]), camera.toScreenY(values[place + 1]), radius, 0, 2 * Math.PI);
+    context.stroke(ring);
+  }
+}
+
 function hoveredWall(context: CanvasRenderingContext2D, camera: Camera, segments: Segments, element: number): void {
   const at = kSegmentFloats * element;
   const { values } = segments;
@@ -71,6 +86,7 @@ export function drawOverlay(context: CanvasRenderingContext2D, camera: Camera, s
     context.lineWidth = 1;
     if (state.strain > 0.005) startLine(context, camera, state);
   }
+  if (state.segments) startOverlaps(context, camera, lattice, state.segments);
   drawFaces(context, camera, [...platesOf(lattice, state.strain), ...state.faces], state.box);
   context.strokeStyle = context.fillStyle = themeColour("ink-2");
   context.lineWidth = 1.5;
