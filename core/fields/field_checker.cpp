@@ -51,7 +51,9 @@ std::string to_text(double value) {
   return {buffer.data(), end};
 }
 
-std::string half_of_side(double side) { return std::isfinite(side) ? " mm (half of side_mm)" : " mm"; }
+std::string unit_of_share(double share, double side) {
+  return std::isfinite(side) ? " mm (" + (share == 0.5 ? "half" : to_text(share)) + " of side_mm)" : " mm";
+}
 
 bool FieldChecker::in_range(const std::string& field, std::optional<double> value, Range range,
                             const std::string& unit) {

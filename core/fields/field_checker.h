@@ -36,13 +36,15 @@ class FieldChecker {
 
   void add(const std::string& field, const std::string& value, const std::string& message, const std::string& remedy);
 
+  [[nodiscard]] bool is_empty() const { return problems_.empty(); }
+
   Problems take() { return std::move(problems_); }
 
  private:
   Problems problems_;
 };
 
-/// What follows a range that ends at half of a side.
-std::string half_of_side(double side);
+/// What follows a range that ends at a share of a side.
+std::string unit_of_share(double share, double side);
 
 }  // namespace cellcrush

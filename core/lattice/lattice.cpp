@@ -1,6 +1,7 @@
 #include "lattice/lattice.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "cellcrush/lattice_words.h"
 #include "lattice/network.h"
@@ -11,6 +12,20 @@ namespace {
 const LatticeKind* find_kind(std::string_view name) {
   const auto found = std::ranges::find(lattice_kinds(), name, [](const LatticeKind* kind) { return kind->name; });
   return found == lattice_kinds().end() ? nullptr : *found;
+}
+
+/// Those that differ from their defaults: "vertical wall thickness 0.4 mm".
+std::string own_numbers_in_words(const RegularLattice& lattice, const LatticeKind& kind) {
+  std::ostringstream text;
+  for (const OwnNumber& number : kind.own_numbers) {
+    const auto given = lattice.own.find(std::string(number.name));
+    if (given == lattice.own.end() || given->second == number.default_value(lattice)) continue;
+    const std::size_t unit = number.name.rfind('_');
+    std::string name(number.name.substr(0, unit));
+    std::ranges::replace(name, '_', ' ');
+    text << (text.tellp() > 0 ? ", " : "") << name << ' ' << given->second << ' ' << number.name.substr(unit + 1);
+  }
+  return text.str();
 }
 
 }  // namespace
@@ -33,10 +48,23 @@ std::string path_of_lattice(const SceneSpec& spec) {
   return lattice == nullptr ? "lattice." : "lattice." + lattice->kind + ".";
 }
 
-void complete_own_numbers(RegularLattice& lattice) {
+RegularLattice with_own_numbers(RegularLattice lattice) {
   for (const OwnNumber& number : find_kind(lattice.kind)->own_numbers) {
     lattice.own.try_emplace(std::string(number.name), number.default_value(lattice));
   }
+  return lattice;
+}
+
+double own_number(const RegularLattice& lattice, std::string_view name) {
+  const auto given = lattice.own.find(std::string(name));
+  if (given != lattice.own.end()) return given->second;
+  return std::ranges::find(find_kind(lattice.kind)->own_numbers, name, &OwnNumber::name)->default_value(lattice);
+}
+
+DefaultMesh mesh_of(const LatticeKind& kind, const SceneSpec& spec) {
+  if (kind.mesh != nullptr) return kind.mesh(spec);
+  return kind.has_walls_along_crush ? mesh_of_stacked_walls(kind.plural)
+                                    : DefaultMesh{1, 2, 8, std::string(kind.plural)};
 }
 
 DefaultMesh mesh_of_stacked_walls(std::string_view plural) {
@@ -55,7 +83,7 @@ LatticeWords words_of(const RegularLattice& lattice) {
   if (kind == nullptr) {
     return {};
   }
-  return {std::string(kind->plural), kind->walls_in_words ? kind->walls_in_words(lattice) : "", kind->theory_note};
+  return {std::string(kind->plural), own_numbers_in_words(lattice, *kind), kind->theory_note};
 }
 
 std::vector<std::string> lattice_names() {

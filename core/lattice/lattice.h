@@ -1,12 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cellcrush/scene_spec.h"
-#include "cellcrush/vector.h"
 #include "lattice/layout.h"
 
 namespace cellcrush {
@@ -23,13 +23,22 @@ struct DefaultMesh {
 
 /// A number that only one kind of lattice has.
 struct OwnNumber {
-  std::string_view name;  ///< as in the case
-  double (*default_value)(const RegularLattice& lattice);
+  std::string_view name;                                   ///< as in the case
+  double (*default_value)(const RegularLattice& lattice);  ///< other numbers may be missing
+  double most_of_side = 0.0;  ///< its upper limit over side_mm; 0: its limits are those of its field in case.proto
+};
+
+/// Closed forms of a large lattice of slender walls, crushed along one axis, over the numbers of the wall: a modulus
+/// over E, a stress over sigma_y. Empty where none is known.
+struct ClosedForms {
+  double density = 0.0;  ///< walls counted from joint to joint
+  std::optional<double> modulus = {};
+  std::optional<double> poissons_ratio = {};   ///< of the strain across the crush
+  std::optional<double> collapse_stress = {};  ///< quasi-static, of rigid, perfectly plastic walls
 };
 
 /// What one kind of lattice of equal cells answers. Each kind is a file of lattice/kinds, and a message of its name in
-/// case.proto. Where a function gets a spec, it is one of a lattice of this kind; all but `check` REQUIRE a checked
-/// one.
+/// case.proto. Where a function gets a lattice or a spec, it is one of this kind; all but `check` REQUIRE a checked one.
 struct LatticeKind {
   std::string_view name;        ///< of the field of the case: lattice.NAME
   std::string_view plural;      ///< in sentences
@@ -39,18 +48,15 @@ struct LatticeKind {
   bool has_rows_of_cells = false;  ///< whether rows of cells can be stiff (lattice.inclusions)
   std::vector<OwnNumber> own_numbers = {};
 
-  /// Checks the numbers of its own, and stiff rows. `side`: mm, endless if it is not valid. May be null.
+  /// Checks how its own numbers fit together, which are within their limits, and stiff rows. `side`: mm, endless if it
+  /// is not valid. May be null.
   void (*check)(const SceneSpec& spec, double side, FieldChecker& check) = nullptr;
-  /// Envelope in x and y, mm; its lower left corner is the origin.
-  Vector2 (*envelope)(const SceneSpec& spec) = nullptr;
-  /// Joints and walls. Every joint and wall is created once, joints in the order of their first use.
+  /// Joints and walls. Every joint and wall is created once, joints in the order of their first use. The extent of the
+  /// joints is the envelope.
   Layout (*lay_out)(const SceneSpec& spec) = nullptr;
-  /// Quasi-static plastic collapse stress of rigid, perfectly plastic walls, MPa.
-  double (*collapse_stress)(const SceneSpec& spec) = nullptr;
-  /// For force-based elements, at the direction and speed of the spec.
+  ClosedForms (*closed_forms)(const RegularLattice& lattice, LoadingSpec::Direction direction) = nullptr;
+  /// For force-based elements, at the direction and speed of the spec. Null: that of stacked walls, or of hexagons.
   DefaultMesh (*mesh)(const SceneSpec& spec) = nullptr;
-  /// What its own numbers say of its walls, as in LatticeWords. Numbers may be missing. May be null.
-  std::string (*walls_in_words)(const RegularLattice& lattice) = nullptr;
   /// When not to compare it with theory, as sentences; empty where theory applies.
   std::string theory_note = {};
 };
@@ -69,8 +75,11 @@ bool has_walls_along_crush(const SceneSpec& spec);
 /// Path of the fields of the lattice of a spec, such as "lattice.hexagon.".
 std::string path_of_lattice(const SceneSpec& spec);
 
-/// Fills in all numbers of its own.
-void complete_own_numbers(RegularLattice& lattice);
+/// A number of its own: as given, or its default. REQUIRES: a number of its kind.
+double own_number(const RegularLattice& lattice, std::string_view name);
+
+/// The mesh of a spec of a kind.
+DefaultMesh mesh_of(const LatticeKind& kind, const SceneSpec& spec);
 
 /// The mesh of walls along the crush, which buckle in short waves.
 DefaultMesh mesh_of_stacked_walls(std::string_view plural);

@@ -33,13 +33,8 @@ class Draw {
 };
 
 bool is_longer_along_x(const std::vector<Vector2>& places) {
-  Vector2 low = places.front();
-  Vector2 high = low;
-  for (const Vector2& place : places) {
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  }
-  return (high - low).x() > (high - low).y();
+  const Vector2 extent = envelope_of(places);
+  return extent.x() > extent.y();
 }
 
 std::vector<int> numbers_of(const std::vector<Vector2>& joints) {
@@ -65,6 +60,16 @@ void reorder_joints(const std::vector<int>& order, Layout& layout) {
 
 }  // namespace
 
+Vector2 envelope_of(const std::vector<Vector2>& joints) {
+  Vector2 low = joints.front();
+  Vector2 high = low;
+  for (const Vector2& joint : joints) {
+    low = low.cwiseMin(joint);
+    high = high.cwiseMax(joint);
+  }
+  return high - low;
+}
+
 void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints) {
   if (imperfection.amplitude_mm == 0.0) {
     return;
@@ -82,7 +87,7 @@ void bow(const Imperfection& imperfection, std::vector<LayoutWall>& walls) {
   }
   Draw draw(~imperfection.seed);
   for (LayoutWall& wall : walls) {
-    wall.bow = imperfection.bow_mm * draw.next();
+    wall.bow += imperfection.bow_mm * draw.next();
   }
 }
 

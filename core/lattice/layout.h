@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -34,6 +35,9 @@ struct Layout {
   }
 };
 
+/// Extent of the joints in x and y, mm.
+Vector2 envelope_of(const std::vector<Vector2>& joints);
+
 /// Moves every joint by a uniformly distributed offset of at most the amplitude of the imperfection in x and in y. The
 /// same seed gives the same offsets on every machine.
 void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints);
@@ -57,10 +61,13 @@ using GridPoint = Eigen::Vector2i;
 /// The points from (0, 0) to `last`, inclusive; some of them are joints.
 struct JointGrid {
   GridPoint last;
-  Vector2 spacing;  ///< mm
-
-  [[nodiscard]] Vector2 envelope() const { return spacing.cwiseProduct(last.cast<double>()); }
+  std::function<Vector2(const GridPoint& point)> place;  ///< mm
 };
+
+/// A grid of points that are `spacing` apart, mm.
+inline JointGrid even_grid(const GridPoint& last, const Vector2& spacing) {
+  return {last, [spacing](const GridPoint& point) -> Vector2 { return spacing.cwiseProduct(point.cast<double>()); }};
+}
 
 /// Collects the walls of a lattice whose joints are points of a grid.
 class WallBuilder {
@@ -68,8 +75,9 @@ class WallBuilder {
   WallBuilder(const JointGrid& grid, int elements)
       : grid_(grid), joint_at_(grid.last), wall_at_(2 * grid.last), elements_(elements) {}
 
-  /// Adds a wall. Of a wall that two cells share, the greater thickness holds, and it is rigid if one of them is.
-  void add_wall(const GridPoint& from, const GridPoint& to, double thickness, bool rigid = false) {
+  /// Adds a wall. Of a wall that two cells share, the greater thickness holds, and it is rigid if one of them is. It
+  /// leads from where it did first.
+  LayoutWall& add_wall(const GridPoint& from, const GridPoint& to, double thickness, bool rigid = false) {
     int& number = wall_at_[from + to];  // twice the mid-point, at which there is no other wall
     if (number == Numbers::kNone) {
       number = static_cast<int>(layout_.walls.size());
@@ -78,6 +86,7 @@ class WallBuilder {
     LayoutWall& wall = layout_.walls[number];
     wall.thickness = std::max(wall.thickness, thickness);
     wall.rigid = wall.rigid || rigid;
+    return wall;
   }
 
   Layout take() { return std::move(layout_); }
@@ -104,7 +113,7 @@ class WallBuilder {
     int& number = joint_at_[point];
     if (number == Numbers::kNone) {
       number = static_cast<int>(layout_.joints.size());
-      layout_.joints.emplace_back(grid_.spacing.cwiseProduct(point.cast<double>()));
+      layout_.joints.push_back(grid_.place(point));
     }
     return number;
   }

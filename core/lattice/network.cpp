@@ -31,15 +31,4 @@ Layout lay_out_network(const NetworkWalls& network, int elements_per_wall, int l
 
 bool has_stacked_walls(const NetworkWalls& network) { return network.walls.size() > 3 * network.joint_count(); }
 
-Vector2 envelope_of(const NetworkWalls& network) {
-  Vector2 least = joint_of(network, 0);
-  Vector2 most = least;
-  for (std::size_t joint = 1; joint < network.joint_count(); ++joint) {
-    const Vector2 place = joint_of(network, static_cast<int>(joint));
-    least = least.cwiseMin(place);
-    most = most.cwiseMax(place);
-  }
-  return most - least;
-}
-
 }  // namespace cellcrush

@@ -13,7 +13,4 @@ Layout lay_out_network(const NetworkWalls& network, int elements_per_wall, int l
 /// stacked along the crush, as those of squares and triangles are.
 bool has_stacked_walls(const NetworkWalls& network);
 
-/// Extent of the joints in x and y, mm.
-Vector2 envelope_of(const NetworkWalls& network);
-
 }  // namespace cellcrush

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "cellcrush/fidelity.h"
+#include "cellcrush/lattice_words.h"
 #include "cellcrush/simulation.h"
 #include "contact/topology/bands.h"
 #include "contact/topology/face_loops.h"
@@ -83,7 +84,7 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
 SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
   SceneSpec complete = fill_in_fidelity(spec);
   if (auto* lattice = std::get_if<RegularLattice>(&complete.lattice)) {
-    complete_own_numbers(*lattice);
+    *lattice = with_own_numbers(*lattice);
   }
   complete.section.axial_points = spec.section.axial_count();
   complete.section.depth_points = spec.section.depth_count();

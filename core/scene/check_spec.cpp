@@ -26,7 +26,7 @@ double check_regular(const SceneSpec& spec, const RegularLattice& lattice, Field
   const bool rows = check.within_limits(path + "rows", lattice.rows);
   const bool is_sound = check.within_limits(path + "side_mm", lattice.side_mm);
   const double side = is_sound ? *lattice.side_mm : std::numeric_limits<double>::infinity();
-  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, 0.5 * side}, half_of_side(side));
+  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, 0.5 * side}, unit_of_share(0.5, side));
   if (columns && rows) {
     const double elements = count_elements(spec);
     if (elements > kMostElements) {
@@ -37,6 +37,45 @@ double check_regular(const SceneSpec& spec, const RegularLattice& lattice, Field
     }
   }
   return side;
+}
+
+/// Checks the numbers that only one kind of lattice has. `side`: mm, endless if it is not valid.
+bool check_own_numbers(const RegularLattice& lattice, const LatticeKind& kind, double side, FieldChecker& check) {
+  bool are_sound = true;
+  for (const OwnNumber& number : kind.own_numbers) {
+    const auto given = lattice.own.find(std::string(number.name));
+    if (given == lattice.own.end()) continue;
+    const std::string field = "lattice." + lattice.kind + "." + given->first;
+    are_sound &= number.most_of_side == 0.0 ? check.within_limits(field, given->second)
+                                            : check.in_range(field, given->second, {1e-6, number.most_of_side * side},
+                                                             unit_of_share(number.most_of_side, side));
+  }
+  return are_sound;
+}
+
+/// Checks that all walls are at least twice as long as thick. Returns the length of the shortest one, mm.
+/// REQUIRES: a lattice without problems but for this one.
+double check_wall_lengths(const SceneSpec& spec, FieldChecker& check) {
+  SceneSpec few = spec;
+  auto& cells = std::get<RegularLattice>(few.lattice);
+  cells.columns = std::min(2, *cells.columns);
+  cells.rows = std::min(2, *cells.rows);
+  few.inclusions = {};
+  const Layout layout = kind_of(few)->lay_out(few);
+  double shortest = std::numeric_limits<double>::infinity();
+  double thickest = 0.0;  // over half of its length
+  for (const LayoutWall& wall : layout.walls) {
+    const double length = (layout.joints[wall.end] - layout.joints[wall.start]).norm();
+    shortest = std::min(shortest, length);
+    thickest = std::max(thickest, wall.thickness / (0.5 * length));
+  }
+  if (thickest > 1.0 + 1e-9) {
+    const double most = *cells.wall_thickness_mm / thickest;
+    check.add(path_of_lattice(spec) + "wall_thickness_mm", to_text(*cells.wall_thickness_mm),
+              "makes walls thicker than half of their length, " + to_text(shortest) + " mm of the shortest.",
+              "Give at most " + to_text(most) + ".");
+  }
+  return shortest;
 }
 
 /// `length`: of a wall, the shortest one, called so.
@@ -78,9 +117,13 @@ std::string list_kinds(const char* before, std::string_view LatticeKind::*word, 
 void check_lattice(const SceneSpec& spec, FieldChecker& check) {
   const LatticeKind* kind = kind_of(spec);
   if (kind != nullptr) {
-    const double side = check_regular(spec, *regular_lattice_of(spec), check);
-    if (kind->check != nullptr) kind->check(spec, side, check);
-    check_imperfection(spec, side, "side_mm", check);
+    const RegularLattice& lattice = *regular_lattice_of(spec);
+    const double side = check_regular(spec, lattice, check);
+    const bool are_sound = check_own_numbers(lattice, *kind, side, check);
+    if (are_sound && kind->check != nullptr) kind->check(spec, side, check);
+    const double shortest = check.is_empty() ? check_wall_lengths(spec, check) : side;
+    const bool is_side = !(shortest < (1.0 - 1e-9) * side);
+    check_imperfection(spec, is_side ? side : shortest, is_side ? "side_mm" : "the shortest wall", check);
   } else if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
     check_network(spec, check);
     check_imperfection(spec, shortest_wall_of(*network), "the shortest wall", check);

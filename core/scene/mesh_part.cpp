@@ -57,12 +57,15 @@ Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   }
   const auto* network = std::get_if<NetworkWalls>(&spec.lattice);
   const LatticeKind* kind = kind_of(spec);
-  const Vector2 envelope = network != nullptr ? envelope_of(*network) : kind->envelope(spec);
+  Layout layout = network != nullptr ? lay_out_network(*network, *spec.elements_per_wall, links) : kind->lay_out(spec);
+  const Vector2 envelope = envelope_of(layout.joints);
   const int axis = crush_axis_of(spec);
   scene.length = envelope[axis];
   scene.width = envelope[1 - axis];
-  if (kind != nullptr) scene.collapse_stress = kind->collapse_stress(spec);
-  Layout layout = network != nullptr ? lay_out_network(*network, *spec.elements_per_wall, links) : kind->lay_out(spec);
+  if (kind != nullptr) {
+    const ClosedForms forms = kind->closed_forms(*regular_lattice_of(spec), spec.loading.direction);
+    scene.collapse_stress = forms.collapse_stress.value_or(0.0) * *spec.material.yield_stress_mpa;
+  }
   const std::vector<Vector2> places = layout.joints;
   perturb(spec.imperfection, layout.joints);
   bow(spec.imperfection, layout.walls);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cellcrush/lattice_words.h"
 #include "translate/loads_places.h"
 
 namespace cellcrush::translate {
@@ -161,7 +162,7 @@ void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems
 std::optional<RegularLattice> read_regular(const v1::Lattice& in) {
   const google::protobuf::Reflection& reflection = *in.GetReflection();
   const auto* kind = reflection.GetOneofFieldDescriptor(in, in.GetDescriptor()->FindOneofByName("kind"));
-  if (kind == nullptr || in.has_frame() || in.has_network()) return std::nullopt;
+  if (kind == nullptr || std::ranges::count(lattice_names(), kind->name()) == 0) return std::nullopt;
   RegularLattice out = read_numbers(reflection.GetMessage(in, kind));
   out.kind = kind->name();
   return out;

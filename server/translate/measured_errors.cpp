@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cellcrush/fidelity.h"
+#include "cellcrush/lattice_words.h"
 #include "cellcrush/sample.h"
 #include "translate/case_to_spec.h"
 #include "translate/embedded_rows.h"
@@ -63,14 +64,15 @@ bool is_near(double one, double other) {
   return std::abs(one - other) <= kRounding * std::max(std::abs(one), std::abs(other));
 }
 
-/// Whether the numbers that only their kind has are alike, over the thickness of the walls.
+/// Whether the numbers that only their kind has are alike, lengths over the thickness of the walls.
 bool has_near_own_numbers(const RegularLattice& one, const RegularLattice& other) {
-  const auto ratio = [](const RegularLattice& lattice, const std::string& name) {
-    const auto found = lattice.own.find(name);
-    return found == lattice.own.end() ? 1.0 : found->second / *lattice.wall_thickness_mm;
-  };
-  const auto is_alike = [&](const auto& own) { return is_near(ratio(one, own.first), ratio(other, own.first)); };
-  return std::ranges::all_of(one.own, is_alike) && std::ranges::all_of(other.own, is_alike);
+  const auto numbers = with_own_numbers(one).own;
+  auto others = with_own_numbers(other).own;
+  return std::ranges::all_of(numbers, [&](const auto& own) {
+    const bool is_length = own.first.ends_with("_mm");
+    return is_near(own.second / (is_length ? *one.wall_thickness_mm : 1.0),
+                   others[own.first] / (is_length ? *other.wall_thickness_mm : 1.0));
+  });
 }
 
 /// A preset, or that many of its cells, and the direction of its crush.

@@ -132,6 +132,7 @@ SceneSpec as_network(const SceneSpec& spec) {
   for (const LayoutWall& wall : layout.walls) {
     network.walls.insert(network.walls.end(), {wall.start, wall.end});
     network.thicknesses_mm.push_back(wall.thickness);
+    network.rises_mm.push_back(wall.rise);
   }
   out.lattice = std::move(network);
   return out;

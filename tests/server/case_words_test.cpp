@@ -71,7 +71,7 @@ TEST(CaseWords, DescribeRegularLattices) {
        "inclusions { rows: 3 rows: 6 thickness_factor: 4 } } elements_per_wall: 2 contact { friction: 0.3 } "
        "material { youngs_modulus_mpa: 68000 yield_stress_mpa: 130 hardening_modulus_mpa: 680 isotropic_fraction: .5 "
        "density_kg_per_m3: 2700 plane: PLANE_STRAIN }",
-       {"walls: 5 mm long, 0.2 mm thick; along y 0.4 mm", "elements per wall: 2",
+       {"walls: 5 mm long, 0.2 mm thick; vertical wall thickness 0.4 mm", "elements per wall: 2",
         "inclusions: stiff cells in rows 3, 6, walls 4 times as thick, rigid", "friction between walls: 0.3",
         "material: E 68000 MPa, yield 130 MPa, hardening 680 MPa, isotropic fraction 0.5, 2700 kg/m3, plane strain"}},
       {"", {}}};

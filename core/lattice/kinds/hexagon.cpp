@@ -1,30 +1,37 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
-#include <sstream>
 
 #include "fields/field_checker.h"
+#include "geometry/unit_direction.h"
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
 
-// Regular hexagons with walls along y. Rows run along x, from the bottom up, and have `columns` and `columns - 1` cells
-// in turn.
+// Hexagons with walls of height h along y and walls of length l at the cell angle theta to x; below 0 they are
+// re-entrant. Rows run along x, from the bottom up, and have `columns` and `columns - 1` cells in turn.
+//
+// Closed forms, with s = sin theta, c = cos theta, r = t/l, the thickness t_v of the walls along y and the load P of a
+// slanted wall. Under a stress along x, P = sigma (h + l s), it bends under P s and is pressed by P c; the walls along y
+// bear nothing. Under a stress along y, P = sigma l c, it bends under P c and is pressed by P s; the walls along y bear
+// 2 P. A wall of unit depth, both ends of which stay at their angles, gives l^3 / (E t^3) to a unit shear force and
+// l / (E t) to a unit axial one. Hence E* and nu*, exact for beams without shear; Gibson and Ashby, Cellular Solids, 2nd
+// ed., section 4.2, without the walls' axial stretch. Collapse: plastic hinges at the ends of the slanted walls, section
+// 4.3; at small angles along x these yield axially first.
 namespace cellcrush {
 namespace {
 
 constexpr const char* kVertical = "vertical_wall_thickness_mm";
+constexpr const char* kAngle = "angle_degrees";
+constexpr const char* kHeight = "height_mm";
 
-double vertical_thickness_of(const RegularLattice& hexagons) {
-  const auto given = hexagons.own.find(kVertical);
-  return given == hexagons.own.end() ? hexagons.wall_thickness_mm.value_or(0.0) : given->second;
-}
-
-/// Half pitches in x, half sides in y.
-JointGrid grid_of_hexagons(const SceneSpec& spec) {
-  const RegularLattice& hexagons = *regular_lattice_of(spec);
-  const double side = *hexagons.side_mm;
-  return {{2 * *hexagons.columns, 3 * *hexagons.rows + 1}, {0.5 * std::numbers::sqrt3 * side, 0.5 * side}};
+/// Half pitches in x; in y, three levels a row.
+JointGrid grid_of_hexagons(const RegularLattice& hexagons) {
+  const Vector2 slanted = *hexagons.side_mm * unit_direction(own_number(hexagons, kAngle));
+  const double rest = own_number(hexagons, kHeight) - 2.0 * slanted.y();  // exactly 0 in regular hexagons
+  return {{2 * *hexagons.columns, 3 * *hexagons.rows + 1}, [slanted, rest](const GridPoint& point) -> Vector2 {
+            const int walls_below = point.y() / 3;
+            return {slanted.x() * point.x(), slanted.y() * point.y() + rest * walls_below};
+          }};
 }
 
 void check_stiff_rows(const RegularLattice& hexagons, const Inclusions& inclusions, double side, FieldChecker& check) {
@@ -38,32 +45,36 @@ void check_stiff_rows(const RegularLattice& hexagons, const Inclusions& inclusio
     check.add("lattice.inclusions.rows", std::to_string(stiff.size()) + " rows", "leaves no deformable cell.",
               "Remove a row, or set lattice.inclusions.model to MESHED.");
   }
-  const double thickness = std::max(hexagons.wall_thickness_mm.value_or(0.0), vertical_thickness_of(hexagons));
+  const double thickness = std::max(hexagons.wall_thickness_mm.value_or(0.0), own_number(hexagons, kVertical));
   if (check.within_limits("lattice.inclusions.thickness_factor", inclusions.thickness_factor) &&
       inclusions.thickness_factor * thickness > 0.5 * side) {
     check.add("lattice.inclusions.thickness_factor", to_text(inclusions.thickness_factor),
-              "makes the stiff walls thicker than half of side_mm.",
+              "makes the stiff walls thicker than half of their length.",
               "Give at most " + to_text(0.5 * side / thickness) + ".");
   }
 }
 
 void check_hexagons(const SceneSpec& spec, double side, FieldChecker& check) {
   const RegularLattice& hexagons = *regular_lattice_of(spec);
-  const auto given = hexagons.own.find(kVertical);
-  if (given != hexagons.own.end()) {
-    check.in_range("lattice.hexagon.vertical_wall_thickness_mm", given->second, {1e-6, 0.5 * side}, half_of_side(side));
+  const double height = own_number(hexagons, kHeight);
+  const double thickness = hexagons.wall_thickness_mm.value_or(0.0);
+  const double drop = -2.0 * side * unit_direction(own_number(hexagons, kAngle)).y();  // of re-entrant walls
+  if (std::isfinite(side) && height - drop < thickness) {
+    check.add("lattice.hexagon.angle_degrees", to_text(own_number(hexagons, kAngle)),
+              "makes the slanted walls of a re-entrant cell meet.",
+              "Give a height_mm of at least " + to_text(drop + thickness) + ", or an angle closer to 0.");
   }
   if (!spec.inclusions.rows.empty()) {
-    check_stiff_rows(hexagons, spec.inclusions, side, check);
+    check_stiff_rows(hexagons, spec.inclusions, std::min(side, height), check);
   }
 }
 
 Layout lay_out_hexagons(const SceneSpec& spec) {
   const RegularLattice& hexagons = *regular_lattice_of(spec);
   const Inclusions& inclusions = spec.inclusions;
-  WallBuilder builder(grid_of_hexagons(spec), *spec.elements_per_wall);
+  WallBuilder builder(grid_of_hexagons(hexagons), *spec.elements_per_wall);
   const double slanted = *hexagons.wall_thickness_mm;
-  const double upright = vertical_thickness_of(hexagons);
+  const double upright = own_number(hexagons, kVertical);
   for (int row = 0; row < *hexagons.rows; ++row) {
     const bool stiff = std::ranges::count(inclusions.rows, row + 1) > 0;
     const double factor = stiff ? inclusions.thickness_factor : 1.0;
@@ -83,12 +94,28 @@ Layout lay_out_hexagons(const SceneSpec& spec) {
   return builder.take();
 }
 
-/// Walls bend: (2/3) sigma_y (h/L)^2 in either direction, with the thickness of the slanted walls (Gibson and Ashby,
-/// Cellular Solids, 2nd ed., section 4.3).
-double collapse_stress_of_hexagons(const SceneSpec& spec) {
-  const RegularLattice& hexagons = *regular_lattice_of(spec);
-  const double slenderness = *hexagons.wall_thickness_mm / *hexagons.side_mm;
-  return 2.0 / 3.0 * *spec.material.yield_stress_mpa * slenderness * slenderness;
+ClosedForms forms_of_hexagons(const RegularLattice& hexagons, LoadingSpec::Direction direction) {
+  const double ratio = *hexagons.wall_thickness_mm / *hexagons.side_mm;
+  const double squared = ratio * ratio;
+  const double upright = own_number(hexagons, kVertical) / *hexagons.wall_thickness_mm;  // t_v / t
+  const double height = own_number(hexagons, kHeight) / *hexagons.side_mm;               // h / l
+  const Vector2 slanted = unit_direction(own_number(hexagons, kAngle));
+  const double c = slanted.x();
+  const double s = slanted.y();
+  const double pitch = height + s;  // of the rows, over l
+  ClosedForms forms = {.density = ratio * (height * upright + 2.0) / (2.0 * c * pitch)};
+  if (direction == LoadingSpec::Direction::x) {
+    const double compliance = s * s + c * c * squared;
+    forms.modulus = ratio * squared * c / (pitch * compliance);
+    forms.poissons_ratio = s * c * c * (1.0 - squared) / (pitch * compliance);
+    forms.collapse_stress = std::min(squared / (2.0 * pitch * std::abs(s)), ratio / (pitch * c));
+  } else {
+    const double compliance = c * c + squared * (s * s + 2.0 * height / upright);
+    forms.modulus = ratio * squared * pitch / (c * compliance);
+    forms.poissons_ratio = s * pitch * (1.0 - squared) / compliance;
+    forms.collapse_stress = squared / (2.0 * c * c);
+  }
+  return forms;
 }
 
 // STANDARD is the coarsest mesh whose plateau stresses lie within 4 % (impact) and 10 % (support) of a mesh twice as
@@ -101,16 +128,6 @@ DefaultMesh mesh_of_hexagons(const SceneSpec& spec) {
   return {1, 2, 8, "hexagons"};
 }
 
-std::string walls_of_hexagons(const RegularLattice& hexagons) {
-  const double upright = vertical_thickness_of(hexagons);
-  if (upright == hexagons.wall_thickness_mm.value_or(0.0)) {
-    return {};
-  }
-  std::ostringstream text;
-  text << "along y " << upright << " mm";
-  return text.str();
-}
-
 }  // namespace
 
 const LatticeKind& hexagon_lattice() {
@@ -119,13 +136,13 @@ const LatticeKind& hexagon_lattice() {
       .plural = "hexagons",
       .walls_per_cell = 3.0,
       .has_rows_of_cells = true,
-      .own_numbers = {{kVertical, [](const RegularLattice& hexagons) { return *hexagons.wall_thickness_mm; }}},
+      .own_numbers = {{kVertical, [](const RegularLattice& its) { return its.wall_thickness_mm.value_or(0.0); }, 0.5},
+                      {kAngle, [](const RegularLattice&) { return 30.0; }},
+                      {kHeight, [](const RegularLattice& its) { return its.side_mm.value_or(0.0); }}},
       .check = check_hexagons,
-      .envelope = [](const SceneSpec& spec) { return grid_of_hexagons(spec).envelope(); },
       .lay_out = lay_out_hexagons,
-      .collapse_stress = collapse_stress_of_hexagons,
+      .closed_forms = forms_of_hexagons,
       .mesh = mesh_of_hexagons,
-      .walls_in_words = walls_of_hexagons,
   };
   return kKind;
 }

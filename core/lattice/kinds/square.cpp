@@ -5,14 +5,10 @@
 namespace cellcrush {
 namespace {
 
-JointGrid grid_of_squares(const SceneSpec& spec) {
-  const RegularLattice& squares = *regular_lattice_of(spec);
-  return {{*squares.columns, *squares.rows}, {*squares.side_mm, *squares.side_mm}};
-}
-
 Layout lay_out_squares(const SceneSpec& spec) {
   const RegularLattice& squares = *regular_lattice_of(spec);
-  WallBuilder builder(grid_of_squares(spec), *spec.elements_per_wall);
+  const JointGrid grid = even_grid({*squares.columns, *squares.rows}, {*squares.side_mm, *squares.side_mm});
+  WallBuilder builder(grid, *spec.elements_per_wall);
   for (int y = 0; y <= *squares.rows; ++y) {
     for (int x = 0; x <= *squares.columns; ++x) {
       if (x < *squares.columns) {
@@ -26,10 +22,10 @@ Layout lay_out_squares(const SceneSpec& spec) {
   return builder.take();
 }
 
-/// Walls along the load yield axially: sigma_y h/L.
-double collapse_stress_of_squares(const SceneSpec& spec) {
-  const RegularLattice& squares = *regular_lattice_of(spec);
-  return *spec.material.yield_stress_mpa * *squares.wall_thickness_mm / *squares.side_mm;
+/// Walls along the load are pressed, and yield axially at sigma_y h/L.
+ClosedForms forms_of_squares(const RegularLattice& squares, LoadingSpec::Direction) {
+  const double ratio = *squares.wall_thickness_mm / *squares.side_mm;
+  return {.density = 2.0 * ratio, .modulus = ratio, .poissons_ratio = 0.0, .collapse_stress = ratio};
 }
 
 }  // namespace
@@ -40,11 +36,8 @@ const LatticeKind& square_lattice() {
       .plural = "squares",
       .walls_per_cell = 2.0,
       .has_walls_along_crush = true,
-      .envelope = [](const SceneSpec& spec) { return grid_of_squares(spec).envelope(); },
       .lay_out = lay_out_squares,
-      .collapse_stress = collapse_stress_of_squares,
-      // No mesh keeps the bounds of the hexagons' STANDARD at every speed; this one is that of triangles.
-      .mesh = [](const SceneSpec&) { return mesh_of_stacked_walls("squares"); },
+      .closed_forms = forms_of_squares,
       .theory_note = note_of_stretched_walls("Squares") +
                      " Thin squares without hardening (5 % of the side) have no converged mesh: plateaus of 4 and 8 "
                      "elements per wall differ by a quarter.",

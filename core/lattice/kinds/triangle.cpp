@@ -8,16 +8,12 @@
 namespace cellcrush {
 namespace {
 
-/// Half sides in x, rows in y.
-JointGrid grid_of_triangles(const SceneSpec& spec) {
-  const RegularLattice& triangles = *regular_lattice_of(spec);
-  const double side = *triangles.side_mm;
-  return {{2 * *triangles.columns, *triangles.rows}, {0.5 * side, 0.5 * std::numbers::sqrt3 * side}};
-}
-
 Layout lay_out_triangles(const SceneSpec& spec) {
   const RegularLattice& triangles = *regular_lattice_of(spec);
-  WallBuilder builder(grid_of_triangles(spec), *spec.elements_per_wall);
+  const double side = *triangles.side_mm;
+  const JointGrid half_sides_and_rows =
+      even_grid({2 * *triangles.columns, *triangles.rows}, {0.5 * side, 0.5 * std::numbers::sqrt3 * side});
+  WallBuilder builder(half_sides_and_rows, *spec.elements_per_wall);
   const double thickness = *triangles.wall_thickness_mm;
   for (int y = 0; y <= *triangles.rows; ++y) {
     const int shift = y % 2;
@@ -38,12 +34,15 @@ Layout lay_out_triangles(const SceneSpec& spec) {
 }
 
 /// Walls yield axially: (2/sqrt 3) sigma_y h/L along their walls, carried by the walls along the load; sqrt 3 sigma_y
-/// h/L across them, carried by the others.
-double collapse_stress_of_triangles(const SceneSpec& spec) {
-  const RegularLattice& triangles = *regular_lattice_of(spec);
-  const bool is_along_walls = spec.loading.direction == LoadingSpec::Direction::x;
-  const double factor = is_along_walls ? 2.0 / std::numbers::sqrt3 : std::numbers::sqrt3;
-  return factor * *spec.material.yield_stress_mpa * *triangles.wall_thickness_mm / *triangles.side_mm;
+/// h/L across them, carried by the others. The moduli are those of walls that stretch and, clamped at the joints, bend.
+ClosedForms forms_of_triangles(const RegularLattice& triangles, LoadingSpec::Direction direction) {
+  const double ratio = *triangles.wall_thickness_mm / *triangles.side_mm;
+  const double squared = ratio * ratio;
+  const bool is_along_walls = direction == LoadingSpec::Direction::x;
+  return {.density = 2.0 * std::numbers::sqrt3 * ratio,
+          .modulus = 2.0 / std::numbers::sqrt3 * ratio * (1.0 + squared) / (1.0 + squared / 3.0),
+          .poissons_ratio = (1.0 - squared) / (3.0 + squared),
+          .collapse_stress = (is_along_walls ? 2.0 / std::numbers::sqrt3 : std::numbers::sqrt3) * ratio};
 }
 
 }  // namespace
@@ -54,10 +53,8 @@ const LatticeKind& triangle_lattice() {
       .plural = "triangles",
       .walls_per_cell = 3.0,
       .has_walls_along_crush = true,
-      .envelope = [](const SceneSpec& spec) { return grid_of_triangles(spec).envelope(); },
       .lay_out = lay_out_triangles,
-      .collapse_stress = collapse_stress_of_triangles,
-      .mesh = [](const SceneSpec&) { return mesh_of_stacked_walls("triangles"); },
+      .closed_forms = forms_of_triangles,
       .theory_note = note_of_stretched_walls("Triangles"),
   };
   return kKind;

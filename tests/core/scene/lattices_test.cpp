@@ -63,8 +63,8 @@ SceneSpec spec_of(const RegularLattice& lattice) {
   return spec;
 }
 
-/// Layout of a lattice of sides of 3 mm and the cells of their cells' count.
-Layout expect_planar(const RegularLattice& lattice, int cells) {
+/// Layout of a lattice of sides of 3 mm, with that many cells and that extent, mm.
+Layout expect_planar(const RegularLattice& lattice, int cells, const Vector2& envelope) {
   const SceneSpec spec = spec_of(lattice);
   Layout layout = kind_of(spec)->lay_out(spec);
   EXPECT_EQ(static_cast<int>(layout.joints.size()) - static_cast<int>(layout.walls.size()) + cells, 1);  // Euler
@@ -76,14 +76,16 @@ Layout expect_planar(const RegularLattice& lattice, int cells) {
     EXPECT_TRUE((joint.array() > -1e-9).all());
     high = high.cwiseMax(joint);
   }
-  EXPECT_NEAR((high - kind_of(spec)->envelope(spec)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((high - envelope).norm(), 0.0, 1e-9);
   return layout;
 }
 
 TEST(Lattices, ArePlanarWithEqualWallsAndFillTheirEnvelope) {
-  expect_planar(scenes::squares(7, 4, 3.0, 0.2), 28);
-  for (const int rows : {3, 4}) expect_planar(scenes::triangles(7, rows, 3.0, 0.2), rows * 13);
-  const Layout hexagons = expect_planar(scenes::hexagons(9, 6, 3.0, 0.2, 0.4), 3 * 9 + 3 * 8);
+  expect_planar(scenes::squares(7, 4, 3.0, 0.2), 28, {21.0, 12.0});
+  for (const int rows : {3, 4})
+    expect_planar(scenes::triangles(7, rows, 3.0, 0.2), rows * 13, {21.0, rows * 1.5 * std::sqrt(3.0)});
+  const Layout hexagons =
+      expect_planar(scenes::hexagons(9, 6, 3.0, 0.2, 0.4), 3 * 9 + 3 * 8, {27.0 * std::sqrt(3.0), 28.5});
   std::map<int, int> degree;
   for (const LayoutWall& wall : hexagons.walls) {
     const double across = hexagons.joints[wall.end].x() - hexagons.joints[wall.start].x();
