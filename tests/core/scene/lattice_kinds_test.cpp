@@ -1,4 +1,5 @@
 // What every kind of lattice keeps, whatever it is: its layout, its closed forms, its ledger, its bits.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -164,6 +165,37 @@ TEST_P(EachLattice, HasTheBitsOfTheNetworkOfItsWalls) {
 
 INSTANTIATE_TEST_SUITE_P(Of, EachLattice, testing::ValuesIn(all_lattices()),
                          [](const auto& one) { return one.param.name; });
+
+/// The fields of the problems of a lattice of sides of 10 mm and walls of 0.2 mm.
+std::vector<std::string> faulty_fields(const std::string& kind, const std::map<std::string, double>& own,
+                                       int elements = 2, double bow = 0.0) {
+  SceneSpec spec = spec_of({kind, 4, 4, kSide, kRatio * kSide, own}, 4, LoadingSpec::Direction::x);
+  spec.elements_per_wall = elements;
+  spec.imperfection.bow_mm = bow;
+  std::vector<std::string> fields;
+  for (const Problem& problem : build_scene(spec).problems) fields.push_back(problem.field);
+  return fields;
+}
+
+TEST(OwnNumbers, AreRefusedBeyondTheirLimitsAndWhereTheyDoNotFit) {
+  using ::testing::ElementsAre;
+  using ::testing::IsEmpty;
+  EXPECT_THAT(faulty_fields("hexagon", {{"angle_degrees", 76.0}}), ElementsAre("lattice.hexagon.angle_degrees"));
+  EXPECT_THAT(faulty_fields("hexagon", {{"angle_degrees", -30.0}}), ElementsAre("lattice.hexagon.angle_degrees"))
+      << "walls of height_mm 10 let the corners of a cell meet";
+  EXPECT_THAT(faulty_fields("hexagon", {{"angle_degrees", -30.0}, {"height_mm", 10.3}}), IsEmpty());
+  EXPECT_THAT(faulty_fields("hexagon", {{"height_mm", 0.39}}), ElementsAre("lattice.hexagon.wall_thickness_mm"))
+      << "half of a wall along y is 0.195 mm";
+  EXPECT_THAT(faulty_fields("hexagon", {{"height_mm", 1.0}}, 2, 0.06), ElementsAre("lattice.imperfection.bow_mm"))
+      << "a twentieth of the shortest wall";
+  EXPECT_THAT(faulty_fields("arrowhead", {{"long_angle_degrees", 40.0}, {"short_angle_degrees", 39.5}}),
+              ElementsAre("lattice.arrowhead.short_angle_degrees"));
+  EXPECT_THAT(faulty_fields("hierarchical_hexagon", {{"small_side_mm", 5.0}}),
+              ElementsAre("lattice.hierarchical_hexagon.small_side_mm"));
+  EXPECT_THAT(faulty_fields("sinusoidal_square", {{"amplitude_mm", 0.0}}),
+              ElementsAre("lattice.sinusoidal_square.amplitude_mm"));
+  EXPECT_THAT(faulty_fields("sinusoidal_square", {}, 1), ElementsAre("elements_per_wall"));
+}
 
 }  // namespace
 }  // namespace cellcrush
