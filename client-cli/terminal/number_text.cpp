@@ -29,6 +29,8 @@ ShownUnit unit_by_size(std::string_view unit, double largest) {
   const double size = std::abs(largest);
   if (unit == "MPa") return size > 0.0 && size < 0.1 ? ShownUnit{"kPa", 1e3} : ShownUnit{"MPa", 1.0};
   if (unit == "mJ") return size >= 1e6 ? ShownUnit{"kJ", 1e-6} : size >= 1e3 ? ShownUnit{"J", 1e-3} : ShownUnit{"mJ"};
+  if (unit == "N") return size >= 1e3 ? ShownUnit{"kN", 1e-3} : ShownUnit{"N"};
+  if (unit == "s") return ShownUnit{"s"};
   return unit == "%" ? ShownUnit{"%", 100.0} : ShownUnit{};
 }
 

@@ -18,9 +18,9 @@ struct ShownUnit {
   double factor = 1.0;
 };
 
-/// The unit in which to show numbers in "MPa", "mJ", "%" (of a fraction) or "" when the largest has this size. Stresses
-/// below 0.1 MPa are shown in kPa, energies from 1000 mJ in J and from 1000 J in kJ. Every output follows this rule;
-/// the numbers of a column, an axis or a group take the unit of their largest.
+/// The unit in which to show numbers in "MPa", "mJ", "N", "s", "%" (of a fraction) or "" when the largest has this
+/// size. Stresses below 0.1 MPa are shown in kPa, energies from 1000 mJ in J and from 1000 J in kJ, forces from 1000 N
+/// in kN. Every output follows this rule; the numbers of a column, an axis or a group take the unit of their largest.
 ShownUnit unit_by_size(std::string_view unit, double largest);
 
 /// A single number in the unit of its size: "3.41 MPa", "86.6 kPa", "5.12 J".

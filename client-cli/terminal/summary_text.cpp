@@ -66,6 +66,14 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
                fmt::format("mean over {:.3g} % strain, at {:.3g}", 100 * summary.peak_stress_window(),
                            summary.peak_stress_strain())});
   }
+  if (summary.has_crush_forces()) {
+    const v1::CrushForces& forces = summary.crush_forces();
+    table.add({"mean crush force, impact plate", quantity_text(forces.mean_n(), "N"), "",
+               fmt::format("over a stroke of {} mm; {:.3g} of the peak of {}", number_text(forces.stroke_mm()),
+                           forces.efficiency(), quantity_text(forces.peak_n(), "N"))});
+    table.add(
+        {"specific energy absorbed", number_text(forces.specific_energy_j_per_g()) + " J/g", "", "over that stroke"});
+  }
   // A file of an earlier version lacks it.
   const bool of_theory = theory && summary.theory().densification_strain() > 0.0;
   table.add({"densification strain",
@@ -84,6 +92,10 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   }
   if (summary.has_solid_fraction_at_densification()) {
     table.add({"solid fraction at densification", number_text(summary.solid_fraction_at_densification())});
+  }
+  if (summary.has_poissons_ratio()) {
+    table.add({"Poisson's ratio", number_text(summary.poissons_ratio()), "",
+               fmt::format("secant, up to {:.3g} strain", summary.plateau_window_high())});
   }
   if (summary.has_valid_to_strain()) {
     table.add({"valid to strain", number_text(summary.valid_to_strain()), "", "the lattice is closed from there on"});

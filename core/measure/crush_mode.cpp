@@ -219,6 +219,7 @@ Faces trace_faces(std::span<const Vector2> position, std::span<const Element> el
   for (const FaceLoop& loop : trace_loops(position, elements)) {
     if (loop.area > 0.0) {
       faces.particles.insert(faces.particles.end(), loop.particle.begin(), loop.particle.end());
+      faces.elements.insert(faces.elements.end(), loop.element.begin(), loop.element.end());
       faces.offset.push_back(static_cast<int>(faces.particles.size()));
       faces.area.push_back(loop.area);
       faces.centre.push_back(mean_of(loop.particle, position));

@@ -55,11 +55,15 @@ CrushMode find_crush_mode(const CollapseField& field);
 struct Faces {
   std::vector<int> offset;      ///< C + 1, into particles
   std::vector<int> particles;   ///< the loops, one after another
+  std::vector<int> elements;    ///< from each particle of a loop to the next one
   std::vector<double> area;     ///< C, mm^2, undeformed; positive
   std::vector<Vector2> centre;  ///< C, mm, undeformed: mean of the corners of the loop
 
   [[nodiscard]] std::span<const int> particles_of(std::size_t face) const {
     return std::span(particles).subspan(offset[face], offset[face + 1] - offset[face]);
+  }
+  [[nodiscard]] std::span<const int> elements_of(std::size_t face) const {
+    return std::span(elements).subspan(offset[face], offset[face + 1] - offset[face]);
   }
   [[nodiscard]] std::size_t count() const { return area.size(); }
 };

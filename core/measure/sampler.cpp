@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -26,6 +27,9 @@ constexpr double kCheckEvery = 0.04;
 
 /// Strain after which the densest layer is found again: it takes as long as a step.
 constexpr double kLayerEvery = 0.005;
+
+/// Rows in which the sides of a frame without cells are looked for, over its length.
+constexpr double kRowsWithoutCells = 16.0;
 
 /// Fraction of the volume of an element whose fibres have yielded.
 class FlowedShare {
@@ -93,6 +97,11 @@ Sampler::Sampler(const Scene& scene)
     const double fraction = solid_fraction_between_walls(scene, scene.position, {});
     can_close_between_walls_ = fraction > 0.0 && fraction < kClosed;  // a column fills them from the first
   }
+  if (scene.plates.present) {
+    local_strain_ = LocalStrain(scene, cells_.faces);
+    side_pairs_ =
+        find_side_pairs(scene, cells_.faces.count() > 0 ? cells_.field.pitch : scene.length / kRowsWithoutCells);
+  }
   if (cells_.faces.count() > 0) {
     columns_ = divide_into_columns(scene, cells_.field.pitch);
     layer_size_ = size_of_layers(scene, cells_.field.pitch);
@@ -138,6 +147,22 @@ void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sam
   }
   last_impact_impulse_ = state.impact_impulse;
   last_support_impulse_ = state.support_impulse;
+}
+
+/// The curve is that of the mean of both plates, smoothed over the last Summary::kPeakWindow of strain, or over all of
+/// it before the first window is complete.
+void Sampler::measure_efficiency(Sample& sample) {
+  const double stress = 0.5 * (sample.stress_impact + sample.stress_support);
+  const Absorbed& before = absorbed_.back();
+  const Absorbed now = {sample.strain, before.energy + stress * (sample.strain - before.strain)};
+  absorbed_.push_back(now);
+  const double begin = std::max(0.0, now.strain - Summary::kPeakWindow);
+  while (absorbed_.size() > 2 && absorbed_[1].strain <= begin) absorbed_.erase(absorbed_.begin());
+  const double interval = absorbed_[1].strain - absorbed_[0].strain;
+  if (!(interval > 0.0)) return;
+  const double part = (begin - absorbed_[0].strain) / interval;
+  const double in_window = now.energy - std::lerp(absorbed_[0].energy, absorbed_[1].energy, part);
+  if (in_window > 0.0) sample.absorption_efficiency = now.energy / in_window * (now.strain - begin);
 }
 
 void Sampler::measure_closing(const Scene& scene, const State& state, Sample& sample) {
@@ -203,6 +228,8 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   if (scene.plates.present) {
     sample.strain = state.impact_travel / scene.length;
     measure_stress(scene, state, sample);
+    measure_efficiency(sample);
+    sample.lateral_strain = lateral_strain_of(side_pairs_, scene, state);
     measure_collapse(scene, state, sample);
   }
   measure_closing(scene, state, sample);
@@ -220,7 +247,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   return sample;
 }
 
-void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame) {
+void Sampler::make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame) const {
   frame.index = index;
   frame.time = state.time;
   frame.strain = scene.length > 0.0 ? state.impact_travel / scene.length : 0.0;
@@ -236,6 +263,7 @@ void make_frame(const Scene& scene, const State& state, int index, FieldFrame& f
         scene.single_fibres ? yielded.of(state.single_fibres, place) : yielded.of(state.fibres, place));
   });
   evaluate_fibre_strains(scene, state, frame.fibre_strain);
+  local_strain_.evaluate(state.position, frame.local_strain);
 }
 
 }  // namespace cellcrush

@@ -6,7 +6,9 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "measure/crush_mode.h"
+#include "measure/lateral_strain.h"
 #include "measure/layers.h"
+#include "measure/local_strain.h"
 
 namespace cellcrush {
 
@@ -20,6 +22,10 @@ class Sampler {
 
   /// REQUIRES: `scene` is that of the constructor.
   Sample take(const Scene& scene, const State& state);
+
+  /// Overwrites a frame with positions, the fraction of the section area of each element that has yielded, and the
+  /// largest fibre strain and local strain of each wall. REQUIRES: the frame is empty or of the same scene.
+  void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame) const;
 
   /// Calls visitor(field) for all data that a sample passes on to the next one.
   template <class Visitor>
@@ -37,6 +43,7 @@ class Sampler {
     visitor(next_check_);
     visitor(next_layer_strain_);
     visitor(densest_layer_);
+    visitor(absorbed_);
   }
 
  private:
@@ -44,10 +51,19 @@ class Sampler {
   void measure_rigid_walls(const Scene& scene, const State& state, Sample& sample);
   void measure_closing(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
+  void measure_efficiency(Sample& sample);
   void measure_collapse(const Scene& scene, const State& state, Sample& sample);
   void find_warnings(const Scene& scene, const State& state, Sample& sample);
 
+  /// Energy that a volume of the lattice has absorbed by a sample.
+  struct Absorbed {
+    double strain = 0.0;  ///< nominal
+    double energy = 0.0;  ///< N mm / mm^3, from the mean stress of both plates
+  };
+
   Cells cells_;
+  LocalStrain local_strain_;
+  SidePairs side_pairs_;
   Columns columns_;
   LayerSize layer_size_;
   double last_time_ = 0.0;
@@ -62,13 +78,9 @@ class Sampler {
   bool has_warned_of_closing_ = false;
   double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
+  std::vector<Absorbed> absorbed_ = std::vector<Absorbed>(1);  ///< the first at or before the window of the efficiency
   bool can_close_between_walls_ = false;  ///< rigid walls face each other, with gaps between them before loading
   double next_check_;                     ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
-
-/// Overwrites a frame with the positions, the fraction of the section area of each element that has yielded, and the
-/// largest fibre strain of each wall.
-/// REQUIRES: the frame is empty or of the same scene.
-void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame);
 
 }  // namespace cellcrush

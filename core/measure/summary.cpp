@@ -123,6 +123,24 @@ std::optional<PeakStress> find_peak(std::span<const Sample> samples, double stra
   return peak.stress > 0.0 ? std::optional(peak) : std::nullopt;
 }
 
+/// Up to a strain.
+std::optional<CrushForces> find_crush_forces(const Scene& scene, const Curve& impact,
+                                             const std::optional<PeakStress>& peak, double strain) {
+  if (!peak) return std::nullopt;
+  const double area = scene.width * scene.depth;
+  const double stroke = strain * scene.length;
+  const double work = area * scene.length * impact.integral(strain);
+  return CrushForces{work / stroke, area * peak->stress, stroke, work / scene.total_mass};
+}
+
+/// The secant at the end of the plateau range, or at the last sample of a shorter run.
+std::optional<double> find_poissons_ratio(std::span<const Sample> samples) {
+  const auto beyond = std::ranges::find_if(samples, [](const Sample& s) { return s.strain > Summary::kPlateauHigh; });
+  if (beyond == samples.begin()) return std::nullopt;
+  const Sample& last = *std::prev(beyond);
+  return last.strain > 0.0 ? std::optional(last.lateral_strain / last.strain) : std::nullopt;
+}
+
 /// The samples until the lattice is closed, or the frame at `closed_step`.
 std::span<const Sample> before_closing(const Scene& scene, std::span<const Sample> samples,
                                        std::optional<std::int64_t> closed_step) {
@@ -247,6 +265,9 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     summary.solid_fraction_at_densification = solid_fraction_at(scene, *summary.densification_strain);
   }
   summary.peak = find_peak(all, summary.densification_strain.value_or(1.0));
+  summary.crush_forces =
+      find_crush_forces(scene, impact, summary.peak, summary.densification_strain.value_or(samples.back().strain));
+  summary.poissons_ratio = find_poissons_ratio(samples);
   set_crush_mode(samples, summary);
   summary.quasi_static = find_quasi_static(samples, impact, support);
   const double volume = scene.length * scene.width * scene.depth;

@@ -20,7 +20,7 @@ namespace cellcrush {
 struct Simulation::Impl {
   Impl(std::shared_ptr<const Scene> built, int threads)
       : scene(std::move(built)), state(make_initial_state(*scene)), workspace(threads), sampler(*scene) {
-    make_frame(*scene, state, 0, last_good);
+    sampler.make_frame(*scene, state, 0, last_good);
   }
 
   void start_over() {
@@ -29,7 +29,7 @@ struct Simulation::Impl {
     peak = {};
     rest = {};
     status = {};
-    make_frame(*scene, state, 0, last_good);
+    sampler.make_frame(*scene, state, 0, last_good);
     last_good_step = 0;
   }
 
@@ -43,13 +43,14 @@ struct Simulation::Impl {
     visit(last_good.position);
     visit(last_good.plastic_fraction);
     visit(last_good.fibre_strain);
+    visit(last_good.local_strain);
     visit(last_good_step);
     visit(rest);
   }
 
   void keep_frame() {
     if (kFramesKept * (state.step - last_good_step) >= scene->schedule.step_count) {
-      make_frame(*scene, state, 0, last_good);
+      sampler.make_frame(*scene, state, 0, last_good);
       last_good_step = state.step;
     }
   }
@@ -105,7 +106,7 @@ struct Simulation::Impl {
 namespace {
 
 // Changes with what follows it in a checkpoint.
-constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720009;
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C6372000A;
 
 /// Sizes of the lists that equal scenes have alike.
 std::array<std::size_t, 8> shape_of(const State& state) {
@@ -147,7 +148,7 @@ Sample Simulation::take_sample() {
 
 FieldFrame Simulation::take_frame(int index) const {
   FieldFrame frame;
-  make_frame(*impl_->scene, impl_->state, index, frame);
+  impl_->sampler.make_frame(*impl_->scene, impl_->state, index, frame);
   return frame;
 }
 

@@ -249,13 +249,13 @@ void begin_epoch(Database& database, const std::string& restored) {
 void require_known_version(Database& database) {
   const std::int64_t version = journal_version(database);
   if (version == kVersion) return;
-  throw ServiceError(ServiceError::Kind::failed_precondition,
-                     "The journal has version " + std::to_string(version) + "; this daemon supports version " +
-                         std::to_string(kVersion) + ". " +
-                         (version == 6 || version == 7
-                              ? "cellcrushd upgrades the folder when it starts on it."
-                              : std::string("Run ") + (version > kVersion ? "a newer" : "an earlier") +
-                                    " cellcrushd, or use another data folder."));
+  throw ServiceError(
+      ServiceError::Kind::failed_precondition,
+      "The journal has version " + std::to_string(version) + "; this daemon supports version " +
+          std::to_string(kVersion) + ". " +
+          (version == 6 || version == 7 ? "cellcrushd upgrades the folder when it starts on it."
+                                        : std::string("Run ") + (version > kVersion ? "a newer" : "an earlier") +
+                                              " cellcrushd, or use another data folder."));
 }
 
 std::int64_t prepare_journal(Database& database, const std::filesystem::path& data_folder) {

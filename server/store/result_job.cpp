@@ -80,6 +80,7 @@ v1::Summary read_summary(hid_t file) {
   if (v1::Summary::OtherRise_Parse("OTHER_RISE_" + text_or_empty(file, "other_rise"), &rise)) out.set_other_rise(rise);
   read_part(file, "theory_", out, &v1::Summary::mutable_theory);
   read_part(file, "front_", out, &v1::Summary::mutable_front);
+  read_part(file, "crush_forces_", out, &v1::Summary::mutable_crush_forces);
   read_part(file, "quasi_static_", out, &v1::Summary::mutable_quasi_static);
   read_part(file, "ledger_", out, &v1::Summary::mutable_ledger);
   read_part(file, "fibre_strain_", out, &v1::Summary::mutable_fibre_strain);

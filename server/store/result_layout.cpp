@@ -124,6 +124,7 @@ void write_collapse(hid_t file, const v1::Summary& summary) {
     write_numbers(file, "fibre_strain_", summary.fibre_strain());
     write_attribute(file, "fibre_strain_wall", static_cast<std::int64_t>(summary.fibre_strain().wall()));
   }
+  if (summary.has_crush_forces()) write_numbers(file, "crush_forces_", summary.crush_forces());
   if (summary.has_quasi_static()) write_numbers(file, "quasi_static_", summary.quasi_static());
 }
 

@@ -143,6 +143,10 @@ v1::FieldFrame ResultReader::frame(int index) const {
     read_row(open_result_dataset(file_.id(), "frames/fibre_strain", H5T_IEEE_F32LE, 2), row,
              *out.mutable_fibre_strain());
   }
+  if (has("frames/local_strain")) {
+    read_row(open_result_dataset(file_.id(), "frames/local_strain", H5T_IEEE_F32LE, 2), row,
+             *out.mutable_local_strain());
+  }
   return out;
 }
 

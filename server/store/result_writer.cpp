@@ -74,6 +74,14 @@ void ResultWriter::make_frames() {
     write_attribute(field->id(), "coordinates", "strain");
 }
 
+void ResultWriter::make_local_strain() {
+  frame_local_strain_ = make_growing_dataset(file_.id(), "frames/local_strain", H5T_IEEE_F32LE, {wall_count_},
+                                             {1, std::min<hsize_t>(wall_count_, kFrameChunkItems)});
+  attach_scales(frame_local_strain_.id(), {frame_time_.id(), walls_.id()});
+  describe(frame_local_strain_.id(), "", "strain along the crush of the cells beside each wall, mean of both; absent without cells");
+  write_attribute(frame_local_strain_.id(), "coordinates", "strain");
+}
+
 void ResultWriter::write_mesh(const v1::Mesh& mesh) {
   mesh_ = Hdf5Handle(H5Gcreate2(file_.id(), "mesh", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
                      "Creating the group mesh");
@@ -155,6 +163,10 @@ void ResultWriter::add_frame(const v1::FieldFrame& frame) {
   append_rows(frame_position_.id(), H5T_NATIVE_FLOAT, 1, frame.position_mm().data());
   append_rows(frame_plastic_.id(), H5T_NATIVE_FLOAT, 1, frame.plastic_fraction().data());
   append_rows(frame_fibre_strain_.id(), H5T_NATIVE_FLOAT, 1, frame.fibre_strain().data());
+  if (frame.local_strain_size() > 0) {
+    if (!has_positions_) make_local_strain();
+    append_rows(frame_local_strain_.id(), H5T_NATIVE_FLOAT, 1, frame.local_strain().data());
+  }
   if (!std::exchange(has_positions_, true)) write_positions(frame);
 }
 
@@ -191,7 +203,7 @@ void ResultWriter::finish(const ResultHeader& header) {
   const std::string what = "Closing the result";
   for (auto& column : columns_) column.second.close(what);
   for (auto* part : {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &frame_fibre_strain_, &mesh_,
-                     &particles_, &elements_, &walls_, &axes_}) {
+                     &particles_, &elements_, &walls_, &axes_, &frame_local_strain_}) {
     part->close(what);
   }
   check_hdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), what);
@@ -204,7 +216,7 @@ std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t element
   constexpr std::int64_t kStructure = 120'000;
   const std::int64_t history = static_cast<std::int64_t>(history_columns().size()) * 8 * samples;
   const std::int64_t mesh = 2 * 4 * particles + 4 * 4 * elements;
-  const std::int64_t per_frame = 2 * 8 + 2 * 4 * particles + 4 * elements + 4 * walls;
+  const std::int64_t per_frame = 2 * 8 + 2 * 4 * particles + 4 * elements + 2 * 4 * walls;
   // Deflated, mesh and frames take 0.43 to 0.6 of that in crushes to 20 to 80 % strain.
   return kStructure + history + (mesh + frames * per_frame) / 2;
 }
@@ -212,7 +224,7 @@ std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t element
 std::int64_t predicted_report_bytes(std::int64_t particles, std::int64_t elements, std::int64_t walls,
                                     std::int64_t samples, std::int64_t frames) {
   constexpr std::int64_t kSample = 490;  // as a message and in the binary form; measured
-  const std::int64_t positions_and_numbers = 2 * 4 * particles + 4 * elements + 4 * walls;
+  const std::int64_t positions_and_numbers = 2 * 4 * particles + 4 * elements + 2 * 4 * walls;
   const std::int64_t nodes_and_walls = 3 * 3 * elements;
   return kSample * samples + nodes_and_walls + (frames + 1) * positions_and_numbers;
 }

@@ -39,6 +39,7 @@ class ResultWriter {
  private:
   void write_mesh(const v1::Mesh& mesh);
   void make_frames();
+  void make_local_strain();
   /// Makes those of this sample that are not there yet.
   void make_columns(const v1::Sample& sample);
   void write_gathered();
@@ -61,6 +62,7 @@ class ResultWriter {
   Hdf5Handle frame_position_;
   Hdf5Handle frame_plastic_;
   Hdf5Handle frame_fibre_strain_;
+  Hdf5Handle frame_local_strain_;  ///< of lattices with cells
   std::vector<v1::Sample> gathered_;
   bool has_positions_ = false;
 };

@@ -46,6 +46,17 @@ v1::QuasiStatic to_proto(const QuasiStatic& quasi_static) {
   return out;
 }
 
+v1::CrushForces to_proto(const CrushForces& forces) {
+  constexpr double kJPerGOfNMmPerTonne = 1e-9;
+  v1::CrushForces out;
+  out.set_mean_n(forces.mean);
+  out.set_peak_n(forces.peak);
+  out.set_efficiency(forces.efficiency());
+  out.set_stroke_mm(forces.stroke);
+  out.set_specific_energy_j_per_g(kJPerGOfNMmPerTonne * forces.specific_energy);
+  return out;
+}
+
 v1::FibreStrain to_proto(const LargestFibreStrain& fibre_strain) {
   v1::FibreStrain out;
   out.set_largest(fibre_strain.largest);
@@ -174,6 +185,7 @@ v1::FieldFrame to_proto(const FieldFrame& frame) {
   out.mutable_position_mm()->Assign(frame.position.begin(), frame.position.end());
   out.mutable_plastic_fraction()->Assign(frame.plastic_fraction.begin(), frame.plastic_fraction.end());
   out.mutable_fibre_strain()->Assign(frame.fibre_strain.begin(), frame.fibre_strain.end());
+  out.mutable_local_strain()->Assign(frame.local_strain.begin(), frame.local_strain.end());
   return out;
 }
 
@@ -227,6 +239,8 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& 
     out.set_peak_stress_mpa(summary.peak->stress);
     out.set_peak_stress_strain(summary.peak->strain);
   }
+  if (summary.crush_forces) *out.mutable_crush_forces() = to_proto(*summary.crush_forces);
+  if (summary.poissons_ratio) out.set_poissons_ratio(*summary.poissons_ratio);
   if (summary.densification_strain) out.set_densification_strain(*summary.densification_strain);
   if (summary.other_rise) {
     out.set_other_rise(to_proto(summary.other_rise->kind));

@@ -163,6 +163,7 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
   int positions = 0;
   int fractions = 0;
   int strains = 0;
+  int local_strains = 0;
   std::size_t packed = 0;
   do {
     Room room(std::max<std::size_t>(chunk_bytes, sizeof(float)));
@@ -173,6 +174,7 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
     room.take(frame.position_mm(), positions, *part.mutable_position_mm());
     room.take(frame.plastic_fraction(), fractions, *part.mutable_plastic_fraction());
     room.take(frame.fibre_strain(), strains, *part.mutable_fibre_strain());
+    room.take(frame.local_strain(), local_strains, *part.mutable_local_strain());
     if (!frame.has_packed()) continue;
     part.mutable_packed()->set_quantum_mm(frame.packed().quantum_mm());
     part.mutable_packed()->set_particle_count(frame.packed().particle_count());
@@ -180,7 +182,8 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
     part.mutable_packed()->set_predicted_by_elements(frame.packed().predicted_by_elements());
     room.take(frame.packed().data(), packed, *part.mutable_packed()->mutable_data());
   } while (positions < frame.position_mm_size() || fractions < frame.plastic_fraction_size() ||
-           strains < frame.fibre_strain_size() || packed < frame.packed().data().size());
+           strains < frame.fibre_strain_size() || local_strains < frame.local_strain_size() ||
+           packed < frame.packed().data().size());
   number_parts(out);
   return out;
 }

@@ -61,6 +61,18 @@ TEST(SummaryText, HasThePeakStressWithItsFilter) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("words { plates: true } summary {}"), 140), Not(HasSubstr("peak")));
 }
 
+TEST(SummaryText, HasTheCrushForcesAndPoissonsRatioIfKnown) {
+  const auto job = from_text<v1::Job>(R"(words { plates: true } summary {
+    plateau_window_high: 0.4 poissons_ratio: -0.25
+    crush_forces { mean_n: 120 peak_n: 480 efficiency: 0.25 stroke_mm: 33 specific_energy_j_per_g: 1.5 } })");
+  const std::string text = summary_text(job, 140);
+  EXPECT_THAT(text, ContainsRegex("mean crush force, impact plate +120 N +over a stroke of 33.* mm; 0.25 of the peak"));
+  EXPECT_THAT(text, ContainsRegex("specific energy absorbed +1.5.* J/g +over that stroke"));
+  EXPECT_THAT(text, ContainsRegex("Poisson's ratio +-0.25.* +secant, up to 0.4 strain"));
+  const std::string without = summary_text(from_text<v1::Job>("words { plates: true } summary {}"), 140);
+  EXPECT_THAT(without, Not(AnyOf(HasSubstr("crush force"), HasSubstr("specific energy"), HasSubstr("Poisson"))));
+}
+
 TEST(SummaryText, CountsRigidLinksIfThereAreAny) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("summary { rigid_link_count: 6 }"), 140),
               ContainsRegex("rigid links +6 +beams too short to bend"));
@@ -178,7 +190,8 @@ TEST(HistoryCsv, LeavesTheFrontsCellsEmptyWhereThereIsNone) {
   const std::string text = history_csv(samples);
   EXPECT_THAT(
       text, HasSubstr("energy_contact_damping_mj,deepest_penetration,solid_fraction,collapsed_fraction,"
-                      "largest_fibre_strain,peak_stress_mpa,peak_stress_strain,front_position_mm,front_strain_behind"));
+                      "largest_fibre_strain,peak_stress_mpa,peak_stress_strain,lateral_strain,absorption_efficiency,"
+                      "front_position_mm,front_strain_behind"));
   EXPECT_THAT(text, HasSubstr("front_wall_fraction_behind,step,contact_count,most_strained_wall\n"));
   EXPECT_THAT(text, HasSubstr(",0,0,,,,,,,,0,0,0\n"));
   EXPECT_THAT(text, HasSubstr(",0,0,12.5,0,0,0,0,0,0,0,0,0\n"));

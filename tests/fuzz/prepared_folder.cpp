@@ -95,6 +95,7 @@ void write_result(const std::filesystem::path& path) {
     for (int k = 0; k < 6; ++k) frame.add_position_mm(static_cast<float>(k));
     for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(0.5F);
     for (int k = 0; k < 2; ++k) frame.add_fibre_strain(0.01F);
+    for (int k = 0; k < 2; ++k) frame.add_local_strain(0.02F);
     writer.add_frame(frame);
   }
   writer.finish({job_of(testing::small_case()), "1.0", "scalar", 1, 1e-6, {"Walls are beams."}});

@@ -57,6 +57,7 @@ const std::array<Part, 10> kParts = {{{"/frames/time_s", {3}},
                                       {"/frames/position_mm", {3, 3, 2}, false},
                                       {"/frames/plastic_fraction", {3, 2}, false},
                                       {"/frames/fibre_strain", {3, 2}, false},
+                                      {"/frames/local_strain", {3, 2}, false},
                                       {"/frames", {3}},
                                       {"/history/time_s", {5}},
                                       {"/history/front_strain_behind", {5}},
@@ -237,6 +238,7 @@ void expect_own(const v1::FieldFrame& frame) {
   for (const float value : frame.position_mm()) expect_own(static_cast<double>(value));
   for (const float value : frame.plastic_fraction()) expect_own(static_cast<double>(value));
   for (const float value : frame.fibre_strain()) expect_own(static_cast<double>(value));
+  for (const float value : frame.local_strain()) expect_own(static_cast<double>(value));
 }
 
 template <class Reading>

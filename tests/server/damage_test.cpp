@@ -90,6 +90,7 @@ class DamageTest : public JournalTest {
     for (int i = 0; i < 4; ++i) frame.add_position_mm(static_cast<float>(i));
     frame.add_plastic_fraction(0.25F);
     frame.add_fibre_strain(0.01F);
+    frame.add_local_strain(0.02F);
     writer.add_frame(frame);
     for (int step = 1; step <= 40; ++step) writer.add_sample(full_sample(step));
     v1::Job described = reader_->find_job(job)->job;

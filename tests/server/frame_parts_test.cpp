@@ -49,6 +49,7 @@ v1::FieldFrame frame_of(const v1::Mesh& mesh, double largest) {
     out.add_position_mm(mesh.position_mm(i) + (i < mesh.position_mm_size() / 4 ? moved(random) : 0.0F));
   for (int i = 0; i < mesh.thickness_mm_size(); ++i) out.add_plastic_fraction(i % 11 == 0 ? 0.3F : 0.0F);
   for (int i = 0; i < mesh.thickness_mm_size() / 2; ++i) out.add_fibre_strain(0.1F * static_cast<float>(i % 5));
+  for (int i = 0; i < mesh.thickness_mm_size() / 2; ++i) out.add_local_strain(0.1F * static_cast<float>(i % 7));
   return out;
 }
 

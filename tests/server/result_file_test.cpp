@@ -74,6 +74,7 @@ class ResultFileTest : public ::testing::Test {
       for (int k = 0; k < 6; ++k) frame.add_position_mm(static_cast<float>(100 * i + k));
       for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(static_cast<float>(i) / 4.0F);
       for (int k = 0; k < 2; ++k) frame.add_fibre_strain(0.01F * static_cast<float>(i + k));
+      for (int k = 0; k < 2; ++k) frame.add_local_strain(0.02F * static_cast<float>(i + k));
       writer.add_frame(frame);
     }
     const auto summary = testing::from_text<v1::Summary>(R"(
@@ -122,7 +123,7 @@ TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
     EXPECT_FALSE(read_text_attribute(dataset.id(), "units").empty()) << column.path;
     found.insert("/" + column.path);
   }
-  EXPECT_EQ(found.size(), 45U) << "Names never change.";
+  EXPECT_EQ(found.size(), 48U) << "Names never change.";
 }
 
 TEST_F(ResultFileTest, TheHistoryIsExtendibleAndCompressed) {
@@ -185,6 +186,7 @@ TEST_F(ResultFileTest, IsReadBackAsItWasWritten) {
   EXPECT_EQ(frame.position_mm(5), 205.0F);
   EXPECT_EQ(frame.plastic_fraction(0), 0.5F);
   EXPECT_EQ(frame.fibre_strain(1), 0.03F);
+  EXPECT_EQ(frame.local_strain(1), 0.02F * 3.0F);
 }
 
 // Groups of HDF5 are in the order of their names, samples in that of the case.

@@ -78,6 +78,7 @@ class Frames:
     position_mm: Array  # (F, N, 2), float32
     plastic_fraction: Array  # (F, E), float32: fraction of each element's section that has yielded
     fibre_strain: Array  # (F, W), float32: largest strain of each wall; no walls in results of earlier versions
+    local_strain: Array  # (F, W), float32: along the crush, of the cells beside each wall; no walls without cells
 
     def __len__(self) -> int:
         return len(self.time_s)
@@ -109,7 +110,7 @@ def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:
     return Frames(np.array([chunks[0].frame.time_s for chunks in frames]),
                   np.array([chunks[0].frame.strain for chunks in frames]),
                   np.array([p.reshape(-1, 2) for p in whole("position_mm")]), np.array(whole("plastic_fraction")),
-                  np.array(whole("fibre_strain")))
+                  np.array(whole("fibre_strain")), np.array(whole("local_strain")))
 
 
 _NUMBERS = (FieldDescriptor.TYPE_DOUBLE, FieldDescriptor.TYPE_INT64)

@@ -92,13 +92,13 @@ class ResultFile(Results):
                 self._samples[name] = column
             mesh, frames = file["mesh"], file["frames"]
             walls = mesh["element_wall"][()] if "element_wall" in mesh else np.zeros(len(mesh["beam_nodes"]), np.int32)
-            strain = frames["fibre_strain"][()] if "fibre_strain" in frames else np.zeros((len(frames["time_s"]), 0),
-                                                                                          np.float32)
+            no_walls = np.zeros((len(frames["time_s"]), 0), np.float32)
+            of_walls = [frames[name][()] if name in frames else no_walls for name in ("fibre_strain", "local_strain")]
             self._mesh = Mesh(mesh["position_mm"][()], mesh["beam_nodes"][()], mesh["thickness_mm"][()], walls,
                               **{name: mesh.attrs[name] for name in mesh.attrs if name in Mesh.__annotations__},
                               **{name: mesh[name][()] for name in ("overlap_particle",) if name in mesh})
             self._frames = Frames(frames["time_s"][()], frames["strain"][()], frames["position_mm"][()],
-                                  frames["plastic_fraction"][()], strain)
+                                  frames["plastic_fraction"][()], *of_walls)
         self.case = parse_case(self.attributes["case"], str(path))
         self.title = self.case.title
         self.summary = Values(_summary(self.attributes))

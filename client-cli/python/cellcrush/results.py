@@ -46,11 +46,17 @@ class Results(ABC):
                                   ("peak stress", "peak_stress_mpa", "MPa"),
                                   ("densification strain", "densification_strain", ""),
                                   ("other lasting rise of the stress", "other_rise_strain", ""),
+                                  ("Poisson's ratio", "poissons_ratio", ""),
                                   ("valid to strain", "valid_to_strain", ""),
                                   ("inertia's share of the work", "inertia_share", "")):
             value = getattr(self.summary, name)
             if value is not None:
                 rows.append((label, f"{value:.4g} {unit}".rstrip()))
+        if self.summary.crush_forces:
+            forces = self.summary.crush_forces
+            rows.append(("mean and peak crush force", f"{forces.mean_n:.4g} N, {forces.peak_n:.4g} N"))
+            rows.append(("crush force efficiency", f"{forces.efficiency:.4g}"))
+            rows.append(("specific energy absorbed", f"{forces.specific_energy_j_per_g:.4g} J/g"))
         if self.summary.fibre_strain:
             rows.append(("largest fibre strain", f"{self.summary.fibre_strain.largest:.4g}"))
         return rows
@@ -71,6 +77,7 @@ class Results(ABC):
             "position_mm": (("frame", "particle", "axis"), frames.position_mm),
             "plastic_fraction": (("frame", "element"), frames.plastic_fraction),
             "fibre_strain": (("frame", "wall"), frames.fibre_strain),
+            "local_strain": (("frame", "wall" if frames.local_strain.size else "cell_wall"), frames.local_strain),
             "undeformed_position_mm": (("particle", "axis"), mesh.position_mm),
             "element_nodes": (("element", "end"), mesh.element_nodes), "thickness_mm": ("element", mesh.thickness_mm),
             "element_wall": ("element", mesh.element_wall),

@@ -123,6 +123,9 @@ struct Sample {
   double largest_fibre_strain = 0.0;
   std::int64_t most_strained_wall = 0;  ///< which has it, by its number (MeshView::element_wall)
   PeakStress peak;                      ///< so far
+  double lateral_strain = 0.0;          ///< across the crush, positive where wider (measure/lateral_strain.h)
+  double absorption_efficiency =
+      0.0;  ///< strain: integral of the mean stress over it, over that stress of the last 1 %
   /// Of the cells that have collapsed by now, in samples in which it was evaluated.
   CrushMode crush_mode = CrushMode::none;
   std::optional<Front> front;
@@ -170,6 +173,8 @@ void visit_columns(S& sample, const Visitor& visit) {
   visit("most_strained_wall", sample.most_strained_wall, 1.0);
   visit("peak_stress_mpa", sample.peak.stress, 1.0);
   visit("peak_stress_strain", sample.peak.strain, 1.0);
+  visit("lateral_strain", sample.lateral_strain, 1.0);
+  visit("absorption_efficiency", sample.absorption_efficiency, 1.0);
 }
 
 /// Samples in their memory representation, for the same build. A run that is resumed from a checkpoint needs those
@@ -187,6 +192,7 @@ struct FieldFrame {
   std::vector<float> position;          ///< mm, x0 y0 x1 y1 ... of N particles
   std::vector<float> plastic_fraction;  ///< E elements, fraction of the section area that has yielded
   std::vector<float> fibre_strain;      ///< of all walls (Scene::wall_count), as Sample::largest_fibre_strain
+  std::vector<float> local_strain;      ///< of the cells beside each wall (measure/local_strain.h); empty without cells
 };
 
 /// Closed-form solutions to compare a result with.
@@ -221,6 +227,17 @@ struct LargestFibreStrain {
   double time = 0.0;    ///< s
 };
 
+/// The forces of a crush at the impact plate up to `stroke`.
+struct CrushForces {
+  double mean = 0.0;             ///< N, work over stroke
+  double peak = 0.0;             ///< N, of the peak stress
+  double stroke = 0.0;           ///< mm, up to the onset of densification, or to the end without one
+  double specific_energy = 0.0;  ///< N mm / tonne, work over the mass of the lattice
+
+  /// Crush force efficiency.
+  [[nodiscard]] double efficiency() const { return mean / peak; }
+};
+
 /// What ends a run that nothing stops.
 enum class RunEnd {
   strain,  ///< loading.end_strain, or its default
@@ -250,8 +267,10 @@ struct Summary {
   std::optional<double> plateau_stress_support;
   /// Up to the onset of densification, or to the end without one; absent before the first window is complete.
   std::optional<PeakStress> peak;
-  std::optional<double> densification_strain;             ///< onset; absent without a lasting rise of a dense lattice
-  std::optional<LastingRise> other_rise;                  ///< one that is not densification
+  std::optional<CrushForces> crush_forces;     ///< absent without a peak
+  std::optional<double> poissons_ratio;        ///< lateral strain over strain, at the end of the plateau range
+  std::optional<double> densification_strain;  ///< onset; absent without a lasting rise of a dense lattice
+  std::optional<LastingRise> other_rise;       ///< one that is not densification
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate
   std::optional<double> solid_fraction_at_densification;  ///< Sample::solid_fraction there
   double absorbed_energy = 0.0;  ///< N mm, work of the impact plate up to 50 % strain or valid_to_strain

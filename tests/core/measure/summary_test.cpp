@@ -106,6 +106,33 @@ TEST_F(SummaryTest, PlatesAreComparedByTheirMeansBeyondFivePercentOfStrain) {
   EXPECT_NEAR(found->plate_difference, whole / (1.0 + 0.5 * whole), 1e-6);
 }
 
+// Both plates at 1 MPa, and no densification: the stroke is the whole run.
+TEST_F(SummaryTest, CrushForcesAreThoseOfTheImpactPlateOverTheStroke) {
+  std::vector<Sample> samples = steady_samples();
+  for (Sample& sample : samples) sample.peak = {4.0, 0.01};
+  const auto forces = summarize(*scene_, samples).crush_forces;
+  ASSERT_TRUE(forces);
+  const double area = scene_->width * scene_->depth;
+  EXPECT_NEAR(forces->stroke, 0.6 * scene_->length, 1e-9 * scene_->length);
+  EXPECT_NEAR(forces->mean, area, 1e-9 * area);
+  EXPECT_NEAR(forces->peak, 4.0 * area, 1e-9 * area);
+  EXPECT_NEAR(forces->efficiency(), 0.25, 1e-9);
+  const double work = area * 0.6 * scene_->length;
+  EXPECT_NEAR(forces->specific_energy, work / scene_->total_mass, 1e-9 * work / scene_->total_mass);
+}
+
+TEST_F(SummaryTest, CrushForcesAreAbsentBeforeThePeakIsKnown) {
+  EXPECT_FALSE(summarize(*scene_, steady_samples()).crush_forces);
+}
+
+TEST_F(SummaryTest, PoissonsRatioIsTheSecantAtTheEndOfThePlateauRange) {
+  std::vector<Sample> samples = steady_samples();
+  for (Sample& sample : samples) sample.lateral_strain = sample.strain < 0.4005 ? 0.3 * sample.strain : -1.0;
+  EXPECT_NEAR(summarize(*scene_, samples).poissons_ratio.value(), 0.3, 1e-12);
+  samples.resize(100);
+  EXPECT_NEAR(summarize(*scene_, samples).poissons_ratio.value(), 0.3, 1e-12);
+}
+
 TEST_F(SummaryTest, LedgerErrorOfARunThatOnlyItsInitialEnergyDrivesIsRelativeToThat) {
   std::vector<Sample> samples(10);
   for (std::size_t i = 0; i < samples.size(); ++i) {

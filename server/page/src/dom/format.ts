@@ -22,9 +22,10 @@ export interface Unit { name: string; factor: number }
 const kBySize: Record<string, [number, string, number][]> = {
   MPa: [[0.1, "MPa", 1], [0, "kPa", 1e3]],
   mJ: [[1e6, "kJ", 1e-6], [1e3, "J", 1e-3], [0, "mJ", 1]],
+  N: [[1e3, "kN", 1e-3], [0, "N", 1]],
 };
 
-/** The unit for numbers of a size: kPa below 0.1 MPa; J from 1000 mJ, kJ from 1000 J. */
+/** The unit for numbers of a size: kPa below 0.1 MPa; J from 1000 mJ, kJ from 1000 J; kN from 1000 N. */
 export function unitBySize(unit: string, size: number): Unit {
   const found = size > 0 ? kBySize[unit]?.find(([from]) => size >= from) : undefined;
   return found ? { name: found[1], factor: found[2] } : { name: unit, factor: 1 };

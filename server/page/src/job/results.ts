@@ -30,6 +30,12 @@ export function resultsList(s: Summary, note: string): HTMLElement {
       add("Peak stress, impact plate", "peak_stress_mpa", quantity(s.peakStressMpa, "MPa"),
           `mean over ${percent(s.peakStressWindow, 0)} strain, at strain ${strainText(s.peakStressStrain)}`);
     }
+    if (s.crushForces) {
+      const { meanN, peakN, efficiency, strokeMm, specificEnergyJPerG } = s.crushForces;
+      add("Mean crush force", "crush_forces", quantity(meanN, "N"),
+          `over a stroke of ${number(strokeMm)} mm; ${number(efficiency)} of the peak of ${quantity(peakN, "N")}`);
+      add("Specific energy absorbed", "crush_forces", `${number(specificEnergyJPerG)} J/g`, "over that stroke");
+    }
     add("Densification strain", "densification_strain", strainText(s.densificationStrain),
         s.densificationStrain !== undefined ? ""
           : s.otherRiseStrain !== undefined ? "the lasting rise of the stress is another"
@@ -37,6 +43,9 @@ export function resultsList(s: Summary, note: string): HTMLElement {
     if (s.otherRiseStrain !== undefined) {
       add("Other lasting rise", "other_rise_strain", strainText(s.otherRiseStrain), s.otherRiseWords);
     }
+  }
+  if (s.poissonsRatio !== undefined) {
+    add("Poisson's ratio", "poissons_ratio", number(s.poissonsRatio), `secant, up to strain ${s.plateauWindowHigh}`);
   }
   if (s.validToStrain !== undefined) {
     add("Valid to strain", "valid_to_strain", strainText(s.validToStrain),
