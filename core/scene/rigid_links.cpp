@@ -13,7 +13,7 @@ namespace cellcrush {
 namespace {
 
 /// A wall that may be a link, between nodes of a list.
-struct Candidate {
+struct LinkCandidate {
   int start = 0;
   int end = 0;
   double thickness = 0.0;
@@ -24,9 +24,9 @@ struct Candidate {
 /// What links are looked for in. Lengths in mm.
 struct Candidates {
   std::vector<Vector2> nodes;
-  std::vector<Candidate> walls;
+  std::vector<LinkCandidate> walls;
 
-  [[nodiscard]] double length(const Candidate& wall) const { return (nodes[wall.end] - nodes[wall.start]).norm(); }
+  [[nodiscard]] double length(const LinkCandidate& wall) const { return (nodes[wall.end] - nodes[wall.start]).norm(); }
 };
 
 /// 1 for each node that is held, moved or pinned.
@@ -47,7 +47,7 @@ Candidates candidates_of(const SceneSpec& spec, const FrameWalls& frame) {
   const std::vector<char> constrained = constrained_nodes(frame, spec.loads);
   for (const FrameWalls::Beam& beam : frame.beams) {
     const MaterialSpec& material = beam.material ? *beam.material : spec.material;
-    Candidate& wall = all.walls.emplace_back(Candidate{beam.start, beam.end, beam.thickness_mm, 0.0, true});
+    LinkCandidate& wall = all.walls.emplace_back(LinkCandidate{beam.start, beam.end, beam.thickness_mm, 0.0, true});
     wall.mass = *material.density_kg_per_m3 * beam.thickness_mm * all.length(wall);
     wall.is_free = constrained[beam.start] == 0 && constrained[beam.end] == 0;
   }
@@ -61,8 +61,8 @@ Candidates candidates_of(const SceneSpec& spec, const NetworkWalls& network) {
   all.nodes.assign(layout.joints.begin(), layout.joints.end());
   for (const LayoutWall& listed : layout.walls) {
     const MaterialSpec& material = listed.material == 0 ? spec.material : network.materials[listed.material - 1];
-    Candidate& wall =
-        all.walls.emplace_back(Candidate{listed.start, listed.end, listed.thickness, 0.0, listed.rise == 0.0});
+    LinkCandidate& wall =
+        all.walls.emplace_back(LinkCandidate{listed.start, listed.end, listed.thickness, 0.0, listed.rise == 0.0});
     wall.mass = *material.density_kg_per_m3 * listed.thickness * all.length(wall);
   }
   return all;
@@ -72,7 +72,7 @@ Candidates candidates_of(const SceneSpec& spec, const NetworkWalls& network) {
 std::vector<char> short_walls(const Candidates& all, double slenderness) {
   std::vector<char> is_short;
   is_short.reserve(all.walls.size());
-  for (const Candidate& wall : all.walls) {
+  for (const LinkCandidate& wall : all.walls) {
     is_short.push_back(wall.is_free && all.length(wall) < slenderness * wall.thickness ? 1 : 0);
   }
   return is_short;
@@ -80,7 +80,7 @@ std::vector<char> short_walls(const Candidates& all, double slenderness) {
 
 /// The part that the links connect each node to, as find_parts gives it.
 std::vector<int> parts_of(const Candidates& all, const std::vector<char>& is_link) {
-  std::vector<Candidate> links;
+  std::vector<LinkCandidate> links;
   for (std::size_t w = 0; w < all.walls.size(); ++w) {
     if (is_link[w] != 0) links.push_back(all.walls[w]);
   }
