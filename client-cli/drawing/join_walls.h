@@ -36,9 +36,9 @@ struct JoinedWalls {
   std::vector<int> island_walls;      ///< walls of each of these
 };
 
-/// Bonds walls face to face, joins the ends of walls that lie within the tolerance of each other, divides straight walls where ends of others
-/// meet them and, if asked, where they cross, and leaves out what is there twice. Joints are numbered in the order of
-/// the walls. Throws CommandError (refused) if a wall has no thickness, or nothing is left.
+/// Bonds walls face to face, joins the ends of walls that lie within the tolerance of each other, divides straight
+/// walls where ends of others meet them and, if asked, where they cross, and leaves out what is there twice. Joints are
+/// numbered in the order of the walls. Throws CommandError (refused) if a wall has no thickness, or nothing is left.
 JoinedWalls join_walls(const Drawing& drawing, const JoinOptions& options);
 
 }  // namespace cellcrush::client

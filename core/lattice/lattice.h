@@ -38,7 +38,8 @@ struct ClosedForms {
 };
 
 /// What one kind of lattice of equal cells answers. Each kind is a file of lattice/kinds, and a message of its name in
-/// case.proto. Where a function gets a lattice or a spec, it is one of this kind; all but `check` REQUIRE a checked one.
+/// case.proto. Where a function gets a lattice or a spec, it is one of this kind; all but `check` REQUIRE a checked
+/// one.
 struct LatticeKind {
   std::string_view name;        ///< of the field of the case: lattice.NAME
   std::string_view plural;      ///< in sentences

@@ -78,7 +78,8 @@ void ResultWriter::make_local_strain() {
   frame_local_strain_ = make_growing_dataset(file_.id(), "frames/local_strain", H5T_IEEE_F32LE, {wall_count_},
                                              {1, std::min<hsize_t>(wall_count_, kFrameChunkItems)});
   attach_scales(frame_local_strain_.id(), {frame_time_.id(), walls_.id()});
-  describe(frame_local_strain_.id(), "", "strain along the crush of the cells beside each wall, mean of both; absent without cells");
+  describe(frame_local_strain_.id(), "",
+           "strain along the crush of the cells beside each wall, mean of both; absent without cells");
   write_attribute(frame_local_strain_.id(), "coordinates", "strain");
 }
 

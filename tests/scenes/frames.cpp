@@ -134,6 +134,7 @@ SceneSpec as_network(const SceneSpec& spec) {
     network.thicknesses_mm.push_back(wall.thickness);
     network.rises_mm.push_back(wall.rise);
   }
+  if (std::ranges::all_of(network.rises_mm, [](double rise) { return rise == 0.0; })) network.rises_mm.clear();
   out.lattice = std::move(network);
   return out;
 }

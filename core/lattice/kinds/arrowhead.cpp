@@ -11,9 +11,9 @@
 //
 // Closed forms, with the long walls of length l, b = l cos theta, the period p = b (tan theta - tan phi) along y, the
 // cell of 2 b by p, and two walls of each kind in it. All joints lie on lines of symmetry, so no joint turns: a wall of
-// length L resists an axial relative displacement of its ends with E t / L and one across with E t^3 / L^3. Strains e1
-// along x and e2 along y move the ends of a short wall by (b e1, v) and of a long one by (b e1, v + p e2), with the v of
-// least energy. Exact for beams without shear. Collapse: hinges at the ends of all walls, which turn by d phi =
+// length L resists an axial relative displacement of its ends with E t / L and one across with E t^3 / L^3. Strains
+// e1 along x and e2 along y move the ends of a short wall by (b e1, v) and of a long one by (b e1, v + p e2), with the
+// v of least energy. Exact for beams without shear. Collapse: hinges at the ends of all walls, which turn by d phi =
 // (tan theta / tan phi) d theta.
 namespace cellcrush {
 namespace {

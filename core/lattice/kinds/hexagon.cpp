@@ -11,12 +11,12 @@
 // re-entrant. Rows run along x, from the bottom up, and have `columns` and `columns - 1` cells in turn.
 //
 // Closed forms, with s = sin theta, c = cos theta, r = t/l, the thickness t_v of the walls along y and the load P of a
-// slanted wall. Under a stress along x, P = sigma (h + l s), it bends under P s and is pressed by P c; the walls along y
-// bear nothing. Under a stress along y, P = sigma l c, it bends under P c and is pressed by P s; the walls along y bear
-// 2 P. A wall of unit depth, both ends of which stay at their angles, gives l^3 / (E t^3) to a unit shear force and
-// l / (E t) to a unit axial one. Hence E* and nu*, exact for beams without shear; Gibson and Ashby, Cellular Solids, 2nd
-// ed., section 4.2, without the walls' axial stretch. Collapse: plastic hinges at the ends of the slanted walls, section
-// 4.3; at small angles along x these yield axially first.
+// slanted wall. Under a stress along x, P = sigma (h + l s), it bends under P s and is pressed by P c; the walls along
+// y bear nothing. Under a stress along y, P = sigma l c, it bends under P c and is pressed by P s; the walls along y
+// bear 2 P. A wall of unit depth, both ends of which stay at their angles, gives l^3 / (E t^3) to a unit shear force
+// and l / (E t) to a unit axial one. Hence E* and nu*, exact for beams without shear; Gibson and Ashby, Cellular
+// Solids, 2nd ed., section 4.2, without the walls' axial stretch. Collapse: plastic hinges at the ends of the slanted
+// walls, section 4.3; at small angles along x these yield axially first.
 namespace cellcrush {
 namespace {
 
