@@ -12,64 +12,64 @@ namespace {
 constexpr double kOnMidLine = 0.05;
 
 /// Coordinates of a place from the start of a wall: along it, and to its left.
-struct Along {
+struct OnFoil {
   double x = 0.0;
   double y = 0.0;
 };
 
 /// The line of a wall.
-struct Axis {
+struct FoilLine {
   DrawnPlace start;
   double cosine = 1.0;
   double sine = 0.0;
   double length = 0.0;
 
-  explicit Axis(const DrawnWall& wall) : start(wall.start), length(distance(wall.start, wall.end)) {
+  explicit FoilLine(const DrawnWall& wall) : start(wall.start), length(distance(wall.start, wall.end)) {
     cosine = (wall.end.x - wall.start.x) / length;
     sine = (wall.end.y - wall.start.y) / length;
   }
-  [[nodiscard]] Along of(const DrawnPlace& place) const {
+  [[nodiscard]] OnFoil of(const DrawnPlace& place) const {
     const double x = place.x - start.x;
     const double y = place.y - start.y;
     return {x * cosine + y * sine, y * cosine - x * sine};
   }
-  [[nodiscard]] DrawnPlace at(const Along& place) const {
+  [[nodiscard]] DrawnPlace at(const OnFoil& place) const {
     return {start.x + place.x * cosine - place.y * sine, start.y + place.x * sine + place.y * cosine};
   }
 };
 
 /// Two walls face to face, by the axis of the first.
-struct Facing {
+struct FacingFoils {
   std::size_t first = 0;
   std::size_t second = 0;
-  Axis axis;
+  FoilLine axis;
   double from = 0.0;  ///< of what faces, along the axis
   double to = 0.0;
   double low = 0.0;  ///< where places go with the bond: up to ends that end as one
   double high = 0.0;
-  Along other_from;  ///< the ends of the second wall, in the direction of the axis
-  Along other_to;
+  OnFoil other_from;  ///< the ends of the second wall, in the direction of the axis
+  OnFoil other_to;
   double distance = 0.0;  ///< of the mid-lines, to the left
   double middle = 0.0;    ///< mid-line of both together
   double thickness = 0.0;
   double room = 0.0;  ///< within which an end is on a foil
 
-  explicit Facing(const Axis& of_first) : axis(of_first) {}
+  explicit FacingFoils(const FoilLine& of_first) : axis(of_first) {}
 
   /// The place on the bonded wall that a place on one of its foils goes to.
   [[nodiscard]] std::optional<DrawnPlace> moved(const DrawnPlace& place) const {
-    const Along along = axis.of(place);
+    const OnFoil along = axis.of(place);
     const bool is_on = std::abs(along.y) <= room || std::abs(along.y - distance) <= room;
     if (!is_on || along.x < low - room || along.x > high + room) return std::nullopt;
     return axis.at({std::clamp(along.x, from, to), middle});
   }
 };
 
-std::optional<Facing> facing_of(const std::vector<DrawnWall>& walls, std::size_t first, std::size_t second,
-                                double share) {
+std::optional<FacingFoils> facing_of(const std::vector<DrawnWall>& walls, std::size_t first, std::size_t second,
+                                     double share) {
   const DrawnWall& one = walls[first];
   const DrawnWall& other = walls[second];
-  Facing facing{Axis(one)};
+  FacingFoils facing{FoilLine(one)};
   facing.first = first;
   facing.second = second;
   facing.other_from = facing.axis.of(other.start);
@@ -77,7 +77,7 @@ std::optional<Facing> facing_of(const std::vector<DrawnWall>& walls, std::size_t
   if (facing.other_from.x > facing.other_to.x) std::swap(facing.other_from, facing.other_to);
   const double thickness = 0.5 * (*one.thickness + *other.thickness);
   const auto is_apart = [&](double side) {
-    const auto is_a_thickness = [&](const Along& end) {
+    const auto is_a_thickness = [&](const OnFoil& end) {
       return std::abs(side * end.y - thickness) <= share * thickness;
     };
     return is_a_thickness(facing.other_from) && is_a_thickness(facing.other_to);
@@ -103,7 +103,7 @@ std::optional<Facing> facing_of(const std::vector<DrawnWall>& walls, std::size_t
 }
 
 /// Walls that lie face to face, each wall in one pair; in the order of the walls.
-std::vector<Facing> find_facing(const std::vector<DrawnWall>& walls, double share) {
+std::vector<FacingFoils> find_facing(const std::vector<DrawnWall>& walls, double share) {
   const auto low_x = [&](std::size_t i) { return std::min(walls[i].start.x, walls[i].end.x); };
   const auto high_x = [&](std::size_t i) { return std::max(walls[i].start.x, walls[i].end.x); };
   double thickest = 0.0;
@@ -126,7 +126,7 @@ std::vector<Facing> find_facing(const std::vector<DrawnWall>& walls, double shar
     }
   }
   std::ranges::sort(near);
-  std::vector<Facing> all;
+  std::vector<FacingFoils> all;
   std::vector<bool> used(walls.size(), false);
   for (const auto& [one, other] : near) {
     const auto facing = used[one] || used[other] ? std::nullopt : facing_of(walls, one, other, share);
@@ -138,7 +138,7 @@ std::vector<Facing> find_facing(const std::vector<DrawnWall>& walls, double shar
 }
 
 /// Moves the ends of walls that lay on the foils of a bond. `by_x`: all ends in the order of x.
-void move_ends(const Facing& bond, const std::vector<std::pair<double, DrawnPlace*>>& by_x) {
+void move_ends(const FacingFoils& bond, const std::vector<std::pair<double, DrawnPlace*>>& by_x) {
   const double room = bond.thickness;
   const DrawnPlace one = bond.axis.at({bond.low, bond.middle});
   const DrawnPlace other = bond.axis.at({bond.high, bond.middle});
@@ -150,11 +150,11 @@ void move_ends(const Facing& bond, const std::vector<std::pair<double, DrawnPlac
 }
 
 /// The bonded wall, in place of the first; what remains of both is added.
-void replace_walls(const Facing& bond, const std::vector<DrawnWall>& given, std::vector<DrawnWall>& walls) {
+void replace_walls(const FacingFoils& bond, const std::vector<DrawnWall>& given, std::vector<DrawnWall>& walls) {
   const DrawnPlace from = bond.axis.at({bond.from, bond.middle});
   const DrawnPlace to = bond.axis.at({bond.to, bond.middle});
   walls[bond.first] = {from, to, 0.0, bond.thickness, given[bond.first].name};
-  const auto add_rest = [&](std::size_t wall, const Along& start, const Along& end) {
+  const auto add_rest = [&](std::size_t wall, const OnFoil& start, const OnFoil& end) {
     const double thickness = *given[wall].thickness;
     if (start.x < bond.low) {
       walls.push_back({bond.axis.at(start), from, 0.0, thickness, given[wall].name});
@@ -169,11 +169,11 @@ void replace_walls(const Facing& bond, const std::vector<DrawnWall>& given, std:
 
 /// Bonds pairs of walls. Returns false if there are none.
 bool bond_pairs(double share, std::vector<DrawnWall>& walls, std::vector<Bond>& bonds) {
-  const std::vector<Facing> pairs = find_facing(walls, share);
+  const std::vector<FacingFoils> pairs = find_facing(walls, share);
   if (pairs.empty()) return false;
   const std::vector<DrawnWall> given = walls;
   std::vector<bool> is_gone(walls.size(), false);
-  for (const Facing& pair : pairs) {
+  for (const FacingFoils& pair : pairs) {
     replace_walls(pair, given, walls);
     is_gone[pair.second] = true;
     bonds.push_back({pair.axis.at({0.5 * (pair.from + pair.to), pair.middle}), pair.to - pair.from, pair.thickness});
@@ -184,7 +184,7 @@ bool bond_pairs(double share, std::vector<DrawnWall>& walls, std::vector<Bond>& 
     by_x.emplace_back(wall.end.x, &wall.end);
   }
   std::ranges::stable_sort(by_x, {}, &std::pair<double, DrawnPlace*>::first);
-  for (const Facing& pair : pairs) move_ends(pair, by_x);
+  for (const FacingFoils& pair : pairs) move_ends(pair, by_x);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     if (i >= is_gone.size() || !is_gone[i]) std::swap(walls[kept++], walls[i]);

@@ -13,10 +13,11 @@ namespace cellcrush::client {
 /// How a drawing becomes a network.
 struct JoinOptions {
   double mm_per_unit = 1.0;
-  std::optional<double> tolerance_mm;  ///< within which places are one joint; default: kTolerance of the shortest wall
-  std::optional<double> thickness_mm;  ///< of walls whose file does not say it
-  double bond = kBondTolerance;        ///< see bond_walls; 0: no walls are bonded
-  bool joins_crossings = true;         ///< whether walls that cross are joined there
+  /// Within which places are one joint; default: kTolerance of the shortest wall.
+  std::optional<double> tolerance_mm = {};
+  std::optional<double> thickness_mm = {};  ///< of walls whose file does not say it
+  double bond = kBondTolerance;             ///< see bond_walls; 0: no walls are bonded
+  bool joins_crossings = true;              ///< whether walls that cross are joined there
 };
 
 inline constexpr double kTolerance = 1e-3;
@@ -36,7 +37,7 @@ struct JoinedWalls {
   std::vector<int> island_walls;      ///< walls of each of these
 };
 
-/// Bonds walls face to face, joins the ends of walls that lie within the tolerance of each other, divides straight
+/// Bonds walls face to face. Joins the ends of walls that lie within the tolerance of each other, divides straight
 /// walls where ends of others meet them and, if asked, where they cross, and leaves out what is there twice. Joints are
 /// numbered in the order of the walls. Throws CommandError (refused) if a wall has no thickness, or nothing is left.
 JoinedWalls join_walls(const Drawing& drawing, const JoinOptions& options);

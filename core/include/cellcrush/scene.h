@@ -351,8 +351,7 @@ struct Scene {
   [[nodiscard]] double full_reach_of(int ball, int segment) const {
     return radius[ball] + 0.5 * elements[segment].thickness;
   }
-  /// Greatest distance at which a ball and a segment touch once they have parted, mm (E8a); infinite if no short path
-  /// joins them.
+  /// Greatest distance at which a ball and a segment touch once parted, mm (E8a); infinite if no short path joins them.
   [[nodiscard]] double most_reach_of(int ball, int segment) const {
     if (!limited_reaches.offset.empty()) {
       for (int k = limited_reaches.offset[ball]; k < limited_reaches.offset[ball + 1]; ++k) {
