@@ -106,8 +106,9 @@ WallStrain find_largest_fibre_strain(const Scene& scene, const State& state) {
 
 void evaluate_fibre_strains(const Scene& scene, const State& state, std::vector<float>& strains) {
   strains.resize(scene.wall_count(), 0.0F);
-  visit_walls(scene, state,
-              [&](int wall, double strain) { strains[scene.frame_order.beam_of(wall)] = static_cast<float>(strain); });
+  visit_walls(scene, state, [&](int wall, double strain) {
+    strains[scene.list_order.listed_wall(wall)] = static_cast<float>(strain);
+  });
 }
 
 }  // namespace cellcrush

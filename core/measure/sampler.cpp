@@ -239,7 +239,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.contact_count = state.contact_totals.count;
   const WallStrain largest = find_largest_fibre_strain(scene, state);
   sample.largest_fibre_strain = largest.strain;
-  sample.most_strained_wall = scene.frame_order.beam_of(largest.wall);
+  sample.most_strained_wall = scene.list_order.listed_wall(largest.wall);
   find_warnings(scene, state, sample);
   measure_watched(scene, state, sample);
   measure_rigid_walls(scene, state, sample);

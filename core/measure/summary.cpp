@@ -108,7 +108,7 @@ std::optional<QuasiStatic> find_quasi_static(std::span<const Sample> samples, co
 std::optional<LargestFibreStrain> find_fibre_strain(const Scene& scene, std::span<const Sample> samples) {
   const auto most = std::ranges::max_element(samples, {}, &Sample::largest_fibre_strain);
   if (most == samples.end() || !(most->largest_fibre_strain > 0.0)) return std::nullopt;
-  const int wall = scene.frame_order.wall_of(static_cast<int>(most->most_strained_wall));
+  const int wall = scene.list_order.wall_of(static_cast<int>(most->most_strained_wall));
   const Vector2 middle = 0.5 * (scene.position[scene.walls.start[wall]] + scene.position[scene.walls.end[wall]]);
   return LargestFibreStrain{
       most->largest_fibre_strain, most->most_strained_wall, middle.x(), middle.y(), most->strain, most->time};

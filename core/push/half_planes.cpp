@@ -213,7 +213,7 @@ Problems find_walls_in_half_planes(const Scene& scene, std::size_t nodes) {
     }
     if (most > 0.0) {
       const Vector2& place = scene.position[deepest];
-      const auto node = [&] { return scene.frame_order.node_of(static_cast<int>(deepest)); };
+      const auto node = [&] { return scene.list_order.listed_joint(static_cast<int>(deepest)); };
       check.add(path_of(w), to_text(most) + " mm",
                 "is the depth to which the walls at " +
                     (deepest < nodes ? "lattice.frame.nodes[" + std::to_string(node()) + "]"

@@ -125,7 +125,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
   scene->single_fibres =
       part.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision && allows_single_fibres(*scene);
   Layout layout = lay_out(part, linked.links, *scene);
-  scene->frame_order = linked.order;
+  scene->list_order = linked.order;
   scene->rigid.offset = put_rigid_bodies_first(layout);
   divide_walls(layout, *scene);
   if (const auto* frame = std::get_if<FrameWalls>(&part.lattice)) {

@@ -149,20 +149,20 @@ std::vector<char> find_links(const Candidates& all, double given_slenderness) {
 }
 
 /// Numbers the nodes of links first, body by body, and their walls last.
-FrameOrder order_of(const Candidates& all, const std::vector<char>& is_link) {
+ListOrder order_of(const Candidates& all, const std::vector<char>& is_link) {
   const std::vector<int> part = parts_of(all, is_link);
   std::vector<int> body(all.nodes.size(), static_cast<int>(all.nodes.size()));
   for (std::size_t w = 0; w < all.walls.size(); ++w) {
     if (is_link[w] == 0) continue;
     for (const int node : {all.walls[w].start, all.walls[w].end}) body[node] = part[node];
   }
-  FrameOrder order;
-  order.node.resize(all.nodes.size());
-  std::iota(order.node.begin(), order.node.end(), 0);
-  std::ranges::stable_sort(order.node, {}, [&](int node) { return body[node]; });
-  order.beam.resize(all.walls.size());
-  std::iota(order.beam.begin(), order.beam.end(), 0);
-  std::ranges::stable_partition(order.beam, [&](int wall) { return is_link[wall] == 0; });
+  ListOrder order;
+  order.joint.resize(all.nodes.size());
+  std::iota(order.joint.begin(), order.joint.end(), 0);
+  std::ranges::stable_sort(order.joint, {}, [&](int node) { return body[node]; });
+  order.wall.resize(all.walls.size());
+  std::iota(order.wall.begin(), order.wall.end(), 0);
+  std::ranges::stable_partition(order.wall, [&](int wall) { return is_link[wall] == 0; });
   return order;
 }
 
@@ -182,11 +182,11 @@ std::vector<int> places_of(const std::vector<int>& order) {
 }
 
 /// Puts nodes and beams in order, and renames them wherever they are named.
-void reorder(const FrameOrder& order, FrameWalls& frame, LoadsSpec& loads) {
-  const std::vector<int> node = places_of(order.node);
-  const std::vector<int> beam = places_of(order.beam);
-  frame.nodes = reordered(frame.nodes, order.node);
-  frame.beams = reordered(frame.beams, order.beam);
+void reorder(const ListOrder& order, FrameWalls& frame, LoadsSpec& loads) {
+  const std::vector<int> node = places_of(order.joint);
+  const std::vector<int> beam = places_of(order.wall);
+  frame.nodes = reordered(frame.nodes, order.joint);
+  frame.beams = reordered(frame.beams, order.wall);
   for (FrameWalls::Beam& each : frame.beams) {
     each.start = node[each.start];
     each.end = node[each.end];
@@ -203,21 +203,21 @@ void reorder(const FrameOrder& order, FrameWalls& frame, LoadsSpec& loads) {
 }
 
 /// The same of a network. No list of it has only some of the walls.
-void reorder(const FrameOrder& order, NetworkWalls& network, LoadsSpec& /*loads*/) {
-  const std::vector<int> node = places_of(order.node);
+void reorder(const ListOrder& order, NetworkWalls& network, LoadsSpec& /*loads*/) {
+  const std::vector<int> node = places_of(order.joint);
   NetworkWalls given = std::move(network);
   network = {};
   network.wall_thickness_mm = given.wall_thickness_mm;
   network.materials = std::move(given.materials);
-  for (const int from : order.node) {
+  for (const int from : order.joint) {
     network.joints_mm.insert(network.joints_mm.end(), {given.joints_mm[2 * from], given.joints_mm[2 * from + 1]});
   }
-  for (const int from : order.beam) {
+  for (const int from : order.wall) {
     network.walls.insert(network.walls.end(), {node[given.walls[2 * from]], node[given.walls[2 * from + 1]]});
   }
-  if (!given.thicknesses_mm.empty()) network.thicknesses_mm = reordered(given.thicknesses_mm, order.beam);
-  if (!given.rises_mm.empty()) network.rises_mm = reordered(given.rises_mm, order.beam);
-  if (!given.wall_materials.empty()) network.wall_materials = reordered(given.wall_materials, order.beam);
+  if (!given.thicknesses_mm.empty()) network.thicknesses_mm = reordered(given.thicknesses_mm, order.wall);
+  if (!given.rises_mm.empty()) network.rises_mm = reordered(given.rises_mm, order.wall);
+  if (!given.wall_materials.empty()) network.wall_materials = reordered(given.wall_materials, order.wall);
 }
 
 template <class Listed>
@@ -240,7 +240,7 @@ LinkedSpec put_rigid_links_first(const SceneSpec& spec) {
 }
 
 double link_mass_share_of(const Scene& scene) {
-  if (scene.frame_order.beam.empty()) return 0.0;
+  if (scene.list_order.wall.empty()) return 0.0;
   double mass = 0.0;
   for (std::size_t e = scene.rigid.first_element; e < scene.element_count(); ++e) {
     const Element& link = scene.elements[e];
@@ -252,11 +252,12 @@ double link_mass_share_of(const Scene& scene) {
 
 int listed_wall_of(const Scene& scene, int element) {
   if (element >= scene.rigid.first_element) {
-    return scene.frame_order.beam_of(static_cast<int>(scene.walls.start.size()) + element - scene.rigid.first_element);
+    return scene.list_order.listed_wall(static_cast<int>(scene.walls.start.size()) + element -
+                                        scene.rigid.first_element);
   }
   const auto after = std::ranges::upper_bound(scene.walls.blocks, element, {}, &WallBlock::first_element);
   const WallBlock& block = *std::prev(after);
-  return scene.frame_order.beam_of(block.first_wall + (element - block.first_element) % block.walls);
+  return scene.list_order.listed_wall(block.first_wall + (element - block.first_element) % block.walls);
 }
 
 }  // namespace cellcrush

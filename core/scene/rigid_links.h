@@ -21,7 +21,7 @@ inline constexpr double kMostLinkMass = 0.01;
 /// A frame or network whose rigid links are its last walls. The nodes of the links come first, body by body.
 struct LinkedSpec {
   SceneSpec spec;
-  FrameOrder order;  ///< empty if there are no links
+  ListOrder order;  ///< empty if there are no links
   int links = 0;
 };
 
@@ -36,7 +36,7 @@ LinkedSpec put_rigid_links_first(const SceneSpec& spec);
 /// Mass of the rigid links over that of all walls.
 double link_mass_share_of(const Scene& scene);
 
-/// The beam of a frame to which an element belongs, as an index into the given list.
+/// The listed wall to which an element belongs, as an index into the list.
 int listed_wall_of(const Scene& scene, int element);
 
 }  // namespace cellcrush

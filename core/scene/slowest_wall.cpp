@@ -59,7 +59,7 @@ SlowestWall slowest_wall_of(const Scene& scene) {
     steps.push_back(stable);
   });
   if (steps.empty()) return slowest;
-  const int wall = std::exchange(slowest.listed, scene.frame_order.beam_of(slowest.listed));
+  const int wall = std::exchange(slowest.listed, scene.list_order.listed_wall(slowest.listed));
   slowest.length = slowest.elements * walls.undeformed_length[wall];
   slowest.thickness = walls.thickness[wall];
   slowest.middle = 0.5 * (scene.position[walls.start[wall]] + scene.position[walls.end[wall]]);

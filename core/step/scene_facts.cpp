@@ -197,7 +197,7 @@ MeshView mesh_of(const Scene& scene) {
   visit_elements(scene, [&mesh](const ElementPlace& place, int wall) { mesh.element_wall[place.element] = wall; });
   std::iota(mesh.element_wall.begin() + scene.rigid.first_element, mesh.element_wall.end(),
             static_cast<int>(scene.walls.start.size()));
-  for (int& wall : mesh.element_wall) wall = scene.frame_order.beam_of(wall);
+  for (int& wall : mesh.element_wall) wall = scene.list_order.listed_wall(wall);
   mesh.rigid_elements = static_cast<int>(scene.rigid_element_count());
   for (const StartOverlap& pair : scene.start_overlaps.pairs) {
     if (mesh.overlap_particle.empty() || mesh.overlap_particle.back() != pair.ball) {

@@ -112,16 +112,16 @@ struct RigidBodies {
   [[nodiscard]] int particle_count() const { return offset.empty() ? 0 : offset.back(); }
 };
 
-/// Where the nodes and beams of a frame are whose rigid links come first (scene/rigid_links.h). Empty if they are in
-/// their own order.
-struct FrameOrder {
-  std::vector<int> node;  ///< of each joint, as an index into the list of the frame
-  std::vector<int> beam;  ///< of each wall, then of each rigid element
+/// Where the nodes and beams of a frame, or the joints and walls of a network, are in the lists of the case. Rigid links
+/// come last, and their joints first (scene/rigid_links.h). Empty if all are in the order of the lists.
+struct ListOrder {
+  std::vector<int> joint;  ///< of each joint, as an index into the list
+  std::vector<int> wall;   ///< of each wall, then of each rigid element
 
-  [[nodiscard]] int node_of(int joint) const { return node.empty() ? joint : node[joint]; }
-  [[nodiscard]] int beam_of(int wall) const { return beam.empty() ? wall : beam[wall]; }
+  [[nodiscard]] int listed_joint(int index) const { return joint.empty() ? index : joint[index]; }
+  [[nodiscard]] int listed_wall(int index) const { return wall.empty() ? index : wall[index]; }
   [[nodiscard]] int wall_of(int listed) const {
-    return beam.empty() ? listed : static_cast<int>(std::ranges::find(beam, listed) - beam.begin());
+    return wall.empty() ? listed : static_cast<int>(std::ranges::find(wall, listed) - wall.begin());
   }
 };
 
@@ -301,7 +301,7 @@ struct Scene {
   /// Of a large lattice, each adjacent to the one before (contact/topology/bands.h); otherwise one.
   std::vector<LatticeBand> bands;
   RigidBodies rigid;
-  FrameOrder frame_order;
+  ListOrder list_order;
   Pins pins;
   std::vector<int> incidence_offset;  ///< N + 1, into incidence
   std::vector<int> incidence;         ///< elements at each particle, ascending
@@ -380,7 +380,7 @@ struct Scene {
   [[nodiscard]] std::size_t rigid_element_count() const { return elements.size() - rigid.first_element; }
   [[nodiscard]] std::size_t wall_count() const { return walls.start.size() + rigid_element_count(); }
   /// Beams of a frame that are rigid because they are short (scene/rigid_links.h).
-  [[nodiscard]] std::size_t rigid_link_count() const { return frame_order.beam.empty() ? 0 : rigid_element_count(); }
+  [[nodiscard]] std::size_t rigid_link_count() const { return list_order.wall.empty() ? 0 : rigid_element_count(); }
   [[nodiscard]] std::size_t fibre_count() const { return section.fibre_count(); }
 };
 
@@ -398,7 +398,7 @@ void visit_arrays(const FacesOfBand& faces, Visitor&& visit) {
 template <class Visitor>
 void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [position, mass, inertia, inverse_mass, inverse_inertia, radius, largest_radius, smallest_radius,
-               elements, walls, bands, rigid, frame_order, pins, incidence_offset, incidence, joint_count,
+               elements, walls, bands, rigid, list_order, pins, incidence_offset, incidence, joint_count,
                wall_end_offset, wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity,
                initial_spin, depth, materials, law, section, single_fibres, slow_loading, constant_area, contact,
                limited_reaches, start_overlaps, faces, plates, rigid_walls, mass_scaling, mass_damping, schedule,
@@ -406,7 +406,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;
-  const auto& [node, beam] = frame_order;
+  const auto& [listed_joint, listed_wall] = list_order;
   const auto& [pin_offset, pin_joint] = pins;
   const auto& [reach_offset, segment, reach] = limited_reaches;
   const auto& [overlap_offset, overlap_pairs] = start_overlaps;
@@ -417,7 +417,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
        rigid_walls, watched);
   list(blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material);
   list(rigid_offset, centre, rigid_mass, rigid_inertia);
-  list(node, beam);
+  list(listed_joint, listed_wall);
   list(pin_offset, pin_joint);
   list(reach_offset, segment, reach);
   list(overlap_offset, overlap_pairs);

@@ -250,7 +250,7 @@ TEST(RigidLinks, OfAFoamAreThoseOfItsFrame) {
   const auto of_network = scenes::build(scenes::as_network(frame));
   EXPECT_EQ(of_network->rigid_link_count(), of_frame->rigid_link_count());
   EXPECT_EQ(of_network->rigid.offset, of_frame->rigid.offset);
-  EXPECT_EQ(of_network->frame_order.beam, of_frame->frame_order.beam);
+  EXPECT_EQ(of_network->list_order.wall, of_frame->list_order.wall);
   EXPECT_EQ(of_network->stable_step, of_frame->stable_step);
 }
 
@@ -296,9 +296,9 @@ TEST(RigidLinks, LeaveNamesOfNodesAndBeams) {
   ASSERT_EQ(scene->watched.size(), frame.nodes.size());
   for (std::size_t node = 0; node < frame.nodes.size(); ++node) {
     EXPECT_EQ(scene->position[scene->watched[node]], place_of_node(frame, static_cast<int>(node)));
-    EXPECT_EQ(scene->frame_order.node_of(scene->watched[node]), static_cast<int>(node));
+    EXPECT_EQ(scene->list_order.listed_joint(scene->watched[node]), static_cast<int>(node));
   }
-  std::vector<int> beams = scene->frame_order.beam;
+  std::vector<int> beams = scene->list_order.wall;
   EXPECT_EQ(beams.back(), made.beam);
   std::ranges::sort(beams);
   for (std::size_t beam = 0; beam < frame.beams.size(); ++beam) EXPECT_EQ(beams[beam], static_cast<int>(beam));
