@@ -12,7 +12,7 @@ namespace cellcrush {
 namespace {
 
 // Longer suffixes first.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kUnits = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kUnits = {{
     {"_mm_or_rad", "mm or rad"},
     {"_kg_per_m3", "kg/m3"},
     {"_n_or_n_mm", "N or N mm"},
@@ -20,6 +20,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kUnits =
     {"_n_per_mm", "N/mm"},
     {"_m_per_s2", "m/s2"},
     {"_m_per_s", "m/s"},
+    {"_degrees", "degrees"},
     {"_per_s", "1/s"},
     {"_g_mm2", "g mm2"},
     {"_n_mm", "N mm"},

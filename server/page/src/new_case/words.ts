@@ -14,8 +14,8 @@ export function fieldHelp(message: string, field: string): string {
 
 const kUnits: [RegExp, string][] = [[/_kg_per_m3$/, "kg/m³"], [/_m_per_s2$/, "m/s²"], [/_m_per_s$/, "m/s"],
                                     [/_n_per_mm$/, "N/mm"], [/_n_mm$/, "N mm"], [/_mpa$/, "MPa"], [/_mj$/, "mJ"],
-                                    [/_mm$/, "mm"], [/_per_s$/, "1/s"], [/_s$/, "s"], [/_deg$/, "°"], [/_rad$/, "rad"],
-                                    [/_g$/, "g"], [/_n$/, "N"]];
+                                    [/_mm$/, "mm"], [/_per_s$/, "1/s"], [/_s$/, "s"], [/_deg(rees)?$/, "°"],
+                                    [/_rad$/, "rad"], [/_g$/, "g"], [/_n$/, "N"]];
 
 /** The last name of a path in words, and its unit: "wall thickness" in "mm". The unit may be empty. */
 export function nameOf(path: string): { words: string; unit: string } {
