@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "contact/contact_tiles.h"
+
 namespace cellcrush {
 namespace {
 
@@ -27,16 +29,33 @@ void add_element_load(const Scene& scene, State& state, const ElementLoad& load)
   state.load_moment[element.end] -= moment;
 }
 
-template <class Forces>
-void share(const Pins& pins, Forces& forces) {
+/// force_on(joint): a Vector2&.
+template <class ForceOn>
+void share(const Pins& pins, const ForceOn& force_on) {
   for (std::size_t pin = 0; pin < pins.count(); ++pin) {
     Vector2 sum = Vector2::Zero();
     for (const int joint : pins.joints_of(pin)) {
-      sum += forces[joint];
+      sum += force_on(joint);
     }
     const Vector2 each = sum / static_cast<double>(pins.joints_of(pin).size());
     for (const int joint : pins.joints_of(pin)) {
-      forces[joint] = each;
+      force_on(joint) = each;
+    }
+  }
+}
+
+/// The forces of walls, plates and half planes on the balls of a pin.
+void share_contact_forces(const Pins& pins, State& state) {
+  share(pins, [&](int joint) -> Vector2& { return state.contact_force[joint].elastic; });
+  share(pins, [&](int joint) -> Vector2& { return state.contact_force[joint].viscous; });
+  if (!state.friction_force.empty()) {
+    share(pins, [&](int joint) -> Vector2& { return state.friction_force[joint]; });
+  }
+  for (const int joint : pins.joint) {
+    const ContactForce& force = state.contact_force[joint];
+    const bool rubs = !state.friction_force.empty() && !state.friction_force[joint].isZero(0.0);
+    if (rubs || !force.elastic.isZero(0.0) || !force.viscous.isZero(0.0)) {
+      mark_contact_tile(state, joint);
     }
   }
 }
@@ -73,10 +92,14 @@ void evaluate_loads(const Scene& scene, State& state) {
 }
 
 void share_pin_forces(const Scene& scene, State& state) {
-  share(scene.pins, state.internal_force);
-  if (!state.load_force.empty()) {
-    share(scene.pins, state.load_force);
+  if (scene.pins.count() == 0) {
+    return;
   }
+  share(scene.pins, [&](int joint) -> Vector2& { return state.internal_force[joint]; });
+  if (!state.load_force.empty()) {
+    share(scene.pins, [&](int joint) -> Vector2& { return state.load_force[joint]; });
+  }
+  share_contact_forces(scene.pins, state);
 }
 
 }  // namespace cellcrush

@@ -9,9 +9,9 @@ namespace cellcrush {
 /// of Eq. 4; E14).
 void evaluate_loads(const Scene& scene, State& state);
 
-/// Gives every joint of a pin an equal share of the forces on all of them, those of walls and loads (E16). As their
-/// masses are equal too, they all move by the same numbers. Moments stay with their joints.
-/// REQUIRES: forces of walls and loads are evaluated; no contact acts on pins.
+/// Gives every joint of a pin an equal share of the forces on all of them, those of walls, loads and contacts (E16). As
+/// their masses are equal too, they all move by the same numbers. Moments stay with their joints.
+/// REQUIRES: forces of walls, loads, contacts, plates and half planes are evaluated.
 void share_pin_forces(const Scene& scene, State& state);
 
 }  // namespace cellcrush

@@ -28,10 +28,6 @@ class FrameChecker {
     if (frame_.beams.empty()) {
       check_.add("lattice.frame.beams", "", "are missing.", "Give at least one beam.");
     }
-    if (frame_.self_contact && has_pins(frame_)) {
-      check_.add("lattice.frame.self_contact", "true", "cannot be computed in a frame with pinned ends.",
-                 "Set lattice.frame.self_contact to false, or pin_start and pin_end of all beams.");
-    }
     std::vector<bool> joined(frame_.nodes.size(), false);
     visit("beams", frame_.beams, [&](const std::string& path, const FrameWalls::Beam& beam) {
       const bool ends = node_exists(path + ".start", beam.start) && node_exists(path + ".end", beam.end);
@@ -101,20 +97,9 @@ class FrameChecker {
           });
   }
 
-  void check_pushers(const SceneSpec& spec) {
-    const bool present = has_plates(spec);
-    if (present && has_pins(frame_)) {
-      check_.add(spec.loading.quasi_static ? "loading.quasi_static" : "loading.speed_m_per_s", "",
-                 "puts plates at a frame with pinned ends, which cannot be computed.",
-                 "Remove loading, or pin_start and pin_end of all beams.");
-    }
-    if (!loads_.rigid_walls.empty() && has_pins(frame_)) {
-      check_.add("loading.rigid_walls", std::to_string(loads_.rigid_walls.size()),
-                 "cannot be computed in a frame with pinned ends.",
-                 "Remove the rigid walls, or pin_start and pin_end of all beams.");
-    }
+  void check_extent(const SceneSpec& spec) {
     const auto along = crush_axis_of(spec) == 0 ? &FrameWalls::Node::x_mm : &FrameWalls::Node::y_mm;
-    if (present && !frame_.nodes.empty()) {
+    if (has_plates(spec) && !frame_.nodes.empty()) {
       const auto [low, high] = std::ranges::minmax_element(frame_.nodes, {}, along);
       if (!((*high).*along > (*low).*along)) {
         check_.add("lattice.frame.nodes", "", "have no extent along loading.direction, so there is no strain.",
@@ -192,17 +177,13 @@ class FrameChecker {
 
 }  // namespace
 
-bool has_pins(const FrameWalls& frame) {
-  return std::ranges::any_of(frame.beams, [](const FrameWalls::Beam& beam) { return beam.pin_start || beam.pin_end; });
-}
-
 void check_frame(const SceneSpec& spec, FieldChecker& check) {
   FrameChecker checker(spec, check);
   checker.check_nodes();
   checker.check_beams(count_elements(spec));
   checker.check_supports();
   checker.check_loads();
-  checker.check_pushers(spec);
+  checker.check_extent(spec);
   checker.check_motions();
 }
 

@@ -22,9 +22,6 @@ double count_elements(const SceneSpec& spec);
 /// Checks a material; `path` ends with a dot.
 void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check);
 
-/// Whether an end of a beam is pinned.
-bool has_pins(const FrameWalls& frame);
-
 /// Checks the frame of a spec and the loads on its nodes and beams: nodes that exist, beams of some length, times in
 /// order.
 void check_frame(const SceneSpec& spec, FieldChecker& check);

@@ -119,8 +119,8 @@ constexpr std::array<StageEntry, kStageCount> kList = {{
      .bands_behind = 1,
      .on_band = evaluate_band_plates},
     {.stage = Stage::evaluate_loads,
-     .reads = kMotion | kGeometry | kInternalForces,
-     .writes = kLoads | kInternalForces,
+     .reads = kMotion | kGeometry | kInternalForces | kContactForces,
+     .writes = kLoads | kInternalForces | kContactForces,
      .on_whole = evaluate_all_loads},
 }};
 

@@ -4,6 +4,7 @@
 #include "contact/search/pair_search.h"
 #include "contact/start_overlaps.h"
 #include "contact/thickening.h"
+#include "contact/topology/wall_paths.h"
 #include "contact/touch_geometry-inl.h"
 #include "geometry/bucket_grid.h"
 
@@ -55,7 +56,7 @@ bool list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
       const auto off =
           HWY_NAMESPACE::project_clamped(from_start.x(), from_start.y(), axis.x(), axis.y(), state.length[e]);
       const bool is_near = off.x * off.x + off.y * off.y < range * range;
-      if (ball != element.start && ball != element.end && is_near) {
+      if (ball != element.start && ball != element.end && is_near && has_elements(scene, ball)) {
         const int segment = static_cast<int>(e);
         add_candidate(lists, {ball, segment, reach_now(scene, state, ball, segment)});
         is_planar = is_planar && !crosses_segment(scene, state, ball, element);

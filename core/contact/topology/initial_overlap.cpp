@@ -115,7 +115,7 @@ class OverlapFinder {
       const Element& element = scene_.elements[e];
       const double margin = 0.5 * element.thickness;
       visit_round(grid, element, margin + scene_.largest_radius, [&](int ball) {
-        const bool own = ball == element.start || ball == element.end;
+        const bool own = ball == element.start || ball == element.end || !has_elements(scene_, ball);
         if (!own && distance_to(element, ball) < margin + scene_.radius[ball]) {
           visit(Pair{ball, static_cast<int>(e)});
         }

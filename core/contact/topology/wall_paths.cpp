@@ -7,6 +7,13 @@
 
 namespace cellcrush {
 
+WallPaths::WallPaths(const Scene& scene) : scene_(scene) {
+  if (scene.pins.count() > 0) pin_of_.assign(scene.particle_count(), -1);
+  for (std::size_t pin = 0; pin < scene.pins.count(); ++pin) {
+    for (const int joint : scene.pins.joints_of(pin)) pin_of_[joint] = static_cast<int>(pin);
+  }
+}
+
 double WallPaths::reach_of(int ball, int segment) {
   const double full = scene_.full_reach_of(ball, segment);
   return std::min(full, limit_of(ball, segment, full));
@@ -51,20 +58,25 @@ void WallPaths::walk_from(int ball, double limit) {
   using Stop = std::pair<double, int>;
   std::priority_queue<Stop, std::vector<Stop>, std::greater<>> next;
   next.push({0.0, ball});
+  const auto go_on_to = [&](int particle, double way) {
+    if (way < limit && way < way_[particle]) {
+      if (way_[particle] == kFar) {
+        reached_.push_back(particle);
+      }
+      way_[particle] = way;
+      next.push({way, particle});
+    }
+  };
   while (!next.empty()) {
     const auto [way, particle] = next.top();
     next.pop();
+    if (!pin_of_.empty() && pin_of_[particle] >= 0) {
+      for (const int joint : scene_.pins.joints_of(static_cast<std::size_t>(pin_of_[particle]))) go_on_to(joint, way);
+    }
     for (int k = scene_.incidence_offset[particle]; k < scene_.incidence_offset[particle + 1]; ++k) {
       const Element& element = scene_.elements[scene_.incidence[k]];
       const int other = element.start == particle ? element.end : element.start;
-      const double onward = way + (scene_.position[element.end] - scene_.position[element.start]).norm();
-      if (onward < limit && onward < way_[other]) {
-        if (way_[other] == kFar) {
-          reached_.push_back(other);
-        }
-        way_[other] = onward;
-        next.push({onward, other});
-      }
+      go_on_to(other, way + (scene_.position[element.end] - scene_.position[element.start]).norm());
     }
   }
 }

@@ -15,7 +15,7 @@ class WallPaths {
   /// then do not touch before loading, whatever their thickness.
   static constexpr double kTouchingShare = 0.4;
 
-  explicit WallPaths(const Scene& scene) : scene_(scene) {}
+  explicit WallPaths(const Scene& scene);
 
   /// Distance at which they touch, mm: radius plus half thickness (Eq. 41, E8). If it is less, kTouchingShare of the
   /// path from the ball to the nearer end of the segment (E8a). Cheap if balls are visited in the order of particles.
@@ -24,7 +24,8 @@ class WallPaths {
   /// kTouchingShare of that path, mm; anything above `most` if it is longer.
   double limit_of(int ball, int segment, double most);
 
-  /// Segments, except those of the ball itself, whose limit_of may be below `largest`, mm; ascending.
+  /// Segments whose limit_of may be below `largest`, mm; ascending. Those of the ball itself are left out, those of
+  /// other joints of its pin (E16) are not.
   std::vector<int> segments_near(int ball, double largest);
 
  private:
@@ -32,11 +33,17 @@ class WallPaths {
   void walk_from(int ball, double limit);
 
   const Scene& scene_;
+  std::vector<int> pin_of_;  // of each particle, -1: none; empty in a scene without pins
   int ball_ = -1;
   double limit_ = 0.0;
   std::vector<double> way_;   // path length to each particle, infinite if not reached; empty until the first call
   std::vector<int> reached_;  // particles with a finite path length
 };
+
+/// Whether an element ends at a particle. None does at a node to which all beams are pinned: it has no ball.
+inline bool has_elements(const Scene& scene, int particle) {
+  return scene.incidence_offset[particle] < scene.incidence_offset[particle + 1];
+}
 
 /// The limited reaches of all pairs of a scene (E8a).
 LimitedReaches find_limited_reaches(const Scene& scene);

@@ -73,9 +73,6 @@ TEST(ListedLattice, BetweenPlatesIsRefusedWithAField) {
   spec.loading.speed_m_per_s.reset();
   EXPECT_EQ(fields_of(spec), "loading.end_time_s ");
   spec.loading.speed_m_per_s = 1.0;
-  frame.self_contact = false;
-  frame.beams[0].pin_end = true;
-  EXPECT_EQ(fields_of(spec), "loading.speed_m_per_s ");
   frame = {};
   frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {10.0, 0.0, 0.0, 0.0}};
   frame.beams = {scenes::beam(0, 1, 0.5, 2)};

@@ -131,10 +131,9 @@ TEST(CheckSpec, RefusesALatticeOfRigidCellsAlone) {
 }
 
 /// A bar along x, 1 mm thick, from 0 to 100, that has a wall.
-Problems problems_of(const LoadsSpec::RigidWall& wall, bool pinned = false) {
+Problems problems_of(const LoadsSpec::RigidWall& wall) {
   SceneSpec spec = scenes::FallingBar::spec(2);
   spec.loads.rigid_walls = {wall};
-  std::get<FrameWalls>(spec.lattice).beams[0].pin_start = pinned;
   return build_scene(spec).problems;
 }
 
@@ -164,9 +163,6 @@ TEST(CheckRigidWalls, RefusesWhatIsNoneAndAFrameThatStandsInOne) {
     EXPECT_EQ(problems[0].value, value);
     EXPECT_THAT(problems[0].message, HasSubstr(message));
   }
-  const Problems of_pins = problems_of({-10.0, 0.0, 1.0, 0.0, 0.0, {}}, true);
-  ASSERT_THAT(fields_of(of_pins), ElementsAre("loading.rigid_walls"));
-  EXPECT_THAT(of_pins[0].message, HasSubstr("pinned"));
 }
 
 Fields fields_noted(const std::function<void(SceneSpec&)>& change) {
