@@ -69,7 +69,8 @@ ExitCode run_command_line(int argc, char** argv) {
   add_show_commands(app, session);
   add_job_commands(app, session);
   add_fetch_command(app, session);
-  add_plot_command(app, session);
+  add_preview_command(app, session);
+    add_plot_command(app, session);
   add_movie_command(app, session);
   add_export_command(app, session);
   add_caller_commands(app, session);

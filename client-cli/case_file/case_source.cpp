@@ -15,6 +15,7 @@
 #include "case_file/set_field.h"
 #include "command_error.h"
 #include "connection/connection.h"
+#include "drawing/drawing.h"
 #include "results/field_value.h"
 #include "usage/suggestion.h"
 
@@ -67,6 +68,10 @@ std::string read_all(const std::string& file) {
 }
 
 v1::Case read_file(const std::string& file) {
+  if (drawing::names_drawing(file)) {
+    refuse(fmt::format(
+        "{0}: is a drawing. Give it with --lattice to a case, such as preset:hexagon-small --lattice {0}.", file));
+  }
   const std::string text = read_all(file);
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   const bool json = file.ends_with(".json") || (begin != std::string::npos && text[begin] == '{');
@@ -91,6 +96,24 @@ void assign(v1::Case& target, const std::vector<std::string>& assignments) {
   }
 }
 
+// Changes the case as the options say.
+void change(v1::Case& target, const CaseOptions& options, v1::ImportReport* report) {
+  if (!options.lattice.files.empty()) {
+    const v1::ImportLatticeResponse drawn = read_drawn_lattice(options.lattice);
+    if (report != nullptr) {
+      *report = drawn.report();
+    } else {
+      for (const std::string& line : drawn.report().lines()) fmt::print(stderr, "{}\n", line);
+    }
+    replace_lattice(drawn.network(), target);
+  } else if (options.lattice.says_how()) {
+    refuse(
+        "--unit, --thickness, --tolerance, --bond and --keep-crossings say how a drawing is read. Give it with "
+        "--lattice.");
+  }
+  assign(target, options.assignments);
+}
+
 }  // namespace
 
 std::string open_failure(const std::string& file, std::ifstream& stream) {
@@ -107,18 +130,22 @@ std::string preset_name(const std::string& source) {
   return source.starts_with(kPresetPrefix) ? source.substr(kPresetPrefix.size()) : std::string();
 }
 
-std::optional<v1::Case> read_own_case(const std::string& source, const std::vector<std::string>& assignments) {
-  if (source.starts_with(kPresetPrefix)) return std::nullopt;
-  v1::Case result = read_file(source);
-  assign(result, assignments);
+std::optional<v1::Case> read_own_case(const CaseOptions& options) {
+  if (options.source.starts_with(kPresetPrefix)) return std::nullopt;
+  v1::Case result = read_file(options.source);
+  change(result, options, nullptr);
   return result;
 }
 
-v1::Case read_case(const std::string& source, const std::vector<std::string>& assignments, Connection& connection) {
-  if (auto own = read_own_case(source, assignments)) return *std::move(own);
+v1::Case read_case(const CaseOptions& options, Connection& connection, v1::ImportReport* report) {
   v1::Case result;
+  if (preset_name(options.source).empty()) {
+    result = read_file(options.source);
+    change(result, options, report);
+    return result;
+  }
   v1::GetPresetRequest request;
-  request.set_name(preset_name(source));
+  request.set_name(preset_name(options.source));
   try {
     result = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request).case_();
   } catch (const CommandError& error) {
@@ -126,7 +153,7 @@ v1::Case read_case(const std::string& source, const std::vector<std::string>& as
     if (error.code() != ExitCode::not_found) throw;
     refuse(error.message());
   }
-  assign(result, assignments);
+  change(result, options, report);
   return result;
 }
 

@@ -5,19 +5,28 @@
 #include <string>
 #include <vector>
 
+#include "case_file/drawn_lattice.h"
 #include "cellcrush/v1/case.pb.h"
 
 namespace cellcrush::client {
 
 class Connection;
 
+/// The CASE argument and what changes the case.
+struct CaseOptions {
+  std::string source;
+  DrawingOptions lattice{};  ///< no files: the lattice of the case
+  std::vector<std::string> assignments{};
+};
+
 /// Reads the CASE argument: a file (protobuf text, or JSON if its name ends in .json or its text begins with "{"), "-"
-/// for stdin, or "preset:NAME", which the server provides. Then applies the `--set` assignments in order. Throws
-/// CommandError.
-v1::Case read_case(const std::string& source, const std::vector<std::string>& assignments, Connection& connection);
+/// for stdin, or "preset:NAME", which the server provides. Then puts the drawing of `--lattice` in place of its
+/// lattice, and applies the `--set` assignments in order. The report of the drawing is printed on stderr, or goes to
+/// `report`. Throws CommandError.
+v1::Case read_case(const CaseOptions& options, Connection& connection, v1::ImportReport* report = nullptr);
 
 /// The same without a server; nothing for a preset.
-std::optional<v1::Case> read_own_case(const std::string& source, const std::vector<std::string>& assignments);
+std::optional<v1::Case> read_own_case(const CaseOptions& options);
 
 /// NAME of "preset:NAME", or empty.
 std::string preset_name(const std::string& source);

@@ -26,7 +26,7 @@ ExitCode run_presets(Session& session) {
 ExitCode run_check(Session& session, const CaseOptions& options) {
   Connection& connection = session.connection();
   v1::CheckCaseRequest request;
-  *request.mutable_case_() = read_case(options.source, options.assignments, connection);
+  *request.mutable_case_() = read_case(options, connection);
   const auto check = connection.call(connection.cases(), &v1::Cases::Stub::CheckCase, request);
   if (check.problems_size() == 0) {
     session.json ? print_json(check) : fmt::print("{}", check_text(check));

@@ -56,9 +56,15 @@ std::vector<std::string> Session::find_jobs(const std::vector<std::string>& name
     jobs.push_back(kJobs + std::to_string(jobs.size() + 1));
   }
   if (!server.empty()) refuse(*file + " is read without a server. Leave --server out.");
-  results_ = std::make_unique<PrivateDaemon>(names);
-  server = results_->address();
+  private_ = std::make_unique<PrivateDaemon>(names);
+  server = private_->address();
   return jobs;
+}
+
+void Session::use_private_server() {
+  if (!server.empty()) return;
+  private_ = std::make_unique<PrivateDaemon>(std::vector<std::string>());
+  server = private_->address();
 }
 
 Connection& Session::connection() {
@@ -103,8 +109,29 @@ void add_examples(CLI::App& command, const std::vector<std::string>& examples) {
   command.footer(footer + '\n' + kSharedOptions);
 }
 
+void add_drawing_options(CLI::App& command, DrawingOptions& options) {
+  const auto add = [&](const std::string& name, auto& value, const std::string& description) {
+    return add_option(command, kCaseOptions, name, value, description);
+  };
+  add("--unit", options.unit, "Unit of the drawing: mm, cm, m, um, in, ft, pt or px (default: as the file tells)");
+  add("--thickness", options.thickness, "Thickness in mm of walls whose drawing does not tell it (default: none)");
+  add("--tolerance", options.tolerance,
+      "Distance in mm within which ends of a drawing are one joint (default: a thousandth of its shortest wall)");
+  add("--bond", options.bond,
+      "Walls face to face, a thickness apart to within this share of it, become one wall of both; 0: they slide "
+      "(default: 0.05)")
+      ->check(CLI::Range(0.0, 0.5).description(""));
+  add("--keep-crossings", options.keeps_crossings, "Do not join walls of a drawing where they cross");
+}
+
 void add_case_options(CLI::App& command, CaseOptions& options) {
   command.add_option("CASE", options.source, "A case file, - for stdin, or preset:NAME")->required();
+  CLI::Option* lattice =
+      add_option(command, kCaseOptions, "--lattice", options.lattice.files,
+                 "Drawing in place of the lattice of the case: a .csv, .json, .dxf, .svg, .inp or .msh file; of .csv "
+                 "also two files, nodes and edges, each with its own --lattice (default: none)");
+  lattice->allow_extra_args(false)->type_name("FILE");
+  add_drawing_options(command, options.lattice);
   command
       .add_option("--set", options.assignments,
                   "Set a field of the case, PATH=VALUE, such as loading.speed_m_per_s=100; `cellcrush explain` "

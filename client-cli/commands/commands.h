@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "case_file/case_source.h"
 #include "command_error.h"
 #include "connection/connection.h"
 
@@ -39,8 +40,11 @@ struct Session {
   std::vector<std::string> find_jobs(const std::vector<std::string>& names);
   std::string find_job(const std::string& name) { return find_jobs({name}).front(); }
 
+  /// Without --server, the server becomes a private one. Throws CommandError (refused) if it does not start.
+  void use_private_server();
+
  private:
-  std::unique_ptr<PrivateDaemon> results_;
+  std::unique_ptr<PrivateDaemon> private_;
   std::unique_ptr<Connection> connection_;
 };
 
@@ -86,12 +90,11 @@ CLI::Option* add_option(CLI::App& command, const char* group, const std::string&
 /// Appends examples to a command's help, one command line each.
 void add_examples(CLI::App& command, const std::vector<std::string>& examples);
 
-/// The CASE argument and --set, shared by several commands.
-struct CaseOptions {
-  std::string source;
-  std::vector<std::string> assignments;
-};
+/// Adds the CASE argument, --lattice with the options of a drawing, and --set.
 void add_case_options(CLI::App& command, CaseOptions& options);
+
+/// Adds the options of how a drawing is read.
+void add_drawing_options(CLI::App& command, DrawingOptions& options);
 
 void add_case_commands(CLI::App& app, Session& session);  ///< presets, check
 void add_explain_command(CLI::App& app, Session& session);
@@ -104,6 +107,7 @@ void add_job_commands(CLI::App& app, Session& session);  ///< cancel, suspend, r
 void add_fetch_command(CLI::App& app, Session& session);
 void add_plot_command(CLI::App& app, Session& session);
 void add_movie_command(CLI::App& app, Session& session);
+void add_preview_command(CLI::App& app, Session& session);
 void add_export_command(CLI::App& app, Session& session);
 void add_queue_commands(CLI::App& app, Session& session);   ///< queue, drain
 void add_caller_commands(CLI::App& app, Session& session);  ///< whoami, open

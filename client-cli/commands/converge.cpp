@@ -74,7 +74,7 @@ v1::CreateSweepRequest build_request(ConvergeOptions& options, Connection& conne
   v1::CreateSweepRequest request;
   v1::Sweep& sweep = *request.mutable_sweep();
   sweep.set_executor(options.executor);
-  *sweep.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
+  *sweep.mutable_case_() = read_case(options.scene, connection);
   if (options.seeds == 0) options.seeds = sweep.case_().lattice().has_frame() ? 1 : kSeeds;
   refuse_idle_runs(sweep.case_(), options.seeds);
   if (options.meshes.empty()) options.meshes = meshes_about_the_default(sweep.case_(), connection);

@@ -116,7 +116,7 @@ ExitCode run_case(Session& session, const RunOptions& options) {
     refuse("run starts its own daemon. Leave --server out, or use submit --watch.");
   }
   // Read before anything is created: Ctrl-C while waiting for stdin leaves nothing behind.
-  const auto own_case = read_own_case(options.scene.source, options.scene.assignments);
+  const auto own_case = read_own_case(options.scene);
   const fs::path folder(options.folder);
   PrivateData data(folder / kDataFolder);
   if (data.was_there() && !options.resume) {
@@ -128,7 +128,7 @@ ExitCode run_case(Session& session, const RunOptions& options) {
   PrivateDaemon daemon(data.path(), options.time_limit_s);
   session.server = daemon.address();
   Connection& connection = session.connection();
-  const v1::Case scene = own_case ? *own_case : read_case(options.scene.source, options.scene.assignments, connection);
+  const v1::Case scene = own_case ? *own_case : read_case(options.scene, connection);
   if (options.resume && !data.was_there() && holds_result(folder, scene)) {
     if (!session.json) fmt::print("{} already holds the result of this case.\n", folder.string());
     return ExitCode::done;

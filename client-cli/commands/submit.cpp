@@ -104,7 +104,7 @@ ExitCode run_submit(Session& session, const SubmitOptions& options) {
   request.set_request_id(options.request_id);
   fill(options, request);
   Connection& connection = session.connection();
-  *request.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
+  *request.mutable_case_() = read_case(options.scene, connection);
   // From here on Ctrl-C ends the watch properly, even right after the job was queued.
   const auto interruption = options.watch ? std::make_unique<Interruption>() : nullptr;
   const auto job = create(session, connection.jobs(), &v1::Jobs::Stub::CreateJob, request);
@@ -115,7 +115,7 @@ ExitCode run_sweep(Session& session, const SweepOptions& options) {
   v1::CreateSweepRequest request = build_request(options);
   request.set_request_id(options.request_id);
   Connection& connection = session.connection();
-  *request.mutable_sweep()->mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
+  *request.mutable_sweep()->mutable_case_() = read_case(options.scene, connection);
   const auto interruption = options.watch ? std::make_unique<Interruption>() : nullptr;
   // The server answers only after checking all points.
   if (!session.json && isatty(STDERR_FILENO) != 0) {

@@ -143,7 +143,7 @@ PrivateDaemon::PrivateDaemon(const fs::path& data, double time_limit_s)
 PrivateDaemon::PrivateDaemon(const std::vector<std::string>& results) : folder_(make_socket_folder()) {
   log_ = folder_ / "daemon.log";
   const fs::path data = folder_ / "data";
-  import(data, results);
+  if (!results.empty()) import(data, results);
   serve(data, 0.0);
 }
 

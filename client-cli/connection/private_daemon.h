@@ -18,7 +18,7 @@ class PrivateDaemon {
 
   /// The same on a temporary data folder, with the ended jobs of these results, which it reads where they are: jobs/1
   /// and so on, in their order. `results`: files, or folders with a result.h5. Throws CommandError (refused) that says
-  /// which cannot be read, and why.
+  /// which cannot be read, and why. Without results it has no jobs.
   explicit PrivateDaemon(const std::vector<std::string>& results);
 
   ~PrivateDaemon();

@@ -4,7 +4,7 @@
 
 #include "drawing/drawing.h"
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 
 // Foils that lie face to face and are bonded, as the double walls of an expanded honeycomb: drawn as two lines, a
 // thickness apart, they are one wall of both thicknesses.
@@ -26,4 +26,4 @@ struct Bond {
 /// parts, arcs too, go with them. Returns the bonds. Lengths in one unit. REQUIRES: every wall has a thickness.
 std::vector<Bond> bond_walls(double share, std::vector<DrawnWall>& walls);
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

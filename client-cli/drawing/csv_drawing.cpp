@@ -5,11 +5,10 @@
 #include <map>
 #include <sstream>
 
-#include "command_error.h"
 #include "drawing/drawing.h"
 
 // Tables of walls: x1, y1, x2, y2, and optionally thickness and rise; or of nodes (id, x, y) and edges (start, end).
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 std::string trimmed(const std::string& text) {
@@ -137,4 +136,4 @@ Drawing read_csv_drawing(const std::string& nodes, const std::string& nodes_file
   return drawing;
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

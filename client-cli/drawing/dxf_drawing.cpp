@@ -2,15 +2,15 @@
 #include <dxflib/dl_dxf.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <sstream>
 
-#include "command_error.h"
 #include "drawing/drawing.h"
 #include "drawing/units.h"
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -31,7 +31,7 @@ class DxfReader : public DL_CreationAdapter {
   void endBlock() override { in_block_ = false; }
 
   void addLine(const DL_LineData& data) override {
-    if (counts("LINE")) drawing_.walls.push_back({{data.x1, data.y1}, {data.x2, data.y2}, 0.0, {}, name("LINE")});
+    if (counts("LINE")) drawing_.add({{data.x1, data.y1}, {data.x2, data.y2}, 0.0, {}, name("LINE")});
   }
   void addArc(const DL_ArcData& data) override {
     if (counts("ARC"))
@@ -72,7 +72,9 @@ class DxfReader : public DL_CreationAdapter {
   void leave_out(const char* kind) {
     if (!in_block_) ++other_[kind];
   }
-  void add(std::vector<DrawnWall> walls) { drawing_.walls.insert(drawing_.walls.end(), walls.begin(), walls.end()); }
+  void add(std::vector<DrawnWall> walls) {
+    for (DrawnWall& wall : walls) drawing_.add(std::move(wall));
+  }
 
   void close_polyline() {
     const std::size_t count = vertices_.size();
@@ -80,7 +82,7 @@ class DxfReader : public DL_CreationAdapter {
     for (std::size_t i = 0; i < walls; ++i) {
       const Vertex& from = vertices_[i];
       const DrawnPlace& to = vertices_[(i + 1) % count].place;
-      drawing_.walls.push_back({from.place, to, -0.5 * from.bulge * distance(from.place, to), {}, name_});
+      drawing_.add({from.place, to, -0.5 * from.bulge * distance(from.place, to), {}, name_});
     }
     vertices_.clear();
   }
@@ -94,9 +96,34 @@ class DxfReader : public DL_CreationAdapter {
   std::map<std::string, int> other_;
 };
 
+/// dxflib allocates as many vertices, knots and points as an entity says it has.
+void check_dxf_counts(const std::string& text, const std::string& file) {
+  std::istringstream lines(text);
+  long number = 0;
+  std::string entity;
+  for (std::string code, value; std::getline(lines, code) && std::getline(lines, value);) {
+    number += 2;
+    const long group = std::strtol(code.c_str(), nullptr, 10);
+    if (group == 0) {
+      entity = value.substr(0, value.find_last_not_of(" \t\r") + 1);
+      continue;
+    }
+    const bool has_counts = entity == "LWPOLYLINE" || entity == "SPLINE" || entity == "LEADER" || entity == "HATCH";
+    const bool is_count = (group >= 72 && group <= 79) || (group >= 90 && group <= 99);
+    if (!has_counts || !is_count) continue;
+    // No entity has more parts than the file has bytes.
+    const long count = std::strtol(value.c_str(), nullptr, 10);
+    if (count < 0 || count > static_cast<long>(text.size())) {
+      refuse(fmt::format("{}:{}: {} says that it has {} parts, more than the file. Save the drawing again.", file,
+                         number, entity, count));
+    }
+  }
+}
+
 }  // namespace
 
 Drawing read_dxf_drawing(const std::string& text, const std::string& file) {
+  check_dxf_counts(text, file);
   std::stringstream stream(text);
   DxfReader reader;
   DL_Dxf dxf;
@@ -104,4 +131,4 @@ Drawing read_dxf_drawing(const std::string& text, const std::string& file) {
   return reader.take();
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

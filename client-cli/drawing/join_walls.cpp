@@ -4,17 +4,23 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
-#include "command_error.h"
+#include "drawing/lattice_marks.h"
+#include "drawing/wall_geometry.h"
+#include "drawing/wall_grid.h"
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
+
+/// Largest size of a drawing over its tolerance: places have sixteen digits.
+constexpr double kWidest = 1e12;
+/// Most pairs of walls, and of a joint and a wall, that lie near each other.
+constexpr long kMostPairs = 100'000'000;
+/// As the field lattice.network.walls.
+constexpr std::size_t kMostWalls = 200'000;
 
 /// A wall in mm with the joints that its ends have become.
 struct Wall {
@@ -24,46 +30,8 @@ struct Wall {
   double thickness = 0.0;
 };
 
-/// Finds what lies near a place, by squares of a size.
-class Grid {
- public:
-  explicit Grid(double size) : size_(size) {}
-
-  void add(const DrawnPlace& place, int item) { cells_[key(column(place.x), column(place.y))].push_back(item); }
-
-  /// Adds to every square that a box touches.
-  void add(const DrawnPlace& low, const DrawnPlace& high, int item) {
-    for (long x = column(low.x); x <= column(high.x); ++x) {
-      for (long y = column(low.y); y <= column(high.y); ++y) cells_[key(x, y)].push_back(item);
-    }
-  }
-
-  /// Calls visit(item) for the items of the square of a place and of those around it.
-  template <class Visit>
-  void visit_near(const DrawnPlace& place, const Visit& visit) const {
-    for (long x = column(place.x) - 1; x <= column(place.x) + 1; ++x) {
-      for (long y = column(place.y) - 1; y <= column(place.y) + 1; ++y) {
-        const auto found = cells_.find(key(x, y));
-        if (found == cells_.end()) continue;
-        for (const int item : found->second) visit(item);
-      }
-    }
-  }
-
-  /// Calls visit(items) for every square.
-  template <class Visit>
-  void visit_squares(const Visit& visit) const {
-    for (const auto& [cell, items] : cells_) visit(items);
-  }
-
- private:
-  [[nodiscard]] long column(double value) const { return static_cast<long>(std::floor(value / size_)); }
-  static std::uint64_t key(long x, long y) {
-    return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(y);
-  }
-  double size_;
-  std::unordered_map<std::uint64_t, std::vector<int>> cells_;
-};
+/// Joints that divide a wall, by their share of its length.
+using Cuts = std::set<std::pair<double, int>>;
 
 class Joiner {
  public:
@@ -71,16 +39,26 @@ class Joiner {
     scale(drawing);
     out_.bonds = bond_walls(options.bond, lines_);
     out_.tolerance_mm = options.tolerance_mm.value_or(kTolerance * shortest_);
-    if (!(out_.tolerance_mm > 0.0)) refuse("The tolerance is 0 mm. Give a positive one with --tolerance.");
+    if (!(out_.tolerance_mm > 0.0)) refuse("The tolerance is 0 mm. Give a positive one (--tolerance).");
+    if (!(farthest_ <= kWidest * out_.tolerance_mm)) {
+      refuse(
+          fmt::format("The drawing reaches to {:.3g} mm, and its ends are one joint within {:.3g} mm. Check the unit "
+                      "and the shortest line, or give a larger tolerance (--tolerance).",
+                      farthest_, out_.tolerance_mm));
+    }
   }
 
   JoinedWalls join() {
     make_joints();
-    remove_duplicates();
+    remove_duplicates(out_.duplicates);
     divide();
-    remove_duplicates();
-    find_loose_ends();
-    find_islands();
+    remove_duplicates(out_.covered);
+    if (walls_.size() > kMostWalls) {
+      refuse(fmt::format("The drawing has {} walls. A network has at most {}.", walls_.size(), kMostWalls));
+    }
+    const Net net = net_of_walls();
+    out_.loose = find_loose_ends(net);
+    out_.islands = find_islands(net);
     write();
     return std::move(out_);
   }
@@ -90,14 +68,21 @@ class Joiner {
     const double mm = options_.mm_per_unit;
     shortest_ = std::numeric_limits<double>::infinity();
     for (const DrawnWall& wall : drawing.walls) {
+      const double reach =
+          mm * std::max({std::abs(wall.start.x), std::abs(wall.start.y), std::abs(wall.end.x), std::abs(wall.end.y)});
       const double length = mm * distance(wall.start, wall.end);
+      if (!std::isfinite(reach + length)) refuse(fmt::format("{} has no finite place. Correct it.", wall.name));
       if (length <= options_.tolerance_mm.value_or(0.0)) {
-        out_.lengths.push_back(wall.name);
+        ++out_.without_length;
         continue;
       }
+      if (!(std::abs(mm * wall.rise) <= length)) {
+        refuse(fmt::format("{} is an arc that rises more than the length of its chord. Divide it.", wall.name));
+      }
       shortest_ = std::min(shortest_, length);
+      farthest_ = std::max(farthest_, reach);
       const auto thickness = wall.thickness ? std::optional(mm * *wall.thickness) : options_.thickness_mm;
-      if (!thickness) refuse(fmt::format("{} has no thickness. Give that of such walls with --thickness.", wall.name));
+      if (!thickness) refuse(fmt::format("{} has no thickness. Give that of such walls (--thickness).", wall.name));
       lines_.push_back({{mm * wall.start.x, mm * wall.start.y},
                         {mm * wall.end.x, mm * wall.end.y},
                         mm * wall.rise,
@@ -108,7 +93,7 @@ class Joiner {
   }
 
   void make_joints() {
-    Grid grid(out_.tolerance_mm);
+    WallGrid grid(out_.tolerance_mm);
     const auto joint_at = [&](const DrawnPlace& place) {
       int joint = -1;
       grid.visit_near(place, [&](int other) {
@@ -131,155 +116,141 @@ class Joiner {
     out_.merged = static_cast<int>(places.size()) - static_cast<int>(joints_.size());
   }
 
-  void remove_duplicates() {
+  /// Keeps the first of walls with the same joints and rise. Their middles are added to `found`.
+  void remove_duplicates(std::vector<DrawnPlace>& found) {
     std::set<std::tuple<int, int, long>> seen;
     const auto is_again = [&](const Wall& wall) {
-      if (wall.start == wall.end) return true;
+      if (wall.start == wall.end) {
+        ++out_.without_length;
+        return true;
+      }
       const bool turned = wall.start > wall.end;
       const long rise = std::lround((turned ? -wall.rise : wall.rise) / out_.tolerance_mm);
-      return !seen.emplace(std::min(wall.start, wall.end), std::max(wall.start, wall.end), rise).second;
+      const auto ends = std::minmax(wall.start, wall.end);
+      if (seen.emplace(ends.first, ends.second, rise).second) return false;
+      found.push_back(curve_of(wall).place_at(0.5));
+      return true;
     };
-    out_.duplicates += static_cast<int>(std::erase_if(walls_, is_again));
+    std::erase_if(walls_, is_again);
   }
 
-  /// Where on a straight wall a place lies, as a share of it; less than 0 where it is not on it.
-  [[nodiscard]] double share_on(const Wall& wall, const DrawnPlace& place) const {
-    const DrawnPlace& from = joints_[wall.start];
-    const DrawnPlace& to = joints_[wall.end];
-    const double length = distance(from, to);
-    const double along = ((place.x - from.x) * (to.x - from.x) + (place.y - from.y) * (to.y - from.y)) / length;
-    const double across = ((place.x - from.x) * (to.y - from.y) - (place.y - from.y) * (to.x - from.x)) / length;
-    const bool is_on =
-        std::abs(across) <= out_.tolerance_mm && along > out_.tolerance_mm && along < length - out_.tolerance_mm;
-    return is_on ? along / length : -1.0;
+  [[nodiscard]] WallCurve curve_of(const Wall& wall) const {
+    return {joints_[wall.start], joints_[wall.end], wall.rise};
   }
 
-  /// Where two straight walls cross between their ends.
-  [[nodiscard]] std::optional<DrawnPlace> crossing_of(const Wall& one, const Wall& other) const {
-    const DrawnPlace& a = joints_[one.start];
-    const DrawnPlace& c = joints_[other.start];
-    const DrawnPlace u = {joints_[one.end].x - a.x, joints_[one.end].y - a.y};
-    const DrawnPlace v = {joints_[other.end].x - c.x, joints_[other.end].y - c.y};
-    const double turn = u.x * v.y - u.y * v.x;
-    if (turn == 0.0) return std::nullopt;
-    const DrawnPlace w = {c.x - a.x, c.y - a.y};
-    const double s = (w.x * v.y - w.y * v.x) / turn;
-    const DrawnPlace place = {a.x + s * u.x, a.y + s * u.y};
-    if (share_on(one, place) < 0.0 || share_on(other, place) < 0.0) return std::nullopt;
-    return place;
-  }
-
-  /// Joints on straight walls, and their crossings, part these.
+  /// Joints on walls, and their crossings, part these.
   void divide() {
-    const std::vector<std::set<std::pair<double, int>>> cuts = find_cuts();
+    for (const Wall& wall : walls_) curves_.push_back(curve_of(wall));
+    const std::vector<Cuts> cuts = find_cuts();
     std::vector<Wall> parts;
     for (std::size_t i = 0; i < walls_.size(); ++i) {
       Wall part = walls_[i];
-      for (const auto& [share, joint] : cuts[i]) {
+      double from = 0.0;
+      const auto end_part = [&](double share, int joint) {
         part.end = joint;
+        if (!cuts[i].empty()) part.rise = curves_[i].rise_between(from, share);
         parts.push_back(part);
         part.start = joint;
-      }
-      part.end = walls_[i].end;
-      parts.push_back(part);
+        from = share;
+      };
+      for (const auto& [share, joint] : cuts[i]) end_part(share, joint);
+      end_part(1.0, walls_[i].end);
     }
     walls_ = std::move(parts);
   }
 
-  std::vector<std::set<std::pair<double, int>>> find_cuts() {
-    double longest = 0.0;
-    for (const Wall& wall : walls_) longest += distance(joints_[wall.start], joints_[wall.end]);
-    Grid grid(longest / static_cast<double>(walls_.size()));
-    for (std::size_t i = 0; i < walls_.size(); ++i) {
-      if (walls_[i].rise != 0.0) continue;
-      const DrawnPlace& from = joints_[walls_[i].start];
-      const DrawnPlace& to = joints_[walls_[i].end];
-      const double room = out_.tolerance_mm;
-      grid.add({std::min(from.x, to.x) - room, std::min(from.y, to.y) - room},
-               {std::max(from.x, to.x) + room, std::max(from.y, to.y) + room}, static_cast<int>(i));
-    }
-    std::vector<std::set<std::pair<double, int>>> cuts(walls_.size());
+  std::vector<Cuts> find_cuts() {
+    double all = 0.0;
+    for (const WallCurve& curve : curves_) all += curve.length();
+    WallGrid grid(2.0 * all / static_cast<double>(curves_.size()));
+    for (std::size_t i = 0; i < curves_.size(); ++i) grid.add(curves_[i], out_.tolerance_mm, static_cast<int>(i));
+    std::vector<Cuts> cuts(walls_.size());
     cut_at_joints(grid, cuts);
     cut_at_crossings(grid, cuts);
     return cuts;
   }
 
-  void cut_at_joints(const Grid& grid, std::vector<std::set<std::pair<double, int>>>& cuts) {
+  void cut_at_joints(const WallGrid& grid, std::vector<Cuts>& cuts) {
     for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
-      std::set<int> near;
-      grid.visit_near(joints_[joint], [&](int wall) { near.insert(wall); });
+      const std::vector<int>& near = grid.items_at(joints_[joint]);
+      count_pairs(near.size());
       for (const int wall : near) {
-        const double share = share_on(walls_[wall], joints_[joint]);
-        if (share < 0.0 || walls_[wall].start == static_cast<int>(joint) || walls_[wall].end == static_cast<int>(joint))
-          continue;
+        if (walls_[wall].start == static_cast<int>(joint) || walls_[wall].end == static_cast<int>(joint)) continue;
+        const double share = curves_[wall].share_of(joints_[joint], out_.tolerance_mm);
+        if (share < 0.0) continue;
         cuts[wall].emplace(share, static_cast<int>(joint));
         ++out_.divided;
       }
     }
   }
 
-  void cut_at_crossings(const Grid& grid, std::vector<std::set<std::pair<double, int>>>& cuts) {
-    std::set<std::pair<int, int>> pairs;
-    grid.visit_squares([&](const std::vector<int>& items) {
+  struct Crossing {
+    int one;
+    int other;
+    DrawnPlace place;
+  };
+
+  /// Each crossing once, in the order of the walls.
+  std::vector<Crossing> find_crossings(const WallGrid& grid) {
+    std::vector<Crossing> crossings;
+    grid.visit_squares([&](const WallGrid::Square& square, const std::vector<int>& items) {
+      count_pairs(items.size() * (items.size() - 1) / 2);
       for (std::size_t i = 0; i < items.size(); ++i) {
-        for (std::size_t j = i + 1; j < items.size(); ++j) pairs.insert(std::minmax(items[i], items[j]));
+        for (std::size_t j = i + 1; j < items.size(); ++j) {
+          const auto [one, other] = std::minmax(items[i], items[j]);
+          for (const DrawnPlace& place : curves_[one].crossings_with(curves_[other], out_.tolerance_mm)) {
+            if (grid.square_of(place) == square) crossings.push_back({one, other, place});
+          }
+          if (crossings.size() > kMostWalls) {
+            refuse(fmt::format("More than {} walls cross. Join them at their crossings.", kMostWalls));
+          }
+        }
       }
     });
-    for (const auto& [one, other] : pairs) {
-      const auto crossing = one == other ? std::nullopt : crossing_of(walls_[one], walls_[other]);
-      if (!crossing) continue;
-      int joint = cut_near(cuts[one], *crossing);
-      if (joint < 0) joint = cut_near(cuts[other], *crossing);
+    std::ranges::sort(crossings, {}, [](const Crossing& crossing) {
+      return std::tuple(crossing.one, crossing.other, crossing.place.x, crossing.place.y);
+    });
+    return crossings;
+  }
+
+  void cut_at_crossings(const WallGrid& grid, std::vector<Cuts>& cuts) {
+    for (const auto& [one, other, place] : find_crossings(grid)) {
+      int joint = cut_near(cuts[one], one, place);
+      if (joint < 0) joint = cut_near(cuts[other], other, place);
       if (joint < 0) {
-        out_.crossings.push_back(*crossing);
+        out_.crossings.push_back(place);
         if (!options_.joins_crossings) continue;
         joint = static_cast<int>(joints_.size());
-        joints_.push_back(*crossing);
+        joints_.push_back(place);
       }
       for (const int wall : {one, other}) {
-        if (cut_near(cuts[wall], *crossing) < 0) cuts[wall].emplace(share_on(walls_[wall], joints_[joint]), joint);
+        if (cut_near(cuts[wall], wall, place) >= 0) continue;
+        cuts[wall].emplace(curves_[wall].share_of(place, out_.tolerance_mm), joint);
       }
     }
   }
 
-  /// The joint of a cut at a place; -1 without one. Three walls through one place cross there once.
-  [[nodiscard]] int cut_near(const std::set<std::pair<double, int>>& cuts, const DrawnPlace& place) const {
-    const auto found = std::ranges::find_if(
-        cuts, [&](const auto& cut) { return distance(joints_[cut.second], place) <= out_.tolerance_mm; });
-    return found == cuts.end() ? -1 : found->second;
+  /// The joint of a cut at a place of a wall; -1 without one. Three walls through one place cross there once.
+  [[nodiscard]] int cut_near(const Cuts& cuts, int wall, const DrawnPlace& place) const {
+    const double share = curves_[wall].share_of(place, out_.tolerance_mm);
+    const double room = 2.0 * out_.tolerance_mm / curves_[wall].length();
+    for (auto cut = cuts.lower_bound({share - room, -1}); cut != cuts.end() && cut->first <= share + room; ++cut) {
+      if (distance(joints_[cut->second], place) <= out_.tolerance_mm) return cut->second;
+    }
+    return -1;
   }
 
-  void find_loose_ends() {
-    std::vector<int> walls(joints_.size(), 0);
-    for (const Wall& wall : walls_) {
-      ++walls[wall.start];
-      ++walls[wall.end];
-    }
-    for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
-      if (walls[joint] == 1) out_.loose.push_back(joints_[joint]);
-    }
+  void count_pairs(std::size_t count) {
+    pairs_ += static_cast<long>(count);
+    if (pairs_ <= kMostPairs) return;
+    refuse("Too many lines of the drawing lie on top of each other or beside each other. Leave out what is no wall.");
   }
 
-  void find_islands() {
-    std::vector<int> parent(joints_.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root_of = [&](int joint) {
-      while (parent[joint] != joint) joint = parent[joint] = parent[parent[joint]];
-      return joint;
-    };
-    for (const Wall& wall : walls_) {
-      const int one = root_of(wall.start);
-      const int other = root_of(wall.end);
-      parent[std::max(one, other)] = std::min(one, other);
-    }
-    std::map<int, int> walls;
-    for (const Wall& wall : walls_) ++walls[root_of(wall.start)];
-    const auto largest = std::ranges::max_element(walls, {}, [](const auto& part) { return part.second; });
-    for (const auto& [root, count] : walls) {
-      if (root == largest->first) continue;
-      out_.islands.push_back(joints_[root]);
-      out_.island_walls.push_back(count);
-    }
+  [[nodiscard]] Net net_of_walls() const {
+    Net net;
+    net.joints = joints_;
+    for (const Wall& wall : walls_) net.walls.emplace_back(wall.start, wall.end);
+    return net;
   }
 
   void write() {
@@ -306,9 +277,12 @@ class Joiner {
 
   JoinOptions options_;
   double shortest_ = 0.0;
-  std::vector<DrawnWall> lines_;  // in mm
+  double farthest_ = 0.0;
+  std::vector<DrawnWall> lines_;  ///< in mm, bonded
   std::vector<DrawnPlace> joints_;
   std::vector<Wall> walls_;
+  std::vector<WallCurve> curves_;  ///< of the walls before they are divided
+  long pairs_ = 0;
   JoinedWalls out_;
 };
 
@@ -316,4 +290,4 @@ class Joiner {
 
 JoinedWalls join_walls(const Drawing& drawing, const JoinOptions& options) { return Joiner(drawing, options).join(); }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

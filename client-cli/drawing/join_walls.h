@@ -1,14 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "cellcrush/v1/case.pb.h"
 #include "drawing/bond_walls.h"
 #include "drawing/drawing.h"
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 
 /// How a drawing becomes a network.
 struct JoinOptions {
@@ -26,20 +25,21 @@ inline constexpr double kTolerance = 1e-3;
 struct JoinedWalls {
   v1::Lattice::Network network;
   double tolerance_mm = 0.0;
-  int merged = 0;                     ///< ends of walls that became one joint, less one for each joint
-  std::vector<std::string> lengths;   ///< names of walls without length, left out
-  int duplicates = 0;                 ///< walls that were drawn twice, left out
-  std::vector<Bond> bonds;            ///< where walls face to face became one
-  int divided = 0;                    ///< ends that met a wall between its joints, which was divided there
-  std::vector<DrawnPlace> crossings;  ///< where walls cross that are joined there, or are not
-  std::vector<DrawnPlace> loose;      ///< joints with one wall
-  std::vector<DrawnPlace> islands;    ///< a joint of each part but the largest
-  std::vector<int> island_walls;      ///< walls of each of these
+  int merged = 0;                      ///< ends of walls that became one joint, less one for each joint
+  int without_length = 0;              ///< walls without length, left out
+  int divided = 0;                     ///< ends that met a wall between its joints, which was divided there
+  std::vector<Bond> bonds;             ///< where walls face to face became one
+  std::vector<DrawnPlace> duplicates;  ///< middles of walls that were drawn twice, left out
+  std::vector<DrawnPlace> covered;     ///< middles of parts of walls that were drawn on other walls, left out
+  std::vector<DrawnPlace> crossings;   ///< where walls cross that are joined there, or are not
+  std::vector<DrawnPlace> loose;       ///< joints with one wall
+  std::vector<DrawnPlace> islands;     ///< a joint of each part but the largest
 };
 
-/// Bonds walls face to face. Joins the ends of walls that lie within the tolerance of each other, divides straight
-/// walls where ends of others meet them and, if asked, where they cross, and leaves out what is there twice. Joints are
-/// numbered in the order of the walls. Throws CommandError (refused) if a wall has no thickness, or nothing is left.
+/// Bonds walls face to face, joins the ends of walls that lie within the tolerance of each other, divides walls where
+/// ends of others meet them and, if asked, where they cross, and leaves out what is there twice. Joints are numbered in
+/// the order of the walls. Throws DrawingError if a wall has no thickness, or nothing is left, and for a drawing that is
+/// too large or too dense.
 JoinedWalls join_walls(const Drawing& drawing, const JoinOptions& options);
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

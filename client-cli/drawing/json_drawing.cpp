@@ -3,13 +3,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "command_error.h"
 #include "drawing/drawing.h"
 #include "drawing/units.h"
 
 // {"unit": "mm", "nodes": [[x, y], ...], "edges": [[start, end], ...], "thickness": t or one a wall}; or nodes with id,
 // x, y and edges (or links) with start, end (or source, target), thickness, rise, as graph libraries write them.
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 using nlohmann::json;
@@ -76,7 +75,7 @@ class JsonReader {
       }
       if (!wall.thickness && thickness.is_number()) wall.thickness = thickness.get<double>();
       if (!wall.thickness && thickness.is_array()) wall.thickness = thickness.at(number).get<double>();
-      drawing_.walls.push_back(std::move(wall));
+      drawing_.add(std::move(wall));
       ++number;
     }
   }
@@ -98,4 +97,4 @@ Drawing read_json_drawing(const std::string& text, const std::string& file) {
   }
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

@@ -7,11 +7,10 @@
 #include <sstream>
 #include <string_view>
 
-#include "command_error.h"
 #include "drawing/drawing.h"
 
 // Lines of meshes: beams and trusses of an Abaqus input file, lines of a Gmsh file (ASCII, 2.2 and 4.1).
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 /// Lines of a file, with their numbers.
@@ -41,10 +40,18 @@ class Lines {
     }
     return numbers;
   }
-  std::vector<double> next_numbers() {
+  std::vector<double> next_numbers(std::size_t least, const char* what) {
     std::string line;
     if (!next(line)) fail("the file ends too early.");
-    return numbers(line);
+    std::vector<double> values = numbers(line);
+    if (values.size() < least) fail(what);
+    return values;
+  }
+  /// A number as an index or a count.
+  [[nodiscard]] long whole(double value) const {
+    constexpr double kLargest = 1e15;
+    if (!(std::abs(value) <= kLargest)) fail(fmt::format("{} is no whole number.", value));
+    return std::lround(value);
   }
 
  private:
@@ -64,7 +71,7 @@ struct Mesh {
 
   void add(long from, long to, std::string name, const Lines& lines, Drawing& drawing) const {
     if (!nodes.contains(from) || !nodes.contains(to)) lines.fail("names a node that the file has not.");
-    drawing.walls.push_back({nodes.at(from), nodes.at(to), 0.0, {}, std::move(name)});
+    drawing.add({nodes.at(from), nodes.at(to), 0.0, {}, std::move(name)});
   }
 };
 
@@ -81,6 +88,84 @@ std::string option_of(const std::string& keyword, const std::string& name) {
 bool is_line_element(const std::string& type) {
   return type.starts_with("B2") || type.starts_with("B3") || type.starts_with("T2") || type.starts_with("T3");
 }
+
+/// Reads the lines of a Gmsh file.
+class GmshReader {
+ public:
+  GmshReader(const std::string& text, const std::string& file) : lines_(text, file) {}
+
+  Drawing read() {
+    std::string line;
+    while (lines_.next(line)) {
+      if (line.starts_with("$MeshFormat")) {
+        const auto format = lines_.next_numbers(2, "a format needs a version and a type.");
+        if (format[1] != 0.0) lines_.fail("is binary. Save the mesh as ASCII.");
+        is_new_ = format[0] >= 4.0;
+      } else if (line.starts_with("$Nodes")) {
+        read_nodes();
+      } else if (line.starts_with("$Elements")) {
+        read_elements();
+      }
+    }
+    return std::move(drawing_);
+  }
+
+ private:
+  long read_count() { return lines_.whole(lines_.next_numbers(1, "a number of entries is missing.")[0]); }
+
+  void read_nodes() {
+    const long count = read_count();
+    for (long i = 0; i < count; ++i) is_new_ ? read_block_of_nodes() : read_node();
+  }
+
+  void read_node() {
+    const auto node = lines_.next_numbers(3, "a node needs a number, x and y.");
+    mesh_.nodes[lines_.whole(node[0])] = {node[1], node[2]};
+  }
+
+  void read_block_of_nodes() {
+    const long count = lines_.whole(lines_.next_numbers(4, "a block of nodes needs four numbers.")[3]);
+    std::vector<long> tags;
+    for (long i = 0; i < count; ++i) tags.push_back(lines_.whole(lines_.next_numbers(1, "a node needs a number.")[0]));
+    for (const long tag : tags) {
+      const auto place = lines_.next_numbers(2, "a node needs x and y.");
+      mesh_.nodes[tag] = {place[0], place[1]};
+    }
+  }
+
+  void read_elements() {
+    const long count = read_count();
+    for (long i = 0; i < count; ++i) is_new_ ? read_block_of_elements() : read_element();
+  }
+
+  void read_element() {
+    const auto words = lines_.next_numbers(3, "an element needs a number, a type and its tags.");
+    add(lines_.whole(words[1]), words, 3 + lines_.whole(words[2]));
+  }
+
+  void read_block_of_elements() {
+    const auto block = lines_.next_numbers(4, "a block of elements needs four numbers.");
+    const long count = lines_.whole(block[3]);
+    for (long i = 0; i < count; ++i) {
+      add(lines_.whole(block[2]), lines_.next_numbers(1, "an element needs a number."), 1);
+    }
+  }
+
+  /// A line whose nodes begin at a word.
+  void add(long type, const std::vector<double>& words, long first) {
+    constexpr long kLine = 1;
+    constexpr long kLineOfThree = 8;
+    if (type != kLine && type != kLineOfThree) return;
+    if (first < 0 || first + 2 > static_cast<long>(words.size())) lines_.fail("a line needs two nodes.");
+    const std::string name = fmt::format("element {}", lines_.whole(words[0]));
+    mesh_.add(lines_.whole(words[first]), lines_.whole(words[first + 1]), name, lines_, drawing_);
+  }
+
+  Lines lines_;
+  Mesh mesh_;
+  Drawing drawing_;
+  bool is_new_ = false;  ///< version 4
+};
 
 }  // namespace
 
@@ -104,12 +189,12 @@ Drawing read_abaqus_drawing(const std::string& text, const std::string& file) {
     } else if (section == "*NODE") {
       const auto numbers = lines.numbers(line);
       if (numbers.size() < 3) lines.fail("a node needs a number, x and y.");
-      mesh.nodes[std::lround(numbers[0])] = {numbers[1], numbers[2]};
+      mesh.nodes[lines.whole(numbers[0])] = {numbers[1], numbers[2]};
     } else if (is_line) {
       const auto numbers = lines.numbers(line);
       if (numbers.size() < 3) lines.fail("an element needs a number and two nodes.");
-      const std::string name = fmt::format("element {}", std::lround(numbers[0]));
-      mesh.add(std::lround(numbers[1]), std::lround(numbers.back()), name, lines, drawing);
+      const std::string name = fmt::format("element {}", lines.whole(numbers[0]));
+      mesh.add(lines.whole(numbers[1]), lines.whole(numbers.back()), name, lines, drawing);
       sets.push_back(set);
     } else if (section == "*BEAM SECTION") {
       const auto numbers = lines.numbers(line);
@@ -124,61 +209,6 @@ Drawing read_abaqus_drawing(const std::string& text, const std::string& file) {
   return drawing;
 }
 
-Drawing read_gmsh_drawing(const std::string& text, const std::string& file) {
-  constexpr int kLine = 1;
-  constexpr int kLineOfThree = 8;
-  Lines lines(text, file);
-  Mesh mesh;
-  Drawing drawing;
-  bool is_new = false;  // version 4
-  std::string line;
-  while (lines.next(line)) {
-    if (line.starts_with("$MeshFormat")) {
-      const auto format = lines.next_numbers();
-      if (format.size() < 2 || format[1] != 0.0) lines.fail("is binary. Save the mesh as ASCII.");
-      is_new = format[0] >= 4.0;
-    } else if (line.starts_with("$Nodes")) {
-      const auto head = lines.next_numbers();
-      if (!is_new) {
-        for (long i = 0; i < std::lround(head.at(0)); ++i) {
-          const auto node = lines.next_numbers();
-          if (node.size() < 3) lines.fail("a node needs a number, x and y.");
-          mesh.nodes[std::lround(node[0])] = {node[1], node[2]};
-        }
-        continue;
-      }
-      for (long block = 0; block < std::lround(head.at(0)); ++block) {
-        const auto entity = lines.next_numbers();
-        if (entity.size() < 4) lines.fail("a block of nodes needs four numbers.");
-        std::vector<long> tags;
-        for (long i = 0; i < std::lround(entity[3]); ++i) tags.push_back(std::lround(lines.next_numbers().at(0)));
-        for (const long tag : tags) {
-          const auto place = lines.next_numbers();
-          if (place.size() < 2) lines.fail("a node needs x and y.");
-          mesh.nodes[tag] = {place[0], place[1]};
-        }
-      }
-    } else if (line.starts_with("$Elements")) {
-      const auto head = lines.next_numbers();
-      const auto add = [&](int type, const std::vector<double>& words, std::size_t first) {
-        if (type != kLine && type != kLineOfThree) return;
-        if (words.size() < first + 2) lines.fail("a line needs two nodes.");
-        const std::string name = fmt::format("element {}", std::lround(words[0]));
-        mesh.add(std::lround(words[first]), std::lround(words[first + 1]), name, lines, drawing);
-      };
-      for (long block = 0; block < std::lround(head.at(0)); ++block) {
-        const auto words = lines.next_numbers();
-        if (!is_new) {
-          if (words.size() < 3) lines.fail("an element needs a number, a type and its tags.");
-          add(static_cast<int>(words[1]), words, 3 + static_cast<std::size_t>(words[2]));
-          continue;
-        }
-        if (words.size() < 4) lines.fail("a block of elements needs four numbers.");
-        for (long i = 0; i < std::lround(words[3]); ++i) add(static_cast<int>(words[2]), lines.next_numbers(), 1);
-      }
-    }
-  }
-  return drawing;
-}
+Drawing read_gmsh_drawing(const std::string& text, const std::string& file) { return GmshReader(text, file).read(); }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <numbers>
 #include <utility>
 
-#include "case_file/case_source.h"
-#include "command_error.h"
 #include "drawing/drawing.h"
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 using Read = Drawing (*)(const std::string& text, const std::string& file);
@@ -21,26 +18,35 @@ const std::pair<const char*, Read> kReaders[] = {
     {".svg", read_svg_drawing}, {".inp", read_abaqus_drawing}, {".msh", read_gmsh_drawing},
 };
 
-std::string text_of_file(const std::string& file) {
-  std::ifstream stream;
-  if (const std::string failure = open_failure(file, stream); !failure.empty()) refuse(failure);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 std::string ending_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char letter) { return std::tolower(letter); });
   return ending;
 }
 
+const auto* reader_of(const std::string& ending) {
+  const auto* reader = std::ranges::find_if(kReaders, [&](const auto& candidate) { return candidate.first == ending; });
+  return reader == std::end(kReaders) ? nullptr : reader;
+}
+
 }  // namespace
+
+void refuse(const std::string& message) { throw DrawingError(message); }
+
+void Drawing::add(DrawnWall wall) {
+  if (walls.size() == kMostLines) refuse(fmt::format("The drawing has more than {} lines. Divide it.", kMostLines));
+  walls.push_back(std::move(wall));
+}
 
 std::vector<DrawnWall> walls_of_arc(const DrawnPlace& centre, double radius, double from, double to,
                                     const std::string& name) {
-  constexpr double kQuarter = std::numbers::pi / 2.0;
-  while (to <= from) to += 2.0 * std::numbers::pi;
-  const int pieces = std::max(1, static_cast<int>(std::ceil((to - from) / kQuarter - 1e-9)));
-  const double turn = (to - from) / pieces;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  constexpr double kQuarter = 0.25 * kTurn;
+  if (!std::isfinite(from) || !std::isfinite(to)) refuse(fmt::format("{} has no finite angles.", name));
+  double all = std::fmod(to - from, kTurn);
+  if (all <= 0.0) all += kTurn;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(all / kQuarter - 1e-9)));
+  const double turn = all / pieces;
   const auto place_at = [&](int i) {
     const double angle = from + turn * i;
     return DrawnPlace{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
@@ -53,20 +59,25 @@ std::vector<DrawnWall> walls_of_arc(const DrawnPlace& centre, double radius, dou
   return walls;
 }
 
-Drawing read_drawing(const std::vector<std::string>& files) {
-  if (files.size() == 2 && ending_of(files[0]) == ".csv" && ending_of(files[1]) == ".csv") {
-    return read_csv_drawing(text_of_file(files[0]), files[0], text_of_file(files[1]), files[1]);
+bool names_drawing(const std::string& file) {
+  const std::string ending = ending_of(file);
+  return ending != ".json" && reader_of(ending) != nullptr;
+}
+
+Drawing read_drawing(const std::vector<NamedText>& files) {
+  if (files.size() == 2 && ending_of(files[0].name) == ".csv" && ending_of(files[1].name) == ".csv") {
+    return read_csv_drawing(files[0].text, files[0].name, files[1].text, files[1].name);
   }
   if (files.size() != 1) refuse("Give one file, or two .csv files: the nodes, then the edges.");
-  const std::string ending = ending_of(files[0]);
-  const auto* reader = std::ranges::find_if(kReaders, [&](const auto& candidate) { return candidate.first == ending; });
-  if (reader == std::end(kReaders)) {
+  const NamedText& file = files.front();
+  const auto* reader = reader_of(ending_of(file.name));
+  if (reader == nullptr) {
     refuse(fmt::format("{}: is no drawing that can be read. Give a .csv, .json, .dxf, .svg, .inp or .msh file.",
-                       files[0]));
+                       file.name));
   }
-  Drawing drawing = reader->second(text_of_file(files[0]), files[0]);
-  if (drawing.walls.empty()) refuse(fmt::format("{}: has no lines that could be walls.", files[0]));
+  Drawing drawing = reader->second(file.text, file.name);
+  if (drawing.walls.empty()) refuse(fmt::format("{}: has no lines that could be walls.", file.name));
   return drawing;
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

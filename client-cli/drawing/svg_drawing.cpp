@@ -8,13 +8,12 @@
 #include <pugixml.hpp>
 #include <string_view>
 
-#include "command_error.h"
 #include "drawing/drawing.h"
 #include "drawing/svg_path.h"
 #include "drawing/units.h"
 
 // Lines of an SVG: line, polyline, polygon, rect, circle and path, with the transforms of their groups. y is turned up.
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 /// x' = a x + c y + e, y' = b x + d y + f.
@@ -91,12 +90,15 @@ class SvgReader {
   }
 
   void read_children(const pugi::xml_node& parent, const Transform& outer, std::optional<double> stroke) {
+    constexpr int kDeepest = 100;
+    if (++depth_ > kDeepest) refuse(fmt::format("The groups of the SVG file are nested more than {} deep.", kDeepest));
     for (const pugi::xml_node& node : parent.children()) {
       if (node.type() != pugi::node_element) continue;
       const Transform transform = outer * read_transforms(node.attribute("transform").value());
       if (const auto width = node.attribute("stroke-width")) stroke = width.as_double();
       read_element(node, transform, stroke);
     }
+    --depth_;
   }
 
   void read_element(const pugi::xml_node& node, const Transform& transform, std::optional<double> stroke) {
@@ -134,7 +136,7 @@ class SvgReader {
     if (stroke) *stroke *= transform.scale();
     for (const std::vector<DrawnPlace>& chain : chains) {
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        drawing_.walls.push_back({transform(chain[i]), transform(chain[i + 1]), 0.0, stroke, name});
+        drawing_.add({transform(chain[i]), transform(chain[i + 1]), 0.0, stroke, name});
       }
     }
   }
@@ -145,20 +147,21 @@ class SvgReader {
     for (DrawnWall& wall :
          walls_of_arc(transform(centre), radius * transform.scale(), 0.0, 2.0 * std::numbers::pi, name)) {
       wall.thickness = stroke;
-      drawing_.walls.push_back(std::move(wall));
+      drawing_.add(std::move(wall));
     }
   }
 
   Drawing drawing_;
   std::map<std::string, int> count_;
   std::map<std::string, int> other_;
+  int depth_ = 0;  ///< of groups
 };
 
 }  // namespace
 
 Drawing read_svg_drawing(const std::string& text, const std::string& file) {
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_string(text.c_str());
+  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
   const pugi::xml_node root = document.child("svg");
   if (!parsed || !root) {
     refuse(fmt::format("{}: is no SVG file: {}.", file, parsed ? "it has no svg element" : parsed.description()));
@@ -166,4 +169,4 @@ Drawing read_svg_drawing(const std::string& text, const std::string& file) {
   return SvgReader().read(root);
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "command_error.h"
-
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 constexpr int kChords = 16;
@@ -124,6 +122,7 @@ class PathReader {
   void line_to(const DrawnPlace& to) {
     if (chains_.empty()) chains_.push_back({at_});
     if (chains_.back().empty()) chains_.back().push_back(at_);
+    if (++count_ > kMostLines) refuse(fmt::format("A path of the SVG file has more than {} lines.", kMostLines));
     chains_.back().push_back(at_ = to);
   }
 
@@ -188,6 +187,7 @@ class PathReader {
   DrawnPlace begin_;
   DrawnPlace control_;
   char last_ = 'M';
+  std::size_t count_ = 0;  ///< of chords
 };
 
 }  // namespace
@@ -201,4 +201,4 @@ std::vector<double> svg_numbers(std::string_view text) {
 
 std::vector<std::vector<DrawnPlace>> flatten_svg_path(std::string_view data) { return PathReader(data).read(); }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

@@ -5,7 +5,7 @@
 
 #include "drawing/drawing.h"
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 
 /// The numbers of a text of SVG, which blanks, commas or signs part. Throws CommandError (refused) on anything else.
 std::vector<double> svg_numbers(std::string_view text);
@@ -14,4 +14,4 @@ std::vector<double> svg_numbers(std::string_view text);
 /// curve. Throws CommandError (refused) on data that is none.
 std::vector<std::vector<DrawnPlace>> flatten_svg_path(std::string_view data);
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

@@ -4,9 +4,9 @@
 
 #include <map>
 
-#include "command_error.h"
+#include "drawing/drawing.h"
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 constexpr double kInch = 25.4;
@@ -36,4 +36,4 @@ std::optional<double> mm_in_dxf_unit(int number) {
   return found == kDxfUnits.end() ? std::nullopt : std::optional(found->second);
 }
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 
 /// Millimetres in a unit of length: mm, cm, m, um, in, ft, pt, px (of 96 in an inch). None for an unknown one.
 std::optional<double> mm_in(const std::string& unit);
@@ -14,4 +14,4 @@ double mm_per(const std::string& unit);
 /// Millimetres in a unit of DXF's $INSUNITS; none for 0, no unit, and for those of other quantities.
 std::optional<double> mm_in_dxf_unit(int number);
 
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

@@ -93,7 +93,8 @@ std::string stage_text(const LatticeStage& stage, std::size_t index, std::size_t
   return count > 1 && count <= 26 ? fmt::format("({}) {}", static_cast<char>('a' + index), text) : text;
 }
 
-// A bar of a round length that ends at (right, y).
+}  // namespace
+
 void draw_scale_bar(cairo_t* context, double right, double y, double scale) {
   const double length = find_ticks(0.0, kLongestBar / scale, 3).step;
   const double left = right - scale * length;
@@ -108,8 +109,6 @@ void draw_scale_bar(cairo_t* context, double right, double y, double scale) {
   cairo_stroke(context);
   draw_text(context, left - 6.0, y + 4.0, fmt::format("{} mm", length), {.size = 11.0, .anchor = Anchor::right});
 }
-
-}  // namespace
 
 StagePanels lay_stages(const std::vector<LatticeStage>& stages, double left, double top, double width, double height) {
   StagePanels panels{.boxes = find_boxes(stages), .places = {}, .bar_right = left + width, .bottom = top};

@@ -26,6 +26,9 @@ inline constexpr double kStagesHeight = 660.0;
 StagePanels lay_stages(const std::vector<LatticeStage>& stages, double left, double top, double width,
                        double height = kStagesHeight);
 
+/// Draws a bar of a round length at a scale of units per mm, which ends at (right, y), with its length.
+void draw_scale_bar(cairo_t* context, double right, double y, double scale);
+
 /// Draws the stages with their letters, strains (times for a frame) and a scale bar.
 void draw_stages(cairo_t* context, const StagePanels& panels, const std::vector<LatticeStage>& stages);
 

@@ -1,15 +1,18 @@
 #include <algorithm>
 
 #include "cellcrush/fidelity.h"
+#include "cellcrush/lattice_view.h"
 #include "cellcrush/lattice_words.h"
 #include "cellcrush/simulation.h"
 #include "contact/topology/bands.h"
 #include "contact/topology/face_loops.h"
+#include "contact/topology/initial_overlap.h"
 #include "contact/topology/wall_paths.h"
 #include "lattice/lattice.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
+#include "scene/slowest_wall.h"
 
 namespace cellcrush {
 namespace {
@@ -45,22 +48,35 @@ void prepare_search(const SceneSpec& spec, const std::function<void()>& between_
   }
 }
 
+struct PlannedScene {
+  std::shared_ptr<Scene> scene;  ///< the mesh alone; null if problems prevent it
+  MeshMeasures measures;
+  RunPlan plan;
+};
+
+/// Overwrites `problems`. REQUIRES: a spec with its fidelity filled in.
+PlannedScene plan_scene(const SceneSpec& spec, const std::function<void()>& between_stages, Problems& problems) {
+  PlannedScene planned;
+  problems = check_spec(spec);
+  if (prevents_meshing(problems)) {
+    return planned;
+  }
+  // Built from the mesh part alone, so that specs with the same part have the same mesh.
+  const SceneSpec part = mesh_part_of(spec);
+  planned.scene = build_mesh(part);
+  between_stages();
+  planned.measures = measure_mesh(part, *planned.scene);
+  planned.plan = plan_run(spec, planned.measures, problems);
+  between_stages();
+  return planned;
+}
+
 }  // namespace
 
 SceneResult build_scene(const SceneSpec& given, const std::function<void()>& between_stages) {
   const SceneSpec spec = fill_in_fidelity(given);
   SceneResult result;
-  result.problems = check_spec(spec);
-  if (prevents_meshing(result.problems)) {
-    return result;
-  }
-  // Built from the mesh part alone, so that specs with the same part have the same mesh.
-  const SceneSpec part = mesh_part_of(spec);
-  const std::shared_ptr<Scene> scene = build_mesh(part);
-  between_stages();
-  const MeshMeasures measures = measure_mesh(part, *scene);
-  const RunPlan plan = plan_run(spec, measures, result.problems);
-  between_stages();
+  const auto [scene, measures, plan] = plan_scene(spec, between_stages, result.problems);
   if (!result.problems.empty()) {
     return result;
   }
@@ -79,6 +95,31 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
   scene->fidelity = describe_fidelity(given);
   result.scene = scene;
   return result;
+}
+
+LatticeView view_lattice(const SceneSpec& given, const std::function<void()>& between_stages) {
+  const SceneSpec spec = fill_in_fidelity(given);
+  LatticeView view;
+  const auto [scene, measures, plan] = plan_scene(spec, between_stages, view.problems);
+  if (scene == nullptr) {
+    return view;
+  }
+  scene->plates = plan.plates;
+  if (scene->plates.present) {
+    put_plates(measures, *scene);
+  }
+  scene->start_overlaps = measures.start_overlaps;
+  if (!measures.misplaced.empty()) {
+    for (const InitialCrossing& crossing : find_initial_overlaps(*scene, kMostCrossingPlaces).crossings) {
+      view.crossings.push_back(crossing.place);
+    }
+  }
+  // Walls of regular lattices are nearly of one length.
+  if (regular_lattice_of(spec) == nullptr && measures.slowest_wall.cost > kCostlyWall) {
+    view.slowest = measures.slowest_wall.middle;
+  }
+  view.scene = scene;
+  return view;
 }
 
 SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {

@@ -1,6 +1,8 @@
 #include <memory>
 #include <string>
 
+#include "drawing/drawing.h"
+#include "drawing/import_lattice.h"
 #include "error_table.h"
 #include "rpc/request_fields.h"
 #include "rpc/services.h"
@@ -9,11 +11,20 @@
 #include "translate/check_case.h"
 #include "translate/measured_errors.h"
 #include "translate/presets.h"
+#include "translate/preview_case.h"
 
 namespace cellcrush::rpc {
 namespace {
 
-constexpr std::size_t kLargestPreview = 3'000'000;  // bytes
+constexpr std::size_t kLargestPreview = 3'000'000;        // bytes
+constexpr std::size_t kLargestOfSmallDrawings = 100'000;  // bytes, which take milliseconds
+constexpr std::size_t kLongestFileName = 255;
+
+std::size_t size_of_files(const v1::ImportLatticeRequest& request) {
+  std::size_t bytes = 0;
+  for (const auto& file : request.files()) bytes += file.content().size();
+  return bytes;
+}
 
 std::string known_presets() {
   std::string out;
@@ -48,17 +59,28 @@ class CaseCalls {
   v1::PreviewCaseResponse preview_case(const Call& call, const v1::PreviewCaseRequest& request) {
     check_size("case", request.case_().ByteSizeLong(), kLargestCase);
     const auto place = take_place(call, request.case_());
-    auto preview = translate::preview_case(request.case_());
-    if (!preview.problems.empty()) throw RefusedCase(preview.problems);
-    if (preview.mesh.ByteSizeLong() > kLargestPreview) {
+    auto preview = translate::preview_case(request.case_(), [&call] { call.require_wanted(); });
+    if (!preview.has_mesh()) throw RefusedCase(preview.problems());
+    if (preview.mesh().ByteSizeLong() > kLargestPreview) {
       throw ServiceError(ServiceError::Kind::exhausted,
-                         "The mesh of the case has " + std::to_string(preview.mesh.element_nodes_size() / 2) +
+                         "The mesh of the case has " + std::to_string(preview.mesh().element_nodes_size() / 2) +
                              " elements, more than a preview can hold. Preview it with fewer cells or with "
                              "elements_per_wall 1.");
     }
-    v1::PreviewCaseResponse out;
-    *out.mutable_mesh() = std::move(preview.mesh);
-    return out;
+    return preview;
+  }
+
+  v1::ImportLatticeResponse import_lattice(const Call&, const v1::ImportLatticeRequest& request) {
+    check_size("files", size_of_files(request), kLargestCase);
+    for (const auto& file : request.files()) check_length("files.name", file.name(), kLongestFileName);
+    check_length("unit", request.unit(), kLongestName);
+    try {
+      auto out = drawing::import_lattice(request);
+      check_size("network", out.network().ByteSizeLong(), kLargestCase);
+      return out;
+    } catch (const drawing::DrawingError& error) {
+      throw ServiceError(ServiceError::Kind::invalid, error.what());
+    }
   }
 
   v1::ListPresetsResponse list_presets(const Call&, const v1::ListPresetsRequest&) {
@@ -99,6 +121,9 @@ void add_cases_methods(MethodTable& table, const ServiceParts& parts) {
   const auto is_large = [](const auto& request) { return is_large_case(request.case_()); };
   table.unary("/cellcrush.v1.Cases/CheckCase", Scope::read, &parts.checks, calls, &CaseCalls::check_case, is_large);
   table.unary("/cellcrush.v1.Cases/PreviewCase", Scope::read, &parts.checks, calls, &CaseCalls::preview_case, is_large);
+  const auto is_long = [](const auto& request) { return size_of_files(request) > kLargestOfSmallDrawings; };
+  table.unary("/cellcrush.v1.Cases/ImportLattice", Scope::read, &parts.checks, calls, &CaseCalls::import_lattice,
+              is_long);
   table.unary("/cellcrush.v1.Cases/ListPresets", Scope::read, &parts.calls, calls, &CaseCalls::list_presets);
   table.unary("/cellcrush.v1.Cases/GetPreset", Scope::read, &parts.calls, calls, &CaseCalls::get_preset);
 }

@@ -171,13 +171,6 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   return out;
 }
 
-CasePreview preview_case(const v1::Case& submitted) {
-  CasePreview out;
-  const auto built = build(submitted, out.problems, [] {});
-  if (built.scene) out.mesh = to_proto(mesh_of(*built.scene));
-  return out;
-}
-
 std::int64_t predicted_memory(const v1::Case& submitted) {
   return check_case(submitted).response.predicted_memory_bytes();
 }

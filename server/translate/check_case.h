@@ -40,15 +40,6 @@ struct CaseCheck {
 CaseCheck check_case(
     const v1::Case& submitted, const std::function<void()>& between_stages = [] {});
 
-/// The mesh of a case, or all problems.
-struct CasePreview {
-  google::protobuf::RepeatedPtrField<v1::Problem> problems;
-  v1::Mesh mesh;
-};
-
-/// Builds the case's scene for its mesh. Throws std::bad_alloc if the scene does not fit.
-CasePreview preview_case(const v1::Case& submitted);
-
 /// Bytes that the run of a case without problems is predicted to need. Builds its scene.
 std::int64_t predicted_memory(const v1::Case& submitted);
 

@@ -6,13 +6,13 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
-#include "command_error.h"
 #include "drawing/join_walls.h"
 #include "drawing/svg_path.h"
 
-namespace cellcrush::client {
+namespace cellcrush::drawing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -129,8 +129,9 @@ TEST(JoinWalls, ThreeWallsThroughAPlaceCrossOnce) {
 
 TEST(JoinWalls, WhatIsThereTwiceOrHasNoLengthIsLeftOut) {
   const JoinedWalls joined = join({line(0, 0, 1, 0), line(1, 0, 0, 0), line(0, 0, 2, 0), line(3, 3, 3, 3)});
-  EXPECT_EQ(joined.duplicates, 2);
-  EXPECT_THAT(joined.lengths, ElementsAre("line"));
+  EXPECT_THAT(joined.duplicates, ElementsAre(DrawnPlace{0.5, 0}));
+  EXPECT_THAT(joined.covered, ElementsAre(DrawnPlace{0.5, 0}));
+  EXPECT_EQ(joined.without_length, 1);
   EXPECT_THAT(walls_of(joined), ElementsAre(0, 1, 1, 2));
 }
 
@@ -144,8 +145,61 @@ TEST(JoinWalls, TwoArcsBetweenTheSameJointsAreTwoWalls) {
   EXPECT_THAT(joined.network.rises_mm(), ElementsAre(0.2, 0.2));
 }
 
+DrawnWall arc(double x1, double y1, double x2, double y2, double rise) {
+  DrawnWall wall = line(x1, y1, x2, y2);
+  wall.rise = rise;
+  return wall;
+}
+
+TEST(JoinWalls, CollinearWallsThatOverlapAreOneWallThereAndAreNamed) {
+  const JoinedWalls joined = join({line(0, 0, 2, 0), line(3, 0, 1, 0)});
+  EXPECT_THAT(walls_of(joined), ElementsAre(0, 1, 1, 2, 3, 2));
+  EXPECT_THAT(joined.covered, ElementsAre(DrawnPlace{1.5, 0}));
+  EXPECT_THAT(joined.duplicates, SizeIs(0));
+}
+
+// Half a circle of radius 1 over the origin, from the right; a line through it at a height of 0.6 and a second circle.
+TEST(JoinWalls, ArcsAreDividedWhereWallsCrossThem) {
+  const JoinedWalls joined = join({arc(1, 0, -1, 0, -1), line(-2, 0.6, 2, 0.6)});
+  ASSERT_THAT(joined.crossings, SizeIs(2));
+  EXPECT_NEAR(joined.crossings[0].x, -0.8, 1e-12);
+  EXPECT_NEAR(joined.crossings[1].x, 0.8, 1e-12);
+  ASSERT_EQ(joined.network.walls_size() / 2, 6);
+  // The parts of the circle are arcs of it: their rise is that of the chord.
+  for (int wall = 0; wall < 3; ++wall) {
+    const auto place = [&](int end) {
+      const int joint = joined.network.walls(2 * wall + end);
+      return DrawnPlace{joined.network.joints_mm(2 * joint), joined.network.joints_mm(2 * joint + 1)};
+    };
+    const double half = 0.5 * distance(place(0), place(1));
+    EXPECT_NEAR(joined.network.rises_mm(wall), -(1.0 - std::sqrt(1.0 - half * half)), 1e-12);
+  }
+  const JoinedWalls circles = join({arc(1, 0, -1, 0, -1), arc(2, 0, 0, 0, -1)});
+  ASSERT_THAT(circles.crossings, SizeIs(1));
+  EXPECT_NEAR(circles.crossings[0].x, 0.5, 1e-12);
+  EXPECT_NEAR(circles.crossings[0].y, std::sqrt(0.75), 1e-12);
+}
+
+TEST(JoinWalls, AnEndOnAnArcDividesIt) {
+  const JoinedWalls joined = join({arc(1, 0, -1, 0, -1), line(0, 1, 0, 2)});
+  EXPECT_EQ(joined.divided, 1);
+  EXPECT_THAT(walls_of(joined), ElementsAre(0, 1, 1, 2, 1, 3));
+}
+
+TEST(JoinWalls, ManyWallsThroughAFewPlacesAreRefusedSoon) {
+  std::vector<DrawnWall> star;
+  for (int i = 0; i < 20000; ++i) star.push_back(line(-1, 1e-4 * i, 1, -1e-4 * i + 1e-5));
+  EXPECT_THROW(join(star), DrawingError);
+}
+
+TEST(JoinWalls, PlacesThatDoNotFitTheToleranceAreRefused) {
+  EXPECT_THROW(join({line(0, 0, 1e-300, 0), line(0, 0, 1e300, 0)}), DrawingError);
+  EXPECT_THROW(join({line(0, 0, std::numeric_limits<double>::infinity(), 0)}), DrawingError);
+  EXPECT_THROW(join({arc(0, 0, 1, 0, 1.5)}), DrawingError);
+}
+
 TEST(JoinWalls, AWallWithoutThicknessIsRefused) {
-  EXPECT_THROW(join_walls({{line(0, 0, 1, 0)}, {}, {}}, {}), CommandError);
+  EXPECT_THROW(join_walls({{line(0, 0, 1, 0)}, {}, {}}, {}), DrawingError);
 }
 
 TEST(CsvDrawing, HasWallsOrNodesAndEdges) {
@@ -161,8 +215,8 @@ TEST(CsvDrawing, HasWallsOrNodesAndEdges) {
 std::string refusal_of(const std::function<void()>& read) {
   try {
     read();
-  } catch (const CommandError& error) {
-    return error.message();
+  } catch (const DrawingError& error) {
+    return error.what();
   }
   return "";
 }
@@ -228,6 +282,31 @@ TEST(SvgPath, CurvesEndWhereTheyShouldAndLieOnTheirCircle) {
   EXPECT_EQ(chains[0].back(), (DrawnPlace{2.0, 3.0}));
 }
 
+TEST(SvgDrawing, RefusesGroupsThatAreNestedTooDeep) {
+  std::string text = "<svg>";
+  for (int i = 0; i < 100000; ++i) text += "<g>";
+  for (int i = 0; i < 100000; ++i) text += "</g>";
+  EXPECT_THAT(refusal_of([&] { read_svg_drawing(text + "</svg>", "f.svg"); }), HasSubstr("nested"));
+}
+
+TEST(DxfDrawing, RefusesAnEntityThatCountsMoreThanTheFileHas) {
+  const std::string chain = "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n500000000\n70\n0\n10\n0\n20\n0\n";
+  EXPECT_THAT(refusal_of([&] { read_dxf_drawing(chain + "0\nENDSEC\n0\nEOF\n", "f.dxf"); }),
+              HasSubstr("f.dxf:10: LWPOLYLINE says that it has 500000000 parts"));
+}
+
+TEST(Arcs, OfAnyAnglesAreOneTurnAtMost) {
+  EXPECT_THAT(walls_of_arc({0, 0}, 1.0, 1e300, 0.0, "ARC 1"), SizeIs(::testing::Le(4)));
+  EXPECT_THROW(walls_of_arc({0, 0}, 1.0, 0.0, std::numeric_limits<double>::infinity(), "ARC 1"), DrawingError);
+}
+
+TEST(MeshDrawing, RefusesCountsThatAreNone) {
+  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  EXPECT_THAT(refusal_of([&] { read_gmsh_drawing(head + "$Nodes\n\n", "f.msh"); }), HasSubstr("f.msh:5"));
+  EXPECT_THAT(refusal_of([&] { read_gmsh_drawing(head + "$Elements\n1\n1 1 -1e300 0 1 1 2\n", "f.msh"); }),
+              HasSubstr("is no whole number"));
+}
+
 TEST(MeshDrawing, OfAbaqusHasBeamsWithTheThicknessOfTheirSection) {
   const Drawing drawing = read_abaqus_drawing(
       "*Heading\n*Node\n 1, 0., 0.\n 2, 1., 0.\n 3, 1., 1.\n*Element, type=B21, elset=Walls\n 1, 1, 2\n 2, 2, 3\n"
@@ -252,4 +331,4 @@ TEST(MeshDrawing, OfGmshHasItsLinesOfBothVersions) {
 }
 
 }  // namespace
-}  // namespace cellcrush::client
+}  // namespace cellcrush::drawing

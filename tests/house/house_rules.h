@@ -20,7 +20,7 @@ struct Violation {
 /// - core/include, which others may include, takes of core's headers only those in core/include;
 /// - server includes no header of core but those in core/include;
 /// - server includes no header of client-cli but those in client-cli/usage, which both programs answer with, and in
-///   client-cli/columns, the tables that both write;
+///   client-cli/drawing, the drawings that both read;
 /// - client-cli includes no header of core or server;
 /// - of server, only server/translate joins messages (*.pb.h) and core's headers in one file;
 /// - no two folders of core, and none of server, include each other, directly or along other folders;

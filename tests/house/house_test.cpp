@@ -42,7 +42,8 @@ class PlantedTree : public testing::Test {
     write("server/worker/run.cpp", "#include \"cellcrush/run.h\"\n#include \"store/journal.h\"\n");
     write("client-cli/connection/pages.h", "#pragma once\n");
     write("client-cli/usage/man_page.h", "#pragma once\n");
-    write("server/main.cpp", "#include \"usage/man_page.h\"\n");
+    write("client-cli/drawing/drawing.h", "#pragma once\n");
+    write("server/main.cpp", "#include \"drawing/drawing.h\"\n#include \"usage/man_page.h\"\n");
     write("client-cli/main.cpp", "#include <CLI/CLI.hpp>\n#include \"cellcrush/v1/case.pb.h\"\n");
     write("tests/core/helper.h", "#pragma once\n#include \"step/advance.h\"\n");
     write("tests/server/case_test.cpp", "#include \"cellcrush/scene.h\"\n#include \"cellcrush/v1/case.pb.h\"\n");

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "programs/text_proto.h"
@@ -121,6 +122,45 @@ TEST_F(CasesServiceTest, APreviewOfABadOrHugeCaseIsRefused) {
   request.mutable_case_()->set_depth_mm(-1.0);
   const auto bad = try_call(*client().cases, &v1::Cases::Stub::PreviewCase, request);
   EXPECT_THAT(bad, Fails(grpc::StatusCode::INVALID_ARGUMENT, "depth_mm"));
+}
+
+TEST_F(CasesServiceTest, APreviewOfANetworkMarksItsFaults) {
+  v1::PreviewCaseRequest request;
+  *request.mutable_case_() = small_case();
+  v1::Lattice::Network& network = *request.mutable_case_()->mutable_lattice()->mutable_network();
+  // A square with a loose end, and a wall across two of its sides, without joints there.
+  for (const double number : {0.0, 0.0, 10.0, 0.0, 10.0, 10.0, 0.0, 10.0, 3.0, 3.0, 4.0, -2.0, 4.0, 12.0}) {
+    network.add_joints_mm(number);
+  }
+  for (const int joint : {0, 1, 1, 2, 2, 3, 3, 0, 0, 4, 5, 6}) network.add_walls(joint);
+  network.set_wall_thickness_mm(0.1);
+  const auto preview = answer_of(*client().cases, &v1::Cases::Stub::PreviewCase, request);
+  std::map<v1::LatticeMarks::Kind, int> counts;
+  for (const auto& marks : preview.marks()) counts[marks.kind()] = marks.count();
+  EXPECT_EQ(counts[v1::LatticeMarks::LOOSE_END], 3);
+  EXPECT_EQ(counts[v1::LatticeMarks::ISLAND], 1);
+  EXPECT_EQ(counts[v1::LatticeMarks::CROSSING], 2);
+  ASSERT_GT(preview.problems_size(), 0);
+  EXPECT_THAT(preview.problems(0).field(), HasSubstr("lattice.network.walls"));
+  EXPECT_GT(preview.mesh().support_plate_mm(), preview.mesh().impact_plate_mm());
+}
+
+TEST_F(CasesServiceTest, ADrawingIsImportedOrRefusedWithWhatIsWrong) {
+  v1::ImportLatticeRequest request;
+  auto& file = *request.add_files();
+  file.set_name("cross.csv");
+  file.set_content("x1,y1,x2,y2\n0,0,10,10\n0,10,10,0\n");
+  request.set_thickness_mm(0.1);
+  const auto unitless = try_call(*client().cases, &v1::Cases::Stub::ImportLattice, request);
+  EXPECT_THAT(unitless, Fails(grpc::StatusCode::INVALID_ARGUMENT, "does not tell its unit"));
+  request.set_unit("cm");
+  const auto drawn = answer_of(*client().cases, &v1::Cases::Stub::ImportLattice, request);
+  EXPECT_EQ(drawn.network().walls_size(), 8);
+  EXPECT_EQ(drawn.report().marks(0).words(), "1 crossing of walls");
+  EXPECT_EQ(drawn.report().marks(0).places_mm(0), 50.0);
+  file.set_content(std::string(4'000'001, '#'));
+  const auto large = try_call(*client().cases, &v1::Cases::Stub::ImportLattice, request);
+  EXPECT_THAT(large, Fails(grpc::StatusCode::INVALID_ARGUMENT, "files"));
 }
 
 // A preset that would give what a fidelity fills in could not be run at one.

@@ -132,7 +132,8 @@ class Connection:
             print(f"cellcrush: using the server of {owner} at {self.address}", file=sys.stderr)
 
     def _require_named(self, request: Any) -> None:
-        if self.owner and not type(request).__name__.startswith(("Get", "List", "Check", "Preview", "WhoAmI")):
+        reading = ("Get", "List", "Check", "Preview", "Import", "WhoAmI")
+        if self.owner and not type(request).__name__.startswith(reading):
             raise CrushError(f"the server at {self.address} belongs to {self.owner}, and is changed only if you name "
                              f"it: connect({self.address!r}). For a server of your own, start cellcrushd.")
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "cellcrush/v1/cases_service.pb.h"
+#include "chart/canvas.h"
+
+namespace cellcrush::client {
+
+/// The specimen between its plates before loading, with a scale bar, its marks and what they mean. REQUIRES: a mesh.
+std::string render_preview_picture(PictureFormat format, const std::string& title,
+                                   const v1::PreviewCaseResponse& preview, const PrintSize& print = {});
+
+}  // namespace cellcrush::client
