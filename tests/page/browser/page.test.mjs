@@ -227,3 +227,40 @@ test('nothing stands in the way of people who cannot see or point', async () => 
 });
 
 test('no script has failed', () => assert.deepEqual(errors, []));
+
+// Two squares with a wall that ends in the air, a wall drawn twice, and a part that nothing joins to them.
+const kDrawing = `x1,y1,x2,y2
+0,0,10,0\n10,0,10,10\n10,10,0,10\n0,10,0,0\n10,0,20,0\n20,0,20,10\n20,10,10,10\n20,10,14,6\n0,0,10,0\n3,3,6,3\n`;
+
+test('a drawing that is chosen or dropped becomes the lattice, with its faults', async () => {
+  await page.goto(daemon.url + '/new');
+  await page.getByText('Lattice from a drawing').click();
+  await page.getByLabel('Drawing', { exact: true }).setInputFiles(
+    { name: 'squares.csv', mimeType: 'text/csv', buffer: Buffer.from(kDrawing) });
+  await page.getByText('does not tell its unit of length').waitFor();
+  await page.getByLabel('Unit of the file').selectOption('mm');
+  await page.getByText('has no thickness').waitFor();
+  await page.getByLabel('Thickness, where the file has none').fill('0.4');
+  await page.getByLabel('Thickness, where the file has none').blur();
+  await page.getByText('9 walls between 9 joints, 1 unit of the file = 1 mm').waitFor();
+  await page.getByText('1 wall was drawn twice, at (5, 0) mm').waitFor();
+  const marks = page.getByRole('list', { name: 'Marks' });
+  await marks.getByText('3 loose ends').waitFor();
+  await marks.getByText('1 part is joined to nothing else').waitFor();
+  assert.equal(await page.getByLabel('Title').inputValue(), 'squares');
+
+  const dropped = await page.evaluateHandle((text) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([text], 'cross.csv'));
+    return transfer;
+  }, 'x1,y1,x2,y2\n0,0,10,10\n0,10,10,0\n');
+  await page.dispatchEvent('.new-case', 'drop', { dataTransfer: dropped });
+  await page.getByText('1 crossing of walls, at (5, 5) mm').waitFor();
+  assert.equal(await page.getByLabel('Title').inputValue(), 'cross');
+  await page.getByLabel('End strain').fill('0.01');
+  await page.getByRole('button', { name: 'Start the job' }).click();
+  await page.waitForURL('**/jobs/*');
+  const job = await daemon.call('Jobs/GetJob', { name: new URL(page.url()).pathname.slice(1) });
+  assert.equal(job.case.lattice.network.walls.length, 8);
+  assert.equal(job.case.title, 'cross');
+});

@@ -1,6 +1,6 @@
 // A new case: from a preset or another job, checked while it is typed, then started as a job or as a sweep.
 import { clone, create } from "@bufbuild/protobuf";
-import { CaseSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
+import { CaseSchema, LatticeSchema, type Case, type Lattice_Network } from "../../gen/cellcrush/v1/case_pb";
 import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb";
 import { SweepSchema, type Sweep, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
 import { whyNot } from "../api/caller";
@@ -9,6 +9,7 @@ import { Later } from "../dom/calls";
 import { h, labelled, replaceChildren, setBanner, setText } from "../dom/element";
 import { duration, idOf, pathOf, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
+import { DrawingInput } from "./drawing_input";
 import { OrderInput } from "./order";
 import { Forecast } from "./forecast";
 import { CaseForm } from "./form";
@@ -57,6 +58,7 @@ export class NewCasePage implements View {
   private readonly help = h("p", { class: "faint" }, "Choose a field to read what it means.");
   private readonly sweepInput = new SweepInput(() => this.checkSoon());
   private readonly executor = new ExecutorInput(() => this.checkSoon());
+  private readonly drawing = new DrawingInput((network, title) => this.setNetwork(network, title));
   private readonly order = new OrderInput(() => this.checkSoon());
   private readonly asJob = h("input", { type: "radio", name: "as", id: "as-job", checked: true });
   private readonly asSweep = h("input", { type: "radio", name: "as", id: "as-sweep" });
@@ -86,7 +88,7 @@ export class NewCasePage implements View {
       h("header", { class: "job-header" }, h("div", { class: "title-row" }, h("h1", {}, "New case"),
         h("label", { class: "faint" }, "from ", this.source)), this.about),
       h("form", { class: "new-grid", submit, novalidate: true },
-        h("div", { class: "column" }, h("section", { class: "card" }, this.form.element)),
+        h("div", { class: "column" }, h("section", { class: "card" }, this.drawing.element, this.form.element)),
         h("div", { class: "column side" }, this.preview.element, this.forecast.element,
           h("section", { class: "card" },
             h("div", { class: "as-what" }, h("label", {}, this.asJob, " one job"),
@@ -94,6 +96,7 @@ export class NewCasePage implements View {
             this.sweepInput.element, this.executor.element, this.order.element, this.problem,
             h("div", { class: "start-row" }, this.start, this.cost)),
           h("section", { class: "card help-card" }, h("h2", {}, "The field"), this.help))));
+    this.drawing.acceptDrops(this.element);
     const from = query.get("from") ?? `preset:${kFirstPreset}`;
     void this.listSources(from);
     void this.load(from);
@@ -136,6 +139,17 @@ export class NewCasePage implements View {
     void this.runCheck();
   }
 
+  // In place of the lattice, with what only that had; all else stays.
+  private setNetwork(network: Lattice_Network, title: string): void {
+    const value = clone(CaseSchema, this.value);
+    value.lattice ??= create(LatticeSchema);
+    value.lattice.kind = { case: "network", value: network };
+    value.lattice.inclusions = undefined;
+    value.title = title;
+    setText(this.about, "");
+    this.setCase(value);
+  }
+
   private showHelp(path: string): void {
     replaceChildren(this.help, h("strong", {}, `${labelOf(path)}. `), helpOf(path));
   }
@@ -157,7 +171,9 @@ export class NewCasePage implements View {
       const unplaced = this.form.showProblems(isValid ? check.notes : check.problems);
       this.forecast.show(check, unplaced);
       setBanner(this.problem, "");
-      if (isValid) void this.preview.show(this.value, Number(check.elementCount));
+      // Walls of a list that overlap can be drawn, where they do.
+      const isListed = this.value.lattice?.kind.case === "network";
+      if (isValid || isListed) void this.preview.show(this.value, Number(check.elementCount));
       await this.updateStart(abort.signal);
     } catch (error) {
       if (abort.signal.aborted) return;
@@ -215,6 +231,7 @@ export class NewCasePage implements View {
   destroy(): void {
     this.checking.stop();
     this.abort.abort();
+    this.drawing.destroy();
     this.preview.destroy();
   }
 }

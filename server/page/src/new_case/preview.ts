@@ -2,7 +2,8 @@
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
 import { api } from "../api/clients";
 import { latticeOf } from "../frames/lattice";
-import { h, setText } from "../dom/element";
+import { h, replaceChildren, setText } from "../dom/element";
+import { legendOf } from "../picture/marks";
 import { Picture } from "../picture/picture";
 import { facesOf } from "../picture/rigid_walls";
 
@@ -12,15 +13,17 @@ export class Preview {
   readonly element: HTMLElement;
   private readonly picture = new Picture("The lattice before loading");
   private readonly note = h("p", { class: "picture-note" });
+  private readonly legend = h("ul", { class: "mark-legend", "aria-label": "Marks" });
   private abort = new AbortController();
   private shownKey = "";
 
   constructor() {
     this.picture.element.append(this.note);
-    this.element = h("section", { class: "card" }, h("div", { class: "picture-box" }, this.picture.element));
+    this.element = h("section", { class: "card" }, h("div", { class: "picture-box" }, this.picture.element),
+      this.legend);
   }
 
-  /** Draws the lattice of a valid case, if it is another one than before. */
+  /** Draws the lattice of a case that can be meshed, if it is another one than before. */
   async show(value: Case, elementCount: number): Promise<void> {
     const { lattice: walls, loading, elementsPerWall, numerics } = value;
     const hasPlates = loading?.speedMPerS !== undefined || loading?.quasiStatic;
@@ -32,11 +35,12 @@ export class Preview {
     const abort = (this.abort = new AbortController());
     if (elementCount > kMostElements) return setText(this.note, "The mesh is too large for a drawing.");
     try {
-      const { mesh } = await api.cases.previewCase({ case: value }, { signal: abort.signal });
+      const { mesh, marks } = await api.cases.previewCase({ case: value }, { signal: abort.signal });
       if (!mesh || abort.signal.aborted) return;
       setText(this.note, "");
       this.picture.setLattice(latticeOf(mesh));
-      this.picture.showUndeformed(facesOf(value));
+      this.picture.showUndeformed(facesOf(value), marks);
+      replaceChildren(this.legend, ...legendOf(marks));
     } catch {
       this.shownKey = ""; // the check has told the problem; the next change draws again
     }

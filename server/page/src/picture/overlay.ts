@@ -1,8 +1,10 @@
 // What is drawn over the walls: plates, the place where the impact plate started, rings where walls overlapped before
 // loading, a scale bar, the wall under the pointer.
 import type { Box, Lattice } from "../frames/lattice";
+import type { LatticeMarks } from "../../gen/cellcrush/v1/cases_service_pb";
 import type { Camera } from "./camera";
 import { themeColour } from "./colours";
+import { drawMarks } from "./marks";
 import { drawFaces, platesOf, type Face } from "./rigid_walls";
 import { kSegmentFloats, type Segments } from "./segments";
 
@@ -14,6 +16,7 @@ export interface OverlayState {
   segments: Segments | undefined;
   /** Of rigid walls. */
   faces: Face[];
+  marks: LatticeMarks[];
   hovered: number;
 }
 
@@ -88,6 +91,7 @@ export function drawOverlay(context: CanvasRenderingContext2D, camera: Camera, s
   }
   if (state.segments) startOverlaps(context, camera, lattice, state.segments);
   drawFaces(context, camera, [...platesOf(lattice, state.strain), ...state.faces], state.box);
+  drawMarks(context, camera, state.marks);
   context.strokeStyle = context.fillStyle = themeColour("ink-2");
   context.lineWidth = 1.5;
   context.font = `12px ${themeColour("font")}`;

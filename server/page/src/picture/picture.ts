@@ -1,6 +1,7 @@
 // The drawing of a lattice: walls on one canvas, plates and marks on another over it.
 import { boxOf, frameBox, viewBox, type Box, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
+import type { LatticeMarks } from "../../gen/cellcrush/v1/cases_service_pb";
 import { Later, Listeners } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { number, percent } from "../dom/format";
@@ -37,6 +38,7 @@ export class Picture {
   private segments: Segments | undefined;
   private strain = 0;
   private faces: Face[] = [];
+  private marks: LatticeMarks[] = [];
   private hovered = -1;
   private scheduled = 0;
 
@@ -108,9 +110,10 @@ export class Picture {
     this.drawSoon();
   }
 
-  showUndeformed(faces: Face[]): void {
+  showUndeformed(faces: Face[], marks: LatticeMarks[] = []): void {
     const { lattice } = this;
     if (!lattice) return;
+    this.marks = marks;
     this.show({ position: lattice.undeformed, plastic: new Float32Array(lattice.thickness.length) }, 0, faces);
   }
 
@@ -162,8 +165,8 @@ export class Picture {
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, this.topCanvas.width, this.topCanvas.height);
     context.scale(ratio, ratio);
-    const { lattice, box, strain, segments, faces } = this;
-    if (lattice && box) drawOverlay(context, camera, { lattice, box, strain, segments, faces, hovered });
+    const { lattice, box, strain, segments, faces, marks } = this;
+    if (lattice && box) drawOverlay(context, camera, { lattice, box, strain, segments, faces, marks, hovered });
   }
 
   /** Draws the picture as it is, with its background, into the corner of a context; both in the given size. */
