@@ -163,13 +163,13 @@ class OverlapFinder {
   [[nodiscard]] ElementsOfWall wall_with(int element) const {
     if (element >= scene_.rigid.first_element) {
       const int wall = static_cast<int>(scene_.walls.start.size()) + element - scene_.rigid.first_element;
-      return {scene_.frame_order.beam_of(wall), element, element + 1, 1};
+      return {scene_.list_order.listed_wall(wall), element, element + 1, 1};
     }
     const auto after = std::ranges::upper_bound(scene_.walls.blocks, element, {}, &WallBlock::first_element);
     const WallBlock& block = *std::prev(after);
     const int of_block = (element - block.first_element) % block.walls;
     const int first = block.first_element + of_block;
-    return {scene_.frame_order.beam_of(block.first_wall + of_block), first,
+    return {scene_.list_order.listed_wall(block.first_wall + of_block), first,
             first + (block.elements - 1) * block.walls + 1, block.walls};
   }
 

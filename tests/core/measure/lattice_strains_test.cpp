@@ -72,7 +72,7 @@ TEST(LocalStrain, OfOneCrushedRowIsNothingBesideIt) {
         0.5 * (scene->position[scene->walls.start[wall]] + scene->position[scene->walls.end[wall]]) / kSide;
     const double from = std::abs(middle.y() - 2.5);
     const double expected = from < 0.25 ? 0.5 : from < 0.75 ? 0.25 : 0.0;
-    EXPECT_NEAR(strains[scene->frame_order.beam_of(static_cast<int>(wall))], expected, 1e-6)
+    EXPECT_NEAR(strains[scene->list_order.listed_wall(static_cast<int>(wall))], expected, 1e-6)
         << middle.x() << " " << middle.y();
   }
 }
