@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { RigidWalls } from "../src/picture/rigid_walls";
+import { platesOf, RigidWalls } from "../src/picture/rigid_walls";
 
 const wall = { xMm: 1, yMm: 2, normalX: 0, normalY: -5 };
 const job = { case: { lattice: { kind: { case: "frame", value: { rigidWalls: [wall] } } } } };
@@ -27,4 +27,12 @@ test("a honeycomb has the rigid walls of its loading", () => {
   const facesOf = (loading) => new RigidWalls({ job: { case: { loading } }, samples: [] }).at(0);
   assert.deepEqual(facesOf({ rigidWalls: [wall] }), [{ x: 1, y: 2, normalX: 0, normalY: -1 }]);
   assert.deepEqual(facesOf(undefined), []);
+});
+
+test("side walls stand beside the plates, across the crush", () => {
+  const lattice = { plates: true, alongY: false, impactPlate: 0, supportPlate: 10, length: 10, sideLow: -1, sideHigh: 4 };
+  const [impact, support, low, high] = platesOf(lattice, 0.1);
+  assert.deepEqual([impact.x, support.x], [1, 10]);
+  assert.deepEqual([low.y, low.normalY, high.y, high.normalY], [-1, 1, 4, -1]);
+  assert.equal(platesOf({ ...lattice, sideLow: 0, sideHigh: 0 }, 0.1).length, 2);
 });

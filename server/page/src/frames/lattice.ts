@@ -18,6 +18,21 @@ export interface Lattice {
   length: number;
   impactPlate: number;
   supportPlate: number;
+  /** Faces of the side walls across the crush; equal without any. */
+  sideLow: number;
+  sideHigh: number;
+  /** Where gripped particles are: a place in `ends` for each. */
+  gripped: number[];
+}
+
+// The first place of each particle in the ends of the elements.
+function placesOf(particles: number[], ends: number[]): number[] {
+  const sought = new Set(particles);
+  const places: number[] = [];
+  for (let i = 0; i < ends.length && sought.size > 0; ++i) {
+    if (sought.delete(ends[i])) places.push(i);
+  }
+  return places;
 }
 
 // The first place of each particle in a list.
@@ -38,6 +53,9 @@ export function latticeOf(mesh: Mesh): Lattice {
     length: mesh.supportPlateMm - mesh.impactPlateMm,
     impactPlate: mesh.impactPlateMm,
     supportPlate: mesh.supportPlateMm,
+    sideLow: mesh.sideLowMm,
+    sideHigh: mesh.sideHighMm,
+    gripped: placesOf(mesh.gripped, mesh.elementNodes),
   };
 }
 

@@ -32,7 +32,8 @@ export function groupsOf(kind: LatticeKind): Group[] {
     { title: "Lattice", isOpen: true, paths: [...under(`lattice.${kind.name}`, ofKind), "depth_mm"] },
     { title: "Material", isOpen: true, paths: under("material", kMaterial) },
     { title: "Crush", isOpen: !isListed(kind), paths: [...under("loading", kCrush), "plates.friction"] },
-    { title: "Further loads and ends", isOpen: false, paths: under("loading", further) },
+    { title: "Further loads and ends", isOpen: false, paths: [...under("loading", further), "loading.sides.kind",
+      "loading.sides.friction"] },
     { title: "Imperfection", isOpen: false, paths: isListed(kind) ? []
       : under("lattice.imperfection", ["amplitude_mm", "seed", "bow_mm"]) },
     { title: "Material, further", isOpen: false, paths: under("material", singleFields(MaterialSchema).filter((name) =>

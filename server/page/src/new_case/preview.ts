@@ -27,7 +27,8 @@ export class Preview {
   async show(value: Case, elementCount: number): Promise<void> {
     const { lattice: walls, loading, elementsPerWall, numerics } = value;
     const hasPlates = loading?.speedMPerS !== undefined || loading?.quasiStatic;
-    const parts = [walls, loading?.direction, hasPlates, loading?.rigidWalls, elementsPerWall, numerics?.fidelity];
+    const parts = [walls, loading?.direction, hasPlates, loading?.rigidWalls, loading?.sides,
+                   loading?.grips, elementsPerWall, numerics?.fidelity];
     const key = JSON.stringify(parts, (_, part) => (typeof part === "bigint" ? `${part}` : part));
     if (key === this.shownKey) return;
     this.shownKey = key;

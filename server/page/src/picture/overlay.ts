@@ -1,5 +1,5 @@
-// What is drawn over the walls: plates, the place where the impact plate started, rings where walls overlapped before
-// loading, a scale bar, the wall under the pointer.
+// What is drawn over the walls: plates, side walls and grips, the place where the impact plate started, rings where
+// walls overlapped before loading, a scale bar, the wall under the pointer.
 import type { Box, Lattice } from "../frames/lattice";
 import type { LatticeMarks } from "../../gen/cellcrush/v1/cases_service_pb";
 import type { Camera } from "./camera";
@@ -71,6 +71,17 @@ function startOverlaps(context: CanvasRenderingContext2D, camera: Camera, lattic
   }
 }
 
+// A square on each point that a grip holds.
+function grips(context: CanvasRenderingContext2D, camera: Camera, lattice: Lattice, segments: Segments): void {
+  const half = Math.max(0.5 * lattice.thickness[0] * camera.scale, 2);
+  context.fillStyle = themeColour("plate");
+  for (const place of lattice.gripped) {
+    const at = kSegmentFloats * (place >> 1) + 2 * (place & 1);
+    const [x, y] = [camera.toScreenX(segments.values[at]), camera.toScreenY(segments.values[at + 1])];
+    context.fillRect(x - half, y - half, 2 * half, 2 * half);
+  }
+}
+
 function hoveredWall(context: CanvasRenderingContext2D, camera: Camera, segments: Segments, element: number): void {
   const at = kSegmentFloats * element;
   const { values } = segments;
@@ -92,6 +103,7 @@ export function drawOverlay(context: CanvasRenderingContext2D, camera: Camera, s
   if (state.segments) startOverlaps(context, camera, lattice, state.segments);
   drawFaces(context, camera, [...platesOf(lattice, state.strain), ...state.faces], state.box);
   drawMarks(context, camera, state.marks);
+  if (state.segments) grips(context, camera, lattice, state.segments);
   context.strokeStyle = context.fillStyle = themeColour("ink-2");
   context.lineWidth = 1.5;
   context.font = `12px ${themeColour("font")}`;

@@ -10,11 +10,17 @@ import { themeColour } from "./colours";
 /** A point of the face in mm, and the unit normal out of the wall. */
 export interface Face { x: number; y: number; normalX: number; normalY: number }
 
-/** The faces of the plates at a strain, if there are plates. */
-export function platesOf({ plates, alongY, impactPlate, supportPlate, length }: Lattice, strain: number): Face[] {
-  const [x, y] = alongY ? [0, 1] : [1, 0];
-  const face = (at: number, out: number): Face => ({ x: at * x, y: at * y, normalX: out * x, normalY: out * y });
-  return plates ? [face(impactPlate + strain * length, 1), face(supportPlate, -1)] : [];
+/** The faces of the plates at a strain and of the side walls, where there are any. */
+export function platesOf(lattice: Lattice, strain: number): Face[] {
+  const { plates, alongY, impactPlate, supportPlate, length, sideLow, sideHigh } = lattice;
+  const face = (at: number, out: number, onY: boolean): Face => {
+    const [x, y] = onY ? [0, 1] : [1, 0];
+    return { x: at * x, y: at * y, normalX: out * x, normalY: out * y };
+  };
+  return [
+    ...plates ? [face(impactPlate + strain * length, 1, alongY), face(supportPlate, -1, alongY)] : [],
+    ...sideHigh > sideLow ? [face(sideLow, 1, !alongY), face(sideHigh, -1, !alongY)] : [],
+  ];
 }
 
 /** The faces at the start, of the rigid walls of the loading or of the lattice. */
