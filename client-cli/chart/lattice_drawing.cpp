@@ -15,6 +15,7 @@ namespace {
 constexpr int kShades = 32;
 constexpr double kThinnestWall = 0.5;  // units; thinner lines vanish
 constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the specimen's longer side
+constexpr double kGripShare = 0.008;   // size of a square on a gripped particle, as a share of the box's longer side
 constexpr double kMarginShare = 1.5;   // around the drawing, in thicknesses of a plate
 constexpr double kSmallestRing = 2.5;  // units, radius
 constexpr Colour kPlateColour{0.35, 0.36, 0.40};
@@ -56,17 +57,29 @@ class Projection {
   double y0_;
 };
 
-// A plate with its face at `face`, extending to the side `outwards` (-1 or 1) over the whole width of the box.
-void draw_plate(cairo_t* context, const Projection& projection, const Box& box, const LatticeStage& stage, double face,
-                double outwards) {
-  const double thickness = plate_thickness(stage, box);
+// A plate or a side wall with its face at `face` along y or x, extending to the side `outwards` (-1 or 1) across the
+// box.
+void draw_plate(cairo_t* context, const Projection& projection, const Box& box, double thickness, bool along_y,
+                double face, double outwards) {
   const double low = std::min(face, face + outwards * thickness);
   const double size = projection.scale() * thickness;
-  if (stage.along_y) {
+  if (along_y) {
     cairo_rectangle(context, projection.x(box.low_x), projection.y(low + thickness), projection.scale() * box.width(),
                     size);
   } else {
     cairo_rectangle(context, projection.x(low), projection.y(box.high_y), size, projection.scale() * box.height());
+  }
+  set_colour(context, kPlateColour);
+  cairo_fill(context);
+}
+
+// A square on each particle that a grip holds.
+void draw_grips(cairo_t* context, const Projection& projection, const Box& box, const LatticeStage& stage) {
+  const double size = projection.scale() * kGripShare * std::max(box.width(), box.height());
+  for (const int particle : stage.gripped) {
+    const auto i = 2 * static_cast<std::size_t>(particle);
+    cairo_rectangle(context, projection.x(stage.position_mm[i]) - 0.5 * size,
+                    projection.y(stage.position_mm[i + 1]) - 0.5 * size, size, size);
   }
   set_colour(context, kPlateColour);
   cairo_fill(context);
@@ -186,11 +199,18 @@ void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, cons
   if (stage.has_plates()) {
     const bool start_is_inside = stage.impact_plate_mm > (stage.along_y ? box.low_y : box.low_x);
     if (stage.strain > 0.0 && start_is_inside) draw_start(context, projection, box, stage);
-    draw_plate(context, projection, box, stage, impact_plate_now(stage), -1.0);
-    draw_plate(context, projection, box, stage, stage.support_plate_mm, 1.0);
+    const double thickness = plate_thickness(stage, box);
+    draw_plate(context, projection, box, thickness, stage.along_y, impact_plate_now(stage), -1.0);
+    draw_plate(context, projection, box, thickness, stage.along_y, stage.support_plate_mm, 1.0);
+  }
+  if (stage.has_sides()) {
+    const double thickness = kPlateShare * std::max(box.width(), box.height());
+    draw_plate(context, projection, box, thickness, !stage.along_y, stage.side_low_mm, -1.0);
+    draw_plate(context, projection, box, thickness, !stage.along_y, stage.side_high_mm, 1.0);
   }
   draw_walls(context, projection, stage);
   draw_overlaps(context, projection, stage);
+  draw_grips(context, projection, box, stage);
 }
 
 }  // namespace cellcrush::client

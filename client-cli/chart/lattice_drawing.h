@@ -16,11 +16,15 @@ struct LatticeStage {
   std::vector<int> overlap_particle{};    ///< whose walls overlapped others before loading
   double impact_plate_mm = 0.0;           ///< face of the plate at the start
   double support_plate_mm = 0.0;
-  bool along_y = false;  ///< the direction of loading
+  bool along_y = false;      ///< the direction of loading
+  double side_low_mm = 0.0;  ///< faces of the side walls; equal without any
+  double side_high_mm = 0.0;
+  std::vector<int> gripped{};  ///< particles that grips hold
   double strain = 0.0;
   double time_s = 0.0;
 
   [[nodiscard]] bool has_plates() const { return support_plate_mm > impact_plate_mm; }
+  [[nodiscard]] bool has_sides() const { return side_high_mm > side_low_mm; }
 };
 
 /// A range of the plane in mm, y upwards.
@@ -44,8 +48,9 @@ std::vector<Box> find_boxes(const std::vector<LatticeStage>& stages);
 /// Picture units per millimetre when `box` is drawn into `place`.
 double drawing_scale(const Rectangle& place, const Box& box);
 
-/// Draws a lattice and its plates into `place`, with the same scale for x and y: walls with their thickness, coloured
-/// by plastic fraction; rigid ones on top, in the colour of the plates; rings where walls overlapped before loading.
+/// Draws a lattice with its plates, side walls and grips into `place`, with the same scale for x and y: walls with their
+/// thickness, coloured by plastic fraction; rigid ones on top, in the colour of the plates; rings where walls overlapped
+/// before loading.
 void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const LatticeStage& stage);
 
 }  // namespace cellcrush::client

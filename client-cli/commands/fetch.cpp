@@ -36,6 +36,7 @@ constexpr Starts kResultStarts = {kResultSeal, kHdf5Signature};
 const Starts kHistoryStarts = {"time_s,travel_mm,strain,", "time_s;travel_mm;strain;"};
 const Starts kNodesStarts = {"time_s,node,ux_mm,", "time_s;node;ux_mm;"};
 const Starts kRigidWallsStarts = {"time_s,wall,displacement_mm,", "time_s;wall;displacement_mm;"};
+const Starts kGripsStarts = {"time_s,grip,displacement_x_mm,", "time_s;grip;displacement_x_mm;"};
 const Starts kFrameStarts = {"element,x0_mm,y0_mm,", "element;x0_mm;y0_mm;"};
 
 struct FetchOptions {
@@ -114,6 +115,7 @@ std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string
     const std::string name = entry->path().filename().string();
     const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), kNodesStarts);
     const bool is_walls = name == "rigid_walls.csv" && begins_with_one_of(entry->path(), kRigidWallsStarts);
+    const bool is_grips = name == "grips.csv" && begins_with_one_of(entry->path(), kGripsStarts);
     const bool is_vtk = begins_with_one_of(entry->path(), {kVtkStart});
     // Those that are being written now have temporary endings.
     const std::string ending = entry->path().extension().string();
@@ -122,7 +124,7 @@ std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string
     const bool is_frame = (is_other_job && is_written && name.starts_with("frame_")) ||
                           (is_vtk && (series.contains(name) || (is_other_job && name == kCollection)));
     const bool is_kept = std::ranges::find(written, entry->path()) != written.end();
-    if ((is_nodes || is_walls || is_frame) && !is_kept) stale.push_back(entry->path());
+    if ((is_nodes || is_walls || is_grips || is_frame) && !is_kept) stale.push_back(entry->path());
   }
   std::ranges::sort(stale);
   return stale;
@@ -173,6 +175,7 @@ void check_may_write_results(const fs::path& folder) {
   check_may_overwrite(folder / "history.csv", kHistoryStarts);
   check_may_overwrite(folder / "nodes.csv", kNodesStarts);
   check_may_overwrite(folder / "rigid_walls.csv", kRigidWallsStarts);
+  check_may_overwrite(folder / "grips.csv", kGripsStarts);
   check_may_overwrite(folder / "case.txtpb", {kCaseSignature});
 }
 
@@ -189,6 +192,9 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
   }
   if (const std::string walls = rigid_walls_csv(history.samples(), form.decimal); !walls.empty()) {
     files.add(folder / "rigid_walls.csv", kRigidWallsStarts).write(walls);
+  }
+  if (const std::string grips = grips_csv(history.samples(), form.decimal); !grips.empty()) {
+    files.add(folder / "grips.csv", kGripsStarts).write(grips);
   }
   for (const double time : form.frame_times) {
     const MeshFrame frame =
@@ -212,7 +218,7 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
 void add_fetch_command(CLI::App& app, Session& session) {
   const auto [command, options] = add_command<FetchOptions>(
       app, session, kResultCommands, "fetch",
-      "Download a job's result.h5, history.csv, nodes.csv, rigid_walls.csv and case.txtpb", run_fetch);
+      "Download a job's result.h5, history.csv, nodes.csv, rigid_walls.csv, grips.csv and case.txtpb", run_fetch);
   command->add_option("NAME", options->name, "Name of a job, or a result.h5 file or its folder")->required();
   add_option(*command, kOutputOptions, "-o,--output", options->folder, "Output folder, created if missing")->required();
   add_option(*command, kOutputOptions, "--frame", options->frame_times,

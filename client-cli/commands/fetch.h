@@ -28,9 +28,9 @@ struct ResultForm {
 };
 
 /// Writes into a folder, which it creates: case.txtpb, history.csv, nodes.csv if nodes are watched,
-/// rigid_walls.csv if there are any, the frames that `form` asks for, and result.h5. No file appears before all of
-/// them are on the disk; result.h5 appears last. Deletes the nodes.csv, rigid_walls.csv and frames that it wrote for
-/// another job.
+/// rigid_walls.csv and grips.csv if there are any, the frames that `form` asks for, and result.h5. No file appears
+/// before all of them are on the disk; result.h5 appears last. Deletes the nodes.csv, rigid_walls.csv, grips.csv and
+/// frames that it wrote for another job.
 ResultFiles write_results(Connection& connection, const v1::Job& job, const std::filesystem::path& folder,
                           const ResultForm& form = {});
 

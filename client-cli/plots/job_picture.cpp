@@ -105,6 +105,9 @@ LatticeStage lattice_stage(const MeshFrame& frame) {
           .impact_plate_mm = mesh.impact_plate_mm(),
           .support_plate_mm = mesh.support_plate_mm(),
           .along_y = mesh.along_y(),
+          .side_low_mm = mesh.side_low_mm(),
+          .side_high_mm = mesh.side_high_mm(),
+          .gripped = {mesh.gripped().begin(), mesh.gripped().end()},
           .strain = field.strain(),
           .time_s = field.time_s()};
 }

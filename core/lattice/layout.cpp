@@ -60,13 +60,17 @@ void reorder_joints(const std::vector<int>& order, Layout& layout) {
 
 }  // namespace
 
-Vector2 envelope_of(const std::vector<Vector2>& joints) {
-  Vector2 low = joints.front();
-  Vector2 high = low;
-  for (const Vector2& joint : joints) {
-    low = low.cwiseMin(joint);
-    high = high.cwiseMax(joint);
+Bounds bounds_of(const std::vector<Vector2>& points) {
+  Bounds bounds = {points.front(), points.front()};
+  for (const Vector2& point : points) {
+    bounds.low = bounds.low.cwiseMin(point);
+    bounds.high = bounds.high.cwiseMax(point);
   }
+  return bounds;
+}
+
+Vector2 envelope_of(const std::vector<Vector2>& joints) {
+  const auto [low, high] = bounds_of(joints);
   return high - low;
 }
 

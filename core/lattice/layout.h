@@ -24,10 +24,18 @@ struct LayoutWall {
   double rise = 0.0;       ///< of a circular arc over the line from start to end, to its left, mm; 0: straight
 };
 
+/// The rectangle around points, mm.
+struct Bounds {
+  Vector2 low = Vector2::Zero();
+  Vector2 high = Vector2::Zero();
+};
+Bounds bounds_of(const std::vector<Vector2>& points);
+
 /// Joints and walls of a structure before it is divided into elements. Lengths in mm.
 struct Layout {
   std::vector<Vector2> joints;
   std::vector<LayoutWall> walls;
+  Bounds envelope;  ///< of the joints before any imperfection; filled in by the mesh
 
   [[nodiscard]] std::size_t element_count() const {
     const auto add = [](std::size_t sum, const LayoutWall& wall) { return sum + wall.elements; };

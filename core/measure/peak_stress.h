@@ -8,6 +8,7 @@
 #include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "motion/grips.h"
 #include "scene/solid_area.h"
 
 namespace cellcrush {
@@ -30,14 +31,15 @@ class PeakWatch {
     if (is_past_closing(scene, state.impact_travel / scene.length)) return;
     // A plate that is slowed down by control, or that rises to its speed, takes more steps for a window.
     if (state.impact_travel - looks_.back().travel < window / (2.0 * kLooks)) return;
-    looks_.push_back({state.impact_travel, state.time, state.impact_impulse});
+    const double impulse = impact_impulse_of(scene, state);
+    looks_.push_back({state.impact_travel, state.time, impulse});
     const double begin = state.impact_travel - window;
     if (begin < 0.0) return;
     while (looks_[1].travel <= begin) looks_.erase(looks_.begin());
     const double part = (begin - looks_[0].travel) / (looks_[1].travel - looks_[0].travel);
     const double since = std::lerp(looks_[0].time, looks_[1].time, part);
     const double before = std::lerp(looks_[0].impulse, looks_[1].impulse, part);
-    const double stress = (state.impact_impulse - before) / ((state.time - since) * scene.width * scene.depth);
+    const double stress = (impulse - before) / ((state.time - since) * scene.width * scene.depth);
     if (stress > peak_.stress) peak_ = {stress, state.impact_travel / scene.length - 0.5 * Summary::kPeakWindow};
   }
 

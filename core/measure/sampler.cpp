@@ -16,6 +16,7 @@
 #include "measure/fibre_strain.h"
 #include "measure/layers.h"
 #include "measure/warnings.h"
+#include "motion/grips.h"
 #include "scene/solid_area.h"
 
 namespace cellcrush {
@@ -90,6 +91,7 @@ ReactionImpulse impulse_at(const Scene& scene, const State& state, int node) {
 Sampler::Sampler(const Scene& scene)
     : last_reaction_impulse_(scene.watched.size()),
       last_wall_impulse_(scene.rigid_walls.size()),
+      last_grip_impulse_(scene.grips.size(), Vector2(0.0, 0.0)),
       next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
@@ -139,14 +141,32 @@ void Sampler::measure_rigid_walls(const Scene& scene, const State& state, Sample
   }
 }
 
+void Sampler::measure_grips(const Scene& scene, const State& state, Sample& sample) {
+  const double interval = state.time - last_time_;
+  for (std::size_t g = 0; g < scene.grips.size(); ++g) {
+    const Grip& grip = scene.grips[g];
+    const Vector2 travel = displacement_of(scene, state, grip);
+    GripSample of_grip = {travel.x(), travel.y(), 0.0, 0.0};
+    if (interval > 0.0) {
+      const Vector2 now = impulse_of(scene, state, grip);
+      const Vector2 force = (now - std::exchange(last_grip_impulse_[g], now)) / interval;
+      of_grip.force_x = force.x();
+      of_grip.force_y = force.y();
+    }
+    sample.grips.push_back(of_grip);
+  }
+}
+
 void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sample) {
   const double area_times_interval = scene.width * scene.depth * (state.time - last_time_);
+  const double impact_impulse = impact_impulse_of(scene, state);
+  const double support_impulse = support_impulse_of(scene, state);
   if (area_times_interval > 0.0) {
-    sample.stress_impact = (state.impact_impulse - last_impact_impulse_) / area_times_interval;
-    sample.stress_support = (state.support_impulse - last_support_impulse_) / area_times_interval;
+    sample.stress_impact = (impact_impulse - last_impact_impulse_) / area_times_interval;
+    sample.stress_support = (support_impulse - last_support_impulse_) / area_times_interval;
   }
-  last_impact_impulse_ = state.impact_impulse;
-  last_support_impulse_ = state.support_impulse;
+  last_impact_impulse_ = impact_impulse;
+  last_support_impulse_ = support_impulse;
 }
 
 /// The curve is that of the mean of both plates, smoothed over the last Summary::kPeakWindow of strain, or over all of
@@ -243,6 +263,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   find_warnings(scene, state, sample);
   measure_watched(scene, state, sample);
   measure_rigid_walls(scene, state, sample);
+  measure_grips(scene, state, sample);
   last_time_ = state.time;
   return sample;
 }

@@ -35,6 +35,7 @@ class Sampler {
     visitor(last_support_impulse_);
     visitor(last_reaction_impulse_);
     visitor(last_wall_impulse_);
+    visitor(last_grip_impulse_);
     visitor(has_warned_of_depth_);
     visitor(has_warned_of_search_);
     visitor(has_warned_of_necks_);
@@ -49,6 +50,7 @@ class Sampler {
  private:
   void measure_watched(const Scene& scene, const State& state, Sample& sample);
   void measure_rigid_walls(const Scene& scene, const State& state, Sample& sample);
+  void measure_grips(const Scene& scene, const State& state, Sample& sample);
   void measure_closing(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_efficiency(Sample& sample);
@@ -71,6 +73,7 @@ class Sampler {
   double last_support_impulse_ = 0.0;
   std::vector<ReactionImpulse> last_reaction_impulse_;  ///< of the watched particles
   std::vector<RigidWallImpulse> last_wall_impulse_;     ///< of the rigid walls
+  std::vector<Vector2> last_grip_impulse_;              ///< of the grips
   bool has_warned_of_depth_ = false;
   bool has_warned_of_search_ = false;
   bool has_warned_of_necks_ = false;

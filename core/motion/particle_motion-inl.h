@@ -12,6 +12,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "motion/plate_motion.h"
 #include "simd/lane-inl.h"
 #include "simd/points-inl.h"
 
@@ -157,12 +158,16 @@ HWY_INLINE V next_velocity(const StepFactors& step, const V& velocity, Lane<D> g
 
 /// Imposed velocity v_held of a held degree of freedom over the coming step, mm/s or rad/s (E15); 0 if it is held
 /// still.
-inline double held_velocity(const Scene& scene, double time, const Hold& hold) {
-  if (hold.motion < 0) {
+inline double held_velocity(const Scene& scene, const State& state, const Hold& hold) {
+  if (hold.motion == Hold::kStill) {
     return 0.0;
   }
-  const TimeFunction& motion = scene.motions[hold.motion];
+  const double time = state.time;
   const double step = scene.schedule.time_step;
+  if (hold.motion == Hold::kWithImpactPlate) {
+    return plate_speed_at(scene, state, time + 0.5 * step);
+  }
+  const TimeFunction& motion = scene.motions[hold.motion];
   return (motion.value_at(time + step) - motion.value_at(time)) / step;
 }
 
@@ -174,7 +179,7 @@ HWY_INLINE void apply_supports(const ParticleArrays<S>& arrays, const StepFactor
   const double mass_per_gain = arrays.mass[i] / step.gain;
   const auto hold = [&](const Hold& support, double per_velocity, Lane<D>& velocity, Lane<D>& reaction) HWY_ATTR {
     if (support.held) {
-      const Lane<D> held = held_velocity(arrays.scene, arrays.state.time, support);
+      const Lane<D> held = held_velocity(arrays.scene, arrays.state, support);
       reaction = Lane<D>(per_velocity) * (held - velocity);
       velocity = held;
     }

@@ -10,10 +10,11 @@ namespace cellcrush {
 
 extern const HalfPlaneKind kStrikers;
 extern const HalfPlaneKind kRigidWalls;
+extern const HalfPlaneKind kSideWalls;
 
 namespace {
 
-constexpr std::array kKinds = {&kStrikers, &kRigidWalls};
+constexpr std::array kKinds = {&kStrikers, &kRigidWalls, &kSideWalls};
 
 /// Depth to which a ball may stand in a half plane at first, as a fraction of its radius: where it is placed on an
 /// oblique one, it does so by round-off.
@@ -140,7 +141,8 @@ void describe_half_planes(const Scene& scene, std::vector<std::string>& lines) {
     if (count > 0) {
       lines.push_back(std::string(kind->plural) + ": " + std::to_string(count) +
                       (count == 1 ? " half plane, " : " half planes, ") + std::to_string(moving) +
-                      " of them moving, unilateral, not meshed, " + friction_words(friction, "up to "));
+                      " of them moving, unilateral, not meshed, " + friction_words(friction, "up to ") +
+                      std::string(kind->note));
     }
   }
 }

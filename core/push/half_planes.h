@@ -21,6 +21,7 @@ struct HalfPlaneKind {
   RigidWallMotion (*move)(const Scene& scene, const State& state, std::size_t wall);
   /// Of one with a mass: its acceleration along the normal by all but the lattice, mm/s^2, whose work is external.
   double (*drive)(const Scene& scene, const RigidWall& wall, const RigidWallMotion& motion) = nullptr;
+  std::string_view note = {};  ///< what to know of it, after a space
 };
 
 /// Of a half plane with a mass, by the newest forces, mm/s^2 along its normal (E9g).
@@ -31,6 +32,13 @@ void check_half_planes(const LoadsSpec& loads, FieldChecker& check);
 
 /// Adds those of a checked spec to the scene.
 void attach_half_planes(const LoadsSpec& loads, Scene& scene);
+
+/// Adds the two side walls of a loading, if it has any (E9h): the lower one, then the upper one. REQUIRES: the radii of
+/// the particles.
+void attach_side_walls(const LoadingSpec& loading, Scene& scene);
+
+/// Both side walls; empty without any.
+std::span<const RigidWall> side_walls_of(const Scene& scene);
 
 /// Problems of walls that stand in a half plane at time 0 (E9f). The first `nodes` particles are nodes of a frame.
 Problems find_walls_in_half_planes(const Scene& scene, std::size_t nodes);

@@ -110,16 +110,6 @@ extern const Pusher kPlates = {.place = place_plates,
                                .half_step_works = half_step_works_of_plates,
                                .describe = describe_plates};
 
-double Plates::speed_at(double time) const {
-  return ramp_time == 0.0 || time >= ramp_time ? speed : speed * std::max(time, 0.0) / ramp_time;
-}
-
-double plate_speed_at(const Scene& scene, const State& state, double time) {
-  if (state.plate_drive.empty()) return scene.plates.speed_at(time);
-  const PlateDrive& drive = state.plate_drive.front();
-  return drive.speed + drive.rate * (time - drive.since);
-}
-
 PlateStep plate_step_of(const Scene& scene, const State& state, double time, double travel) {
   const double step = scene.schedule.time_step;
   const double before = plate_speed_at(scene, state, time - 0.5 * step);

@@ -8,6 +8,7 @@
 #include "contact/contact_workspace.h"
 #include "motion/integrate_motion.h"
 #include "motion/motion_works.h"
+#include "motion/plate_motion.h"
 
 namespace cellcrush {
 
@@ -20,12 +21,6 @@ struct PlateStep {
   NearRange reach;            ///< positions between which no ball reaches a plate at its end
 };
 PlateStep plate_step_of(const Scene& scene, const State& state, double time, double travel);
-
-/// Fraction of its greatest speed at which a controlled plate starts.
-inline constexpr double kStartOfControl = 1.0 / 64.0;
-
-/// Speed of the impact plate at a time since the newest setting, mm/s.
-double plate_speed_at(const Scene& scene, const State& state, double time);
 
 /// Particles of a band on which something presses.
 struct PressedBand {

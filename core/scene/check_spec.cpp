@@ -12,6 +12,7 @@
 #include "contact/topology/initial_overlap.h"
 #include "lattice/lattice.h"
 #include "push/half_planes.h"
+#include "scene/grips.h"
 #include "scene/mesh_part.h"
 #include "scene/rigid_links.h"
 #include "scene/unit_sets.h"
@@ -182,6 +183,14 @@ void check_plates(const LoadingSpec& loading, FieldChecker& check) {
                  " (end_strain)");
 }
 
+void check_sides(const LoadingSpec::Sides& sides, FieldChecker& check) {
+  if (check.within_limits("loading.sides.friction", sides.friction) && sides.friction > 0.0 &&
+      sides.kind != LoadingSpec::Sides::Kind::rigid) {
+    check.add("loading.sides.friction", to_text(sides.friction), "is that of side walls, but there are none.",
+              "Set loading.sides.kind to RIGID, or remove it.");
+  }
+}
+
 /// A run has plates or an end time. Of what has neither, a frame lacks the time, and all else the plates.
 void check_loading(const SceneSpec& spec, FieldChecker& check) {
   const LoadingSpec& loading = spec.loading;
@@ -198,6 +207,8 @@ void check_loading(const SceneSpec& spec, FieldChecker& check) {
   check.within_limits("loading.gravity_x_m_per_s2", spec.loads.gravity_x_m_per_s2);
   check.within_limits("loading.gravity_y_m_per_s2", spec.loads.gravity_y_m_per_s2);
   check_half_planes(spec.loads, check);
+  check_sides(loading.sides, check);
+  check_grips(spec, check);
 }
 
 void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {

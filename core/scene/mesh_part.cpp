@@ -11,6 +11,7 @@
 #include "scene/approach_speed.h"
 #include "scene/check_spec.h"
 #include "scene/frame.h"
+#include "scene/grips.h"
 #include "scene/mesh.h"
 #include "scene/rigid_links.h"
 #include "scene/solid_area.h"
@@ -53,7 +54,9 @@ bool allows_single_fibres(const Scene& scene) {
 /// Lays out the lattice, and computes the measures that a frame has not. The last walls of a list may be rigid links.
 Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
-    return lay_out_frame(*frame, *spec.elements_per_wall, links);
+    Layout layout = lay_out_frame(*frame, *spec.elements_per_wall, links);
+    layout.envelope = bounds_of(layout.joints);
+    return layout;
   }
   const auto* network = std::get_if<NetworkWalls>(&spec.lattice);
   const LatticeKind* kind = kind_of(spec);
@@ -67,6 +70,7 @@ Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
     scene.collapse_stress = forms.collapse_stress.value_or(0.0) * *spec.material.yield_stress_mpa;
   }
   const std::vector<Vector2> places = layout.joints;
+  layout.envelope = bounds_of(places);
   perturb(spec.imperfection, layout.joints);
   bow(spec.imperfection, layout.walls);
   number_columns(places, layout);
@@ -104,6 +108,7 @@ SceneSpec mesh_part_of(const SceneSpec& spec) {
   part.plates = {};
   part.loading = {};
   part.loading.direction = spec.loading.direction;
+  part.loading.sides = spec.loading.sides;
   part.numerics = {};
   part.numerics.mass_scaling = spec.numerics.mass_scaling;
   part.numerics.rotary_scaling = spec.numerics.rotary_scaling;
@@ -133,8 +138,10 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
   }
   scene->gravity = Vector2(part.loads.gravity_x_m_per_s2, part.loads.gravity_y_m_per_s2) * kMmPerM;
   attach_half_planes(part.loads, *scene);
+  attach_grips(part, layout.envelope, *scene);
   scene->mass_scaling = {part.numerics.mass_scaling, part.numerics.rotary_scaling};
   lump_masses(*scene);
+  attach_side_walls(part.loading, *scene);
   lump_rigid_bodies(*scene);
   link_elements(*scene);
   scene->solid_area = solid_area_of(*scene);
@@ -192,7 +199,10 @@ MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
   }
   const auto* frame = std::get_if<FrameWalls>(&part.lattice);
   const Problems sunk = find_walls_in_half_planes(scene, frame == nullptr ? 0 : frame->nodes.size());
-  measures.misplaced.insert(measures.misplaced.end(), sunk.begin(), sunk.end());
+  const Problems loose = find_grip_problems(scene);
+  for (const Problems* more : {&sunk, &loose}) {
+    measures.misplaced.insert(measures.misplaced.end(), more->begin(), more->end());
+  }
   return measures;
 }
 

@@ -50,7 +50,8 @@ struct MeshMeasures {
   bool rigid_walls = false;  ///< whether there are rigid walls
   /// Mass of as many particles as there are, each the lightest, over that of the lightest rigid wall with a mass.
   double pressed_share = 0.0;
-  Problems misplaced;            ///< walls that cross each other, or stand in a rigid wall, before loading
+  /// Walls that cross each other, or stand in a rigid wall, before loading; grips that hold nothing of their own.
+  Problems misplaced;
   StartOverlaps start_overlaps;  ///< empty without contact
 };
 

@@ -8,6 +8,7 @@
 
 #include "geometry/find_parts.h"
 #include "lattice/network.h"
+#include "scene/grips.h"
 
 namespace cellcrush {
 namespace {
@@ -28,6 +29,15 @@ struct Candidates {
 
   [[nodiscard]] double length(const LinkCandidate& wall) const { return (nodes[wall.end] - nodes[wall.start]).norm(); }
 };
+
+/// Walls of which a grip holds an end are no links.
+void leave_to_grips(const SceneSpec& spec, Candidates& all) {
+  for (const GripLine& line : grip_lines_of(spec, bounds_of(all.nodes))) {
+    for (LinkCandidate& wall : all.walls) {
+      wall.is_free = wall.is_free && !line.holds(all.nodes[wall.start]) && !line.holds(all.nodes[wall.end]);
+    }
+  }
+}
 
 /// 1 for each node that is held, moved or pinned.
 std::vector<char> constrained_nodes(const FrameWalls& frame, const LoadsSpec& loads) {
@@ -52,6 +62,7 @@ Candidates candidates_of(const SceneSpec& spec, const FrameWalls& frame) {
     wall.is_free = constrained[beam.start] == 0 && constrained[beam.end] == 0;
   }
   for (const LoadsSpec::DistributedLoad& load : spec.loads.distributed_loads) all.walls[load.beam].is_free = false;
+  leave_to_grips(spec, all);
   return all;
 }
 
@@ -65,6 +76,7 @@ Candidates candidates_of(const SceneSpec& spec, const NetworkWalls& network) {
         all.walls.emplace_back(LinkCandidate{listed.start, listed.end, listed.thickness, 0.0, listed.rise == 0.0});
     wall.mass = *material.density_kg_per_m3 * listed.thickness * all.length(wall);
   }
+  leave_to_grips(spec, all);
   return all;
 }
 

@@ -140,6 +140,7 @@ bool prevents_meshing(const Problems& problems) {
                                  "section",
                                  "loading.gravity",
                                  "loading.rigid_walls",
+                                 "loading.grips",
                                  "numerics.rigid_link_slenderness"};
   return std::ranges::any_of(problems, [&](const Problem& problem) {
     return std::ranges::any_of(kPaths, [&](const char* path) { return problem.field.starts_with(path); });

@@ -71,6 +71,15 @@ std::string slowest_text(const Scene& scene) {
              : wall + ". Half of the walls allow a step " + times_text(slowest.cost) + " times as long.";
 }
 
+std::string grips_text(const Scene& scene) {
+  const std::size_t grips = scene.grips.size();
+  const std::size_t points = scene.gripped.size();
+  return "Grips: " + std::to_string(grips) + (grips == 1 ? ", holds " : ", hold ") + std::to_string(points) +
+         (points == 1 ? " point" : " points") +
+         " of the mesh as one each, without turning, in tension as in compression; a wall across the line of a grip is "
+         "free from its first point before it.";
+}
+
 /// Walls that are rigid because they are short.
 std::string links_text(const Scene& scene) {
   const std::size_t count = scene.rigid_link_count();
@@ -129,6 +138,9 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
                 " Walls that are stretched keep their area and do not neck.");
   for (const Pusher* pusher : pushers()) {
     pusher->describe(scene, lines);
+  }
+  if (!scene.grips.empty()) {
+    lines.push_back(grips_text(scene));
   }
   if (scene.pins.count() > 0) {
     const std::size_t ends = scene.pins.joint.size() - scene.pins.count();
@@ -209,6 +221,12 @@ MeshView mesh_of(const Scene& scene) {
   mesh.impact_plate = scene.plates.impact_face;
   mesh.support_plate = scene.plates.support_face;
   mesh.along_y = scene.plates.axis == 1;
+  if (const auto sides = side_walls_of(scene); sides.size() == 2) {
+    const int across = sides[0].normal.x() != 0.0 ? 0 : 1;
+    mesh.side_low = sides[0].point[across];
+    mesh.side_high = sides[1].point[across];
+  }
+  mesh.gripped = scene.gripped;
   return mesh;
 }
 

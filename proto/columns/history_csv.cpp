@@ -92,6 +92,11 @@ std::string rigid_walls_csv(const Samples& samples, Decimal decimal) {
       samples, [](const v1::Sample& sample) -> const auto& { return sample.rigid_walls(); }, decimal);
 }
 
+std::string grips_csv(const Samples& samples, Decimal decimal) {
+  return parts_csv(
+      samples, [](const v1::Sample& sample) -> const auto& { return sample.grips(); }, decimal);
+}
+
 std::string frame_csv(const v1::Mesh& mesh, const v1::FieldFrame& frame, Decimal decimal) {
   CsvText text(decimal);
   for (const char* name : {"element", "x0_mm", "y0_mm", "x1_mm", "y1_mm", "thickness_mm", "plastic_fraction"})

@@ -21,6 +21,9 @@ std::string nodes_csv(const Samples& samples, Decimal decimal = Decimal::point);
 /// The rigid walls of samples as CSV, one line per wall and sample; empty if no sample has any.
 std::string rigid_walls_csv(const Samples& samples, Decimal decimal = Decimal::point);
 
+/// The grips of samples as CSV, one line per grip and sample; empty if no sample has any.
+std::string grips_csv(const Samples& samples, Decimal decimal = Decimal::point);
+
 /// A frame as CSV, one line per element: its ends, thickness and plastic fraction. REQUIRES: plain numbers.
 std::string frame_csv(const v1::Mesh& mesh, const v1::FieldFrame& frame, Decimal decimal = Decimal::point);
 

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "columns/sample_parts.h"
 #include "error.h"
 #include "jobs/queue_forecast.h"
 #include "slurm/attempt_follower.h"
@@ -28,14 +29,13 @@ void cut_incomplete_report(const store::JobFolder& folder) { store::ReportLog lo
 // For what the forecast misses: reports take more room than the compressed result.
 constexpr std::int64_t kForecastFactor = 4;
 constexpr std::int64_t kForecastBeside = std::int64_t{64} << 20;
-constexpr std::int64_t kPartOfSample = 1024;  // bytes of a watched node or a rigid wall in a sample
+constexpr std::int64_t kPartOfSample = 1024;  // bytes of a watched node, a rigid wall or a grip in a sample
 
 // Limit of each file that a task hands over. A checkpoint is no larger than the run's memory.
 std::uint64_t most_bytes_of(const v1::Case& submitted, const translate::CaseChecker::Verdict& verdict) {
   const auto spec = translate::to_spec(submitted).spec;
-  const auto& frame = submitted.lattice().frame();
-  const std::int64_t parts =
-      frame.watched_nodes_size() + frame.rigid_walls_size() + submitted.loading().rigid_walls_size();
+  const v1::Sample named = sample_parts_of(submitted);
+  const std::int64_t parts = named.watched_size() + named.rigid_walls_size() + named.grips_size();
   const std::int64_t samples = spec.output.sample_count;
   const std::int64_t files = store::predicted_result_bytes(2 * verdict.element_count, verdict.element_count,
                                                            verdict.element_count, samples, spec.output.frame_count) +

@@ -205,6 +205,7 @@ std::vector<HistoryColumn> history_columns(const v1::Sample& sample) {
   add_columns("history/", own, FieldDescriptor::CPPTYPE_INT64, nullptr, 0, out);
   add_part_columns("nodes", v1::Sample::kWatchedFieldNumber, sample, out);
   add_part_columns("rigid_walls", v1::Sample::kRigidWallsFieldNumber, sample, out);
+  add_part_columns("grips", v1::Sample::kGripsFieldNumber, sample, out);
   return out;
 }
 

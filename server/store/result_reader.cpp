@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "cellcrush/v1/case.pb.h"
+#include "columns/sample_parts.h"
 #include "store/durable_file.h"
 #include "store/result_job.h"
 #include "store/result_layout.h"
@@ -70,11 +71,15 @@ v1::Mesh ResultReader::mesh() const {
     read_all(open_result_dataset(file_.id(), "mesh/overlap_particle", H5T_STD_I32LE, 1), H5T_NATIVE_INT32,
              *out.mutable_overlap_particle());
   }
+  if (has("mesh/gripped")) {
+    read_all(open_result_dataset(file_.id(), "mesh/gripped", H5T_STD_I32LE, 1), H5T_NATIVE_INT32,
+             *out.mutable_gripped());
+  }
   out.set_particle_count(out.position_mm_size() / 2);
   const auto is_particle = [&out](int node) { return node >= 0 && node < out.particle_count(); };
   if (out.element_nodes_size() != 2 * out.thickness_mm_size() ||
       !std::ranges::all_of(out.element_nodes(), is_particle) ||
-      !std::ranges::all_of(out.overlap_particle(), is_particle))
+      !std::ranges::all_of(out.overlap_particle(), is_particle) || !std::ranges::all_of(out.gripped(), is_particle))
     throw damaged_result("its mesh contradicts itself");
   const Hdf5Handle group(H5Gopen2(file_.id(), "mesh", H5P_DEFAULT), H5Gclose, "Opening the group mesh");
   const auto number = [&group](const char* name) { return read_number_attribute(group.id(), name); };
@@ -85,6 +90,10 @@ v1::Mesh ResultReader::mesh() const {
   out.set_impact_plate_mm(number("impact_plate_mm"));
   out.set_support_plate_mm(number("support_plate_mm"));
   out.set_along_y(number("along_y") != 0.0);
+  for (const auto& [name, set] :
+       {std::pair("side_low_mm", &v1::Mesh::set_side_low_mm), std::pair("side_high_mm", &v1::Mesh::set_side_high_mm)}) {
+    if (H5Aexists(group.id(), name) > 0) (out.*set)(number(name));  // a file of an earlier version lacks it
+  }
   return out;
 }
 
@@ -92,19 +101,13 @@ std::string ResultReader::text_attribute(const char* name) const { return read_t
 
 // In the order of the case, as the groups of the file have none.
 v1::Sample ResultReader::sample_without_numbers() const {
-  v1::Sample out;
-  if (!has("nodes") && !has("rigid_walls")) return out;
+  if (!has("nodes") && !has("rigid_walls") && !has("grips")) return {};
   v1::Case submitted;
   google::protobuf::util::JsonParseOptions options;
   options.ignore_unknown_fields = true;
   if (!google::protobuf::util::JsonStringToMessage(text_attribute("case"), &submitted, options).ok())
     throw damaged_result("its case cannot be read");
-  const v1::Frame& frame = submitted.lattice().frame();
-  for (const auto& node : frame.watched_nodes()) out.add_watched()->set_node(node);
-  for (const auto* walls : {&frame.rigid_walls(), &submitted.loading().rigid_walls()}) {
-    for (const auto& wall : *walls) out.add_rigid_walls()->set_wall(wall.id());
-  }
-  return out;
+  return sample_parts_of(submitted);
 }
 
 std::vector<v1::Sample> ResultReader::history(std::int64_t first, std::int64_t count) const {

@@ -117,6 +117,12 @@ void ResultWriter::write_mesh(const v1::Mesh& mesh) {
   write_attribute(mesh_.id(), "impact_plate_mm", mesh.impact_plate_mm());
   write_attribute(mesh_.id(), "support_plate_mm", mesh.support_plate_mm());
   write_attribute(mesh_.id(), "along_y", static_cast<std::int64_t>(mesh.along_y()));
+  write_attribute(mesh_.id(), "side_low_mm", mesh.side_low_mm());
+  write_attribute(mesh_.id(), "side_high_mm", mesh.side_high_mm());
+  if (mesh.gripped().empty()) return;
+  const auto gripped = write_dataset(mesh_.id(), "gripped", H5T_NATIVE_INT32,
+                                     {static_cast<hsize_t>(mesh.gripped_size())}, mesh.gripped().data());
+  describe(gripped.id(), "", "indices, from 0, of the particles that grips hold, grip by grip");
 }
 
 void ResultWriter::make_columns(const v1::Sample& sample) {

@@ -88,6 +88,10 @@ static_assert(ends_alike(v1::Section::DepthRule_MAX, v1::Section::LOBATTO, Secti
 static_assert(ends_alike(v1::Section::AreaRule_MAX, v1::Section::CONSTANT_AREA, SectionSpec::AreaRule::constant_area));
 static_assert(ends_alike(v1::Contact::Search_MAX, v1::Contact::BUCKETS, ContactSpec::Search::buckets));
 static_assert(ends_alike(v1::Loading::Direction_MAX, v1::Loading::Y, LoadingSpec::Direction::y));
+static_assert(ends_alike(v1::Loading::Sides::Kind_MAX, v1::Loading::Sides::RIGID, LoadingSpec::Sides::Kind::rigid));
+static_assert(ends_alike(v1::Loading::Grip::Edge_MAX, v1::Loading::Grip::TOP, LoadsSpec::Grip::Edge::top));
+static_assert(ends_alike(v1::Loading::Grip::FixedTo_MAX, v1::Loading::Grip::SUPPORT_PLATE,
+                         LoadsSpec::Grip::FixedTo::support_plate));
 static_assert(ends_alike(v1::Numerics::FibrePrecision_MAX, v1::Numerics::DOUBLE, Precision::double_precision));
 static_assert(ends_alike(v1::Numerics::Fidelity_MAX, v1::Numerics::REFERENCE, NumericsSpec::Fidelity::reference,
                          NumericsSpec::Fidelity::draft));
@@ -131,6 +135,18 @@ void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {
   if (in.plates().has_friction()) spec.plates.friction = in.plates().friction();
 }
 
+void read_grips(const v1::Loading& in, LoadsSpec& out, Problems& problems) {
+  out.grips = read_gripped_edges(in, problems);
+  for (int i = 0; i < in.grips_size(); ++i) {
+    const std::string path = "loading.grips[" + std::to_string(i) + "]";
+    if (in.grips(i).edge() == v1::Loading::Grip::EDGE_UNSPECIFIED) {
+      problems.push_back({path + ".edge", "", "is missing.", "Set it to LEFT, RIGHT, BOTTOM or TOP."});
+    }
+    read_choice(in.grips(i).edge(), path + ".edge", out.grips[i].edge, problems);
+    read_choice(in.grips(i).fixed_to(), path + ".fixed_to", out.grips[i].fixed_to, problems);
+  }
+}
+
 void read_loading(const v1::Loading& in, SceneSpec& spec, Problems& problems) {
   LoadingSpec& out = spec.loading;
   read_choice(in.direction(), "loading.direction", out.direction, problems);
@@ -144,6 +160,9 @@ void read_loading(const v1::Loading& in, SceneSpec& spec, Problems& problems) {
   spec.loads.gravity_x_m_per_s2 = in.gravity_x_m_per_s2();
   spec.loads.gravity_y_m_per_s2 = in.gravity_y_m_per_s2();
   spec.loads.rigid_walls = read_rigid_walls(in, problems);
+  read_choice(in.sides().kind(), "loading.sides.kind", out.sides.kind, problems);
+  if (in.sides().has_friction()) out.sides.friction = in.sides().friction();
+  read_grips(in, spec.loads, problems);
 }
 
 void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems) {

@@ -29,6 +29,9 @@ FrameWalls to_spec(const v1::Frame& in, LoadsSpec& loads, Problems& problems);
 /// Those of a loading; appends problems.
 std::vector<LoadsSpec::RigidWall> read_rigid_walls(const v1::Loading& in, Problems& problems);
 
+// Reads lines and displacements of grips, without what an enum says.
+std::vector<LoadsSpec::Grip> read_gripped_edges(const v1::Loading& in, Problems& problems);
+
 /// A material; the paths of its fields start with `path`.
 MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems);
 

@@ -154,6 +154,16 @@ std::string rigid_wall_text(const std::string& id, const LoadsSpec::RigidWall& w
   return texts.empty() ? id : fmt::format("{} ({})", id, fmt::join(texts, ", "));
 }
 
+std::string grip_text(const v1::Loading::Grip& grip) {
+  using Grip = v1::Loading::Grip;
+  std::string text = fmt::format("{} ({}", grip.id(), Grip::Edge_Name(grip.edge()));
+  if (grip.has_line_mm()) text += fmt::format(" from {} mm", grip.line_mm());
+  if (grip.fixed_to() == Grip::IMPACT_PLATE) text += ", fixed to the impact plate";
+  if (grip.fixed_to() == Grip::SUPPORT_PLATE) text += ", fixed to the support plate";
+  if (grip.has_displacement_x_mm() || grip.has_displacement_y_mm()) text += ", moves";
+  return text + ")";
+}
+
 void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   if (loading.gravity_x_m_per_s2() != 0.0 || loading.gravity_y_m_per_s2() != 0.0) {
     add_fact(
@@ -164,6 +174,14 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   const auto walls = read_rigid_walls(loading, ignored);
   add_list(words, "rigid walls", loading.rigid_walls(),
            [&, i = 0](const auto& wall) mutable { return rigid_wall_text(wall.id(), walls[i++]); });
+  if (loading.sides().kind() == v1::Loading::Sides::RIGID) {
+    add_fact(
+        words, "side walls",
+        loading.sides().friction() > 0.0 ? fmt::format("rigid, friction {}", loading.sides().friction()) : "rigid");
+    words.set_theory_note(words.theory_note() + (words.theory_note().empty() ? "" : " ") +
+                          "The theory is that of free sides.");
+  }
+  add_list(words, "grips", loading.grips(), grip_text);
   std::string text;
   if (loading.has_end_time_s()) {
     add_fact(words, "end time", fmt::format("{} s", loading.end_time_s()));

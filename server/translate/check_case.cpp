@@ -43,6 +43,8 @@ class ListChecker {
     std::int64_t points = 0;
     for (const auto& load : frame.loads()) points += load.force_n_or_n_mm().points_size();
     for (const auto& motion : frame.motions()) points += motion.displacement_mm_or_rad().points_size();
+    for (const auto& grip : submitted.loading().grips())
+      points += grip.displacement_x_mm().points_size() + grip.displacement_y_mm().points_size();
     for (const auto& wall : rigid_walls_of(submitted)) points += wall.displacement_mm().points_size();
     for (const auto& load : frame.distributed_loads())
       points += load.x_n_per_mm().points_size() + load.y_n_per_mm().points_size();
@@ -162,6 +164,8 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   auto& walls = completed.lattice().has_frame() ? *completed.mutable_lattice()->mutable_frame()->mutable_rigid_walls()
                                                 : *completed.mutable_loading()->mutable_rigid_walls();
   for (int i = 0; i < walls.size(); ++i) walls[i].set_id(rigid_walls_of(submitted)[i].id());
+  auto& grips = *completed.mutable_loading()->mutable_grips();
+  for (int i = 0; i < grips.size(); ++i) grips[i].set_id(submitted.loading().grips(i).id());
   out.wall_count = facts.wall_count;
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "columns/sample_parts.h"
 #include "translate/case_to_spec.h"
 
 namespace cellcrush::translate {
@@ -217,7 +218,31 @@ std::vector<LoadsSpec::RigidWall> read_rigid_walls(const v1::Loading& in, Proble
   for (int i = 0; i < in.rigid_walls_size(); ++i) {
     const std::string path = "loading.rigid_walls[" + std::to_string(i) + "]";
     read_id(path + ".id", "rigid wall", in.rigid_walls(i).id(), i, positions, problems);
+    for (const char* id : kSideWallIds) {
+      if (in.sides().kind() == v1::Loading::Sides::RIGID && in.rigid_walls(i).id() == id)
+        problems.push_back({path + ".id", id, "is the name of a side wall.", "Give the rigid wall another name."});
+    }
     out.push_back(read_rigid_wall(in.rigid_walls(i), path, problems));
+  }
+  return out;
+}
+
+std::vector<LoadsSpec::Grip> read_gripped_edges(const v1::Loading& in, Problems& problems) {
+  std::unordered_map<std::string, int> positions;
+  std::vector<LoadsSpec::Grip> out;
+  for (int i = 0; i < in.grips_size(); ++i) {
+    const v1::Loading::Grip& grip = in.grips(i);
+    const std::string path = "loading.grips[" + std::to_string(i) + "]";
+    read_id(path + ".id", "grip", grip.id(), i, positions, problems);
+    LoadsSpec::Grip& added = out.emplace_back();
+    if (grip.has_line_mm()) added.line_mm = grip.line_mm();
+    const auto read = [&](const char* name, bool is_given, const v1::Frame::TimeFunction& function) {
+      if (!is_given) return LoadsSpec::TimeFunction();
+      if (function.points().empty()) problems.push_back(missing(path + name + ".points"));
+      return read_function(path + name, function, problems);
+    };
+    added.x_points = read(".displacement_x_mm", grip.has_displacement_x_mm(), grip.displacement_x_mm());
+    added.y_points = read(".displacement_y_mm", grip.has_displacement_y_mm(), grip.displacement_y_mm());
   }
   return out;
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "translate/loads_places.h"
+#include "columns/sample_parts.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -136,13 +136,12 @@ v1::Ledger ledger_of(const Sample& sample) {
 }  // namespace
 
 v1::Sample to_proto(const Sample& sample, const v1::Case& scene) {
-  v1::Sample out;
+  v1::Sample out = sample_parts_of(scene);
   visit_columns(sample, setter_of(out));
   out.set_energy_damping_mj(sample.energy_damping());
   if (sample.front) *out.mutable_front() = to_proto(*sample.front);
   for (std::size_t i = 0; i < sample.watched.size(); ++i) {
-    auto& watched = *out.add_watched();
-    watched.set_node(scene.lattice().frame().watched_nodes(static_cast<int>(i)));
+    auto& watched = *out.mutable_watched(static_cast<int>(i));
     watched.set_ux_mm(sample.watched[i].ux);
     watched.set_uy_mm(sample.watched[i].uy);
     watched.set_rotation_rad(sample.watched[i].rotation);
@@ -151,11 +150,17 @@ v1::Sample to_proto(const Sample& sample, const v1::Case& scene) {
     watched.set_reaction_moment_n_mm(sample.watched[i].reaction_moment);
   }
   for (std::size_t i = 0; i < sample.rigid_walls.size(); ++i) {
-    auto& wall = *out.add_rigid_walls();
-    wall.set_wall(rigid_walls_of(scene)[static_cast<int>(i)].id());
+    auto& wall = *out.mutable_rigid_walls(static_cast<int>(i));
     wall.set_displacement_mm(sample.rigid_walls[i].displacement);
     wall.set_normal_force_n(sample.rigid_walls[i].normal_force);
     wall.set_tangential_force_n(sample.rigid_walls[i].tangential_force);
+  }
+  for (std::size_t i = 0; i < sample.grips.size(); ++i) {
+    auto& grip = *out.mutable_grips(static_cast<int>(i));
+    grip.set_displacement_x_mm(sample.grips[i].displacement_x);
+    grip.set_displacement_y_mm(sample.grips[i].displacement_y);
+    grip.set_force_x_n(sample.grips[i].force_x);
+    grip.set_force_y_n(sample.grips[i].force_y);
   }
   for (const Warning& warning : sample.warnings) *out.add_warnings() = to_proto(warning);
   return out;
@@ -203,6 +208,9 @@ v1::Mesh to_proto(const MeshView& mesh) {
   out.set_impact_plate_mm(mesh.impact_plate);
   out.set_support_plate_mm(mesh.support_plate);
   out.set_along_y(mesh.along_y);
+  out.set_side_low_mm(mesh.side_low);
+  out.set_side_high_mm(mesh.side_high);
+  out.mutable_gripped()->Assign(mesh.gripped.begin(), mesh.gripped.end());
   return out;
 }
 

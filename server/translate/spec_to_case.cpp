@@ -147,6 +147,14 @@ void write_plates(const LoadingSpec& in, v1::Loading& out) {
   out.set_ramp_strain(in.ramp_strain);
 }
 
+void write_grip(const LoadsSpec::Grip& in, v1::Loading::Grip& out) {
+  out.set_edge(wire_of<v1::Loading::Grip::Edge>(in.edge));
+  if (in.line_mm) out.set_line_mm(*in.line_mm);
+  out.set_fixed_to(wire_of<v1::Loading::Grip::FixedTo>(in.fixed_to));
+  if (!in.x_points.empty()) write_function(in.x_points, *out.mutable_displacement_x_mm());
+  if (!in.y_points.empty()) write_function(in.y_points, *out.mutable_displacement_y_mm());
+}
+
 void write_loads(const SceneSpec& spec, v1::Case& out) {
   const bool listed = out.lattice().has_frame();
   v1::Loading& loading = *out.mutable_loading();
@@ -167,6 +175,11 @@ void write_loads(const SceneSpec& spec, v1::Case& out) {
     for (const auto& [name, value] : wall.own)
       added.GetReflection()->SetDouble(&added, added.GetDescriptor()->FindFieldByName(name), value);
   }
+  if (spec.loading.sides.kind != LoadingSpec::Sides::Kind::free) {
+    loading.mutable_sides()->set_kind(wire_of<v1::Loading::Sides::Kind>(spec.loading.sides.kind));
+    loading.mutable_sides()->set_friction(spec.loading.sides.friction);
+  }
+  for (const LoadsSpec::Grip& grip : spec.loads.grips) write_grip(grip, *loading.add_grips());
   move_to_frame(out);
   if (loading.ByteSizeLong() == 0) out.clear_loading();
 }

@@ -197,12 +197,15 @@ std::vector<v1::MeshChunk> chunks_of(const v1::Mesh& mesh, std::size_t chunk_byt
   head.set_impact_plate_mm(mesh.impact_plate_mm());
   head.set_support_plate_mm(mesh.support_plate_mm());
   head.set_along_y(mesh.along_y());
+  head.set_side_low_mm(mesh.side_low_mm());
+  head.set_side_high_mm(mesh.side_high_mm());
   std::vector<v1::MeshChunk> out;
   int nodes = 0;
   int thicknesses = 0;
   int positions = 0;
   int walls = 0;
   int overlaps = 0;
+  int gripped = 0;
   do {
     Room room(std::max<std::size_t>(chunk_bytes, sizeof(float)));
     v1::Mesh& part = *out.emplace_back().mutable_mesh();
@@ -212,9 +215,10 @@ std::vector<v1::MeshChunk> chunks_of(const v1::Mesh& mesh, std::size_t chunk_byt
     room.take(mesh.position_mm(), positions, *part.mutable_position_mm());
     room.take(mesh.element_wall(), walls, *part.mutable_element_wall());
     room.take(mesh.overlap_particle(), overlaps, *part.mutable_overlap_particle());
+    room.take(mesh.gripped(), gripped, *part.mutable_gripped());
   } while (nodes < mesh.element_nodes_size() || thicknesses < mesh.thickness_mm_size() ||
            positions < mesh.position_mm_size() || walls < mesh.element_wall_size() ||
-           overlaps < mesh.overlap_particle_size());
+           overlaps < mesh.overlap_particle_size() || gripped < mesh.gripped_size());
   number_parts(out);
   return out;
 }

@@ -72,6 +72,24 @@ TEST_F(Run, GivesTheBitsOfADaemonAndLeavesTheResultsAlone) {
   EXPECT_EQ(bytes_of(output / "history.csv"), history_of_the_daemon(submitted));
 }
 
+TEST_F(Run, HasTheForcesOfSideWallsAndGrips) {
+  std::string text = small_case();
+  text.replace(text.find("end_strain: 0.5"), 15, R"(end_strain: 0.05 sides { kind: RIGID friction: 0.1 }
+    grips { id: "foot" edge: RIGHT fixed_to: SUPPORT_PLATE })");
+  const std::string submitted = write_file("edges.txtpb", text);
+  const fs::path output = folder() / "out";
+  const Outcome outcome = run(words(submitted, output), kCrushLimit);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  const std::string walls = bytes_of(output / "rigid_walls.csv");
+  EXPECT_THAT(walls, AllOf(HasSubstr("\n0,side_low,0,"), HasSubstr(",side_high,0,")));
+  EXPECT_THAT(bytes_of(output / "grips.csv"),
+              AllOf(HasSubstr("time_s,grip,displacement_x_mm,displacement_y_mm,force_x_n,force_y_n\n"),
+                    HasSubstr(",foot,0,0,-")));  // it pushes back
+  const Outcome refused = cellcrush({"check", submitted, "--set", "loading.grips[0].edge=LEFT"});
+  EXPECT_EQ(refused.exit_code, 2) << refused.all();
+  EXPECT_THAT(refused.all(), HasSubstr("Set edge to RIGHT"));
+}
+
 TEST_F(Run, NamesAFileSystemWithoutLocks) {
   std::vector<std::string> command = {"/usr/bin/env", std::string("LD_PRELOAD=") + CELLCRUSH_NO_LOCKS,
                                       "ASAN_OPTIONS=verify_asan_link_order=0"};

@@ -192,11 +192,12 @@ TEST_F(ResultFileTest, IsReadBackAsItWasWritten) {
 // Groups of HDF5 are in the order of their names, samples in that of the case.
 TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
   const v1::Case submitted = testing::with_text(
-      testing::small_case(), R"(lattice { frame { watched_nodes: ["b", "a"] rigid_walls { id: "floor" } } })");
+      testing::small_case(), R"(lattice { frame { watched_nodes: ["b", "a"] rigid_walls { id: "floor" } } }
+                                loading { sides { kind: RIGID } grips { id: "jaw" } grips { id: "foot" } })");
   std::vector<v1::Sample> samples(kSamples);
   const auto mesh = testing::from_text<v1::Mesh>(
       "particle_count: 3 element_nodes: [0, 1] thickness_mm: 0.5 "
-      "element_wall: 0");
+      "element_wall: 0 side_low_mm: -1 side_high_mm: 4 gripped: [2, 0]");
   ResultWriter writer(path_ = folder_.path() / "frame.h5", mesh);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].set_step(static_cast<std::int64_t>(i));
@@ -209,6 +210,16 @@ TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
     auto& wall = *samples[i].add_rigid_walls();
     wall.set_wall("floor");
     wall.set_normal_force_n(1.0 / static_cast<double>(i + 1));
+    for (const char* id : {"side_low", "side_high"}) {
+      auto& side = *samples[i].add_rigid_walls();
+      side.set_wall(id);
+      side.set_normal_force_n(id == std::string("side_low") ? 3.0 : 4.0);
+    }
+    for (const auto& grip : submitted.loading().grips()) {
+      auto& added = *samples[i].add_grips();
+      added.set_grip(grip.id());
+      added.set_force_x_n(grip.id() == "jaw" ? 5.0 : -5.0);
+    }
     writer.add_sample(samples[i]);
   }
   v1::Job job;
@@ -218,6 +229,10 @@ TEST_F(ResultFileTest, PartsOfAFrameAreReadBackInTheOrderOfTheCase) {
   ASSERT_EQ(read.size(), 300U);
   for (std::size_t i = 0; i < read.size(); ++i)
     ASSERT_EQ(read[i].SerializeAsString(), samples[250 + i].SerializeAsString()) << i;
+  const v1::Mesh mesh_read = ResultReader(path_).mesh();
+  EXPECT_EQ(mesh_read.side_low_mm(), -1.0);
+  EXPECT_EQ(mesh_read.side_high_mm(), 4.0);
+  EXPECT_THAT(mesh_read.gripped(), ::testing::ElementsAre(2, 0));
 }
 
 TEST_F(ResultFileTest, ThePredictedSizeIsNotPassedAndNotFarOff) {

@@ -250,6 +250,38 @@ TEST(Translate, LoadsAndEndOfAnyLatticeStandInTheLoading) {
   EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("loading.rigid_walls[0].mass_g"));
 }
 
+TEST(Translate, SidesAndGripsComeThroughBothWays) {
+  v1::Case given = testing::small_case();
+  given.mutable_loading()->clear_speed_m_per_s();
+  given.mutable_loading()->clear_end_strain();
+  given.mutable_loading()->clear_ramp_strain();
+  given = testing::with_text(given, R"(loading { end_time_s: 1e-3 sides { kind: RIGID friction: 0.2 }
+    grips { id: "jaw" edge: RIGHT line_mm: 3 displacement_x_mm { points { time_s: 0 value: 0 }
+                                                                points { time_s: 1 value: 2 } } }
+    grips { id: "foot" edge: LEFT } })");
+  const SceneSpec spec = translate::to_spec(given).spec;
+  EXPECT_EQ(spec.loading.sides, (LoadingSpec::Sides{LoadingSpec::Sides::Kind::rigid, 0.2}));
+  using Grip = LoadsSpec::Grip;
+  const Grip jaw = {Grip::Edge::right, 3.0, Grip::FixedTo::ground, {{0.0, 0.0}, {1.0, 2.0}}, {}};
+  EXPECT_EQ(spec.loads.grips, (std::vector{jaw, Grip{}}));
+  const v1::Case once = translate::to_case(spec);
+  given.mutable_loading()->mutable_grips(1)->clear_id();
+  const auto reading = translate::to_spec(given);
+  EXPECT_THAT(fields_of(reading.problems), ElementsAre("loading.grips[1].id"));
+  EXPECT_EQ(once.loading().grips(0).edge(), v1::Loading::Grip::RIGHT);
+  EXPECT_EQ(once.loading().grips(1).fixed_to(), v1::Loading::Grip::GROUND);
+  EXPECT_EQ(once.loading().sides().friction(), 0.2);
+}
+
+TEST(Translate, AGripWithoutEdgeOrWithANameTwiceAndARigidWallNamedAsASideAreProblems) {
+  const v1::Case given = testing::with_text(testing::small_case(), R"(loading { sides { kind: RIGID }
+    rigid_walls { id: "side_low" x_mm: 0 y_mm: -9 normal_y: 1 }
+    grips { id: "jaw" } grips { id: "jaw" edge: LEFT displacement_x_mm {} } })");
+  EXPECT_THAT(fields_of(translate::to_spec(given).problems),
+              ::testing::UnorderedElementsAre("loading.rigid_walls[0].id", "loading.grips[0].edge",
+                                              "loading.grips[1].id", "loading.grips[1].displacement_x_mm.points"));
+}
+
 TEST(Translate, WhatAFrameHasAtTwoPlacesIsNamedAsGiven) {
   v1::Case given = frame_case();
   given.mutable_lattice()->mutable_frame()->set_end_time_s(-1.0);

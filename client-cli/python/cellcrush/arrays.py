@@ -32,6 +32,8 @@ def _columns(sample: Sample) -> Iterator[Tuple[str, type, float]]:
         yield from _numbers(node, f"nodes.{node.node}.")
     for wall in sample.rigid_walls:
         yield from _numbers(wall, f"rigid_walls.{wall.wall}.")
+    for grip in sample.grips:
+        yield from _numbers(grip, f"grips.{grip.grip}.")
 
 
 def samples_array(samples: Sequence[Sample]) -> Array:
@@ -63,6 +65,8 @@ class Mesh:
     rigid_element_count: int = 0  # elements of stiff cells or rigid links; they come last
     # Particles of walls that overlapped others before loading.
     overlap_particle: Array = field(default_factory=lambda: np.zeros(0, np.int32))
+    side_low_mm: float = 0.0  # faces of the side walls across the crush; equal without any
+    side_high_mm: float = 0.0
 
     def __repr__(self) -> str:
         return (f"<mesh of {len(self.position_mm)} particles and {len(self.element_nodes)} elements, "
@@ -99,7 +103,8 @@ def mesh_from(chunks: Iterable[MeshChunk]) -> Mesh:
                 np.array(whole.element_nodes, np.int32).reshape(-1, 2), np.array(whole.thickness_mm, np.float32),
                 np.array(whole.element_wall or [0] * len(whole.thickness_mm), np.int32),
                 whole.length_mm, whole.width_mm, whole.impact_plate_mm, whole.support_plate_mm, whole.along_y,
-                whole.rigid_element_count, np.array(whole.overlap_particle, np.int32))
+                whole.rigid_element_count, np.array(whole.overlap_particle, np.int32), whole.side_low_mm,
+                whole.side_high_mm)
 
 
 def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:

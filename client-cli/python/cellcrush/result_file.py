@@ -84,7 +84,7 @@ class ResultFile(Results):
         with h5py.File(path, "r") as file:
             self.attributes: dict[str, Any] = dict(file.attrs)
             history = {name: column[()] for name, column in file["history"].items()}
-            for group in ("nodes", "rigid_walls"):
+            for group in ("nodes", "rigid_walls", "grips"):
                 for id_, columns in file.get(group, {}).items():
                     history.update({f"{group}.{id_}.{name}": column[()] for name, column in columns.items()})
             self._samples: Array = np.empty(len(history["time_s"]), [(n, c.dtype) for n, c in history.items()])

@@ -30,6 +30,14 @@ struct RigidWallSample {
   double tangential_force = 0.0;  ///< N along its tangent, the normal turned clockwise: friction
 };
 
+/// A grip (E15a). Its forces on the lattice are means over the interval since the previous sample.
+struct GripSample {
+  double displacement_x = 0.0;  ///< mm
+  double displacement_y = 0.0;
+  double force_x = 0.0;  ///< N
+  double force_y = 0.0;
+};
+
 /// Where the cells of a lattice collapse; measure/crush_mode.h has the definitions.
 enum class CrushMode {
   none,   ///< too few cells have collapsed to identify a mode
@@ -131,7 +139,8 @@ struct Sample {
   std::optional<Front> front;
   DensestLayer densest_layer;                ///< as measured last; 0 before the first time
   std::vector<WatchedNode> watched;          ///< in the order of the frame's watched nodes
-  std::vector<RigidWallSample> rigid_walls;  ///< in the order of the case
+  std::vector<RigidWallSample> rigid_walls;  ///< in the order of the case, then the two side walls if there are any
+  std::vector<GripSample> grips;             ///< in the order of the case
   std::vector<Warning> warnings;             ///< of contacts, first seen at this sample
 
   [[nodiscard]] double energy_damping() const { return energies.contact_damping + energies.mass_damping; }

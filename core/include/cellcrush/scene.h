@@ -165,14 +165,28 @@ struct ElementLoad {
 
 /// How a support constrains one degree of freedom of a particle (E15).
 struct Hold {
+  static constexpr int kStill = -1;
+  static constexpr int kWithImpactPlate = -2;
+
   bool held = false;
-  int motion = -1;  ///< index into Scene::motions of the imposed displacement; -1: held still
+  int motion = kStill;  ///< index into Scene::motions of the imposed displacement, or one of the above
 };
 
 struct Support {
   Hold x;
   Hold y;
   Hold rotation;
+};
+
+/// Particles that are held or moved as one by their supports, without turning (E15a).
+struct Grip {
+  enum class FixedTo { ground, impact_plate, support_plate };
+  FixedTo fixed_to = FixedTo::ground;
+  Hold x;  ///< of each of its particles
+  Hold y;
+  int first = 0;  ///< into Scene::gripped
+  int end = 0;
+  int taken = 0;  ///< particles beyond its line that something else holds; a scene that runs has none
 };
 
 /// The two rigid plates (E9c). The impact plate starts at the low end and moves along the crush; the support plate
@@ -200,12 +214,12 @@ struct HalfPlaneKind;
 /// says.
 struct RigidWall {
   const HalfPlaneKind* kind = nullptr;
-  Vector2 point;          ///< on its face at a displacement of 0, mm
-  Vector2 normal;         ///< unit, out of the wall
-  double friction = 0.0;  ///< Coulomb's coefficient
-  TimeFunction motion;    ///< imposed displacement along the normal, mm
-  double mass = 0.0;      ///< tonne; 0: its motion is imposed
-  double speed = 0.0;     ///< mm/s, along the normal at the start, of a mass
+  Vector2 point = Vector2::Zero();   ///< on its face at a displacement of 0, mm
+  Vector2 normal = Vector2::Zero();  ///< unit, out of the wall
+  double friction = 0.0;             ///< Coulomb's coefficient
+  TimeFunction motion;               ///< imposed displacement along the normal, mm
+  double mass = 0.0;                 ///< tonne; 0: its motion is imposed
+  double speed = 0.0;                ///< mm/s, along the normal at the start, of a mass
 
   /// Positive direction of friction: the normal turned clockwise.
   [[nodiscard]] Vector2 tangent() const { return -normal_of(normal); }
@@ -311,6 +325,8 @@ struct Scene {
   std::vector<int> wall_ends;
   std::vector<Support> supports;      ///< N, or empty if nothing is held
   std::vector<TimeFunction> motions;  ///< mm or rad, imposed displacements of held particles
+  std::vector<Grip> grips;
+  std::vector<int> gripped;  ///< particles, grip by grip
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
   Vector2 gravity = Vector2::Zero();      ///< mm/s^2
@@ -374,6 +390,10 @@ struct Scene {
   [[nodiscard]] double greatest_radius() const { return (thickens() ? kMostThickening : 1.0) * largest_radius; }
 
   [[nodiscard]] bool is_loaded() const { return !loads.empty() || !element_loads.empty() || !gravity.isZero(); }
+  [[nodiscard]] std::span<const int> particles_of(const Grip& grip) const {
+    return std::span(gripped).subspan(static_cast<std::size_t>(grip.first),
+                                      static_cast<std::size_t>(grip.end - grip.first));
+  }
   [[nodiscard]] std::size_t particle_count() const { return position.size(); }
   [[nodiscard]] std::size_t element_count() const { return elements.size(); }
   /// All walls: those of `walls`, then those of rigid bodies, which are an element each.
@@ -399,10 +419,11 @@ template <class Visitor>
 void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [position, mass, inertia, inverse_mass, inverse_inertia, radius, largest_radius, smallest_radius,
                elements, walls, bands, rigid, list_order, pins, incidence_offset, incidence, joint_count,
-               wall_end_offset, wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity,
-               initial_spin, depth, materials, law, section, single_fibres, slow_loading, constant_area, contact,
-               limited_reaches, start_overlaps, faces, plates, rigid_walls, mass_scaling, mass_damping, schedule,
-               length, width, total_mass, solid_area, stable_step, collapse_stress, fidelity, watched] = scene;
+               wall_end_offset, wall_ends, supports, motions, grips, gripped, loads, element_loads, gravity,
+               initial_velocity, initial_spin, depth, materials, law, section, single_fibres, slow_loading,
+               constant_area, contact, limited_reaches, start_overlaps, faces, plates, rigid_walls, mass_scaling,
+               mass_damping, schedule, length, width, total_mass, solid_area, stable_step, collapse_stress, fidelity,
+               watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;
@@ -413,8 +434,8 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [premise, side, thick_ends, faces_of_bands, border] = faces;
   const auto list = [&visit](const auto&... arrays) { (visit(arrays), ...); };
   list(position, mass, inertia, inverse_mass, inverse_inertia, radius, elements, bands, incidence_offset, incidence,
-       wall_end_offset, wall_ends, supports, motions, loads, element_loads, initial_velocity, initial_spin, materials,
-       rigid_walls, watched);
+       wall_end_offset, wall_ends, supports, motions, grips, gripped, loads, element_loads, initial_velocity,
+       initial_spin, materials, rigid_walls, watched);
   list(blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material);
   list(rigid_offset, centre, rigid_mass, rigid_inertia);
   list(listed_joint, listed_wall);

@@ -146,6 +146,18 @@ struct LoadsSpec {
     bool operator==(const RigidWall&) const = default;
   };
 
+  /// A part of the lattice that is held or moved as one: all that lies beyond a line along an edge (E15a).
+  struct Grip {
+    enum class Edge { left, right, bottom, top };
+    enum class FixedTo { ground, impact_plate, support_plate };
+    Edge edge = Edge::left;
+    std::optional<double> line_mm;  ///< default: the edge of the envelope
+    FixedTo fixed_to = FixedTo::ground;
+    TimeFunction x_points = {};  ///< displacement, mm; empty: it stands still
+    TimeFunction y_points = {};
+    bool operator==(const Grip&) const = default;
+  };
+
   std::vector<NodalLoad> loads;
   std::vector<NodalMotion> motions;
   std::vector<DistributedLoad> distributed_loads;
@@ -153,6 +165,7 @@ struct LoadsSpec {
   double gravity_x_m_per_s2 = 0.0;
   double gravity_y_m_per_s2 = 0.0;
   std::vector<RigidWall> rigid_walls;
+  std::vector<Grip> grips;
 
   bool operator==(const LoadsSpec&) const = default;
 };
@@ -235,6 +248,14 @@ struct LoadingSpec {
 
   enum class Direction { x, y };
   Direction direction = Direction::x;
+  /// What stands at the two sides of the lattice across the direction.
+  struct Sides {
+    enum class Kind { free, rigid };
+    Kind kind = Kind::free;
+    double friction = 0.0;  ///< of rigid ones
+    bool operator==(const Sides&) const = default;
+  };
+  Sides sides;
   std::optional<double> speed_m_per_s;
   /// Whether the speed is chosen, and lowered during the run, so that the kinetic energy stays below kinetic_share of
   /// the work done (scene/quasi_static.h).

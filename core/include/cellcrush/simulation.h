@@ -71,6 +71,9 @@ struct MeshView {
   double impact_plate = 0.0;  ///< the plates' faces before loading, along the crush, mm
   double support_plate = 0.0;
   bool along_y = false;
+  double side_low = 0.0;  ///< the side walls' faces across the crush, mm; equal without any
+  double side_high = 0.0;
+  std::vector<int> gripped;  ///< particles that grips hold, grip by grip
 };
 MeshView mesh_of(const Scene& scene);
 
