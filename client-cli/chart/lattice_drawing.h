@@ -48,9 +48,9 @@ std::vector<Box> find_boxes(const std::vector<LatticeStage>& stages);
 /// Picture units per millimetre when `box` is drawn into `place`.
 double drawing_scale(const Rectangle& place, const Box& box);
 
-/// Draws a lattice with its plates, side walls and grips into `place`, with the same scale for x and y: walls with their
-/// thickness, coloured by plastic fraction; rigid ones on top, in the colour of the plates; rings where walls overlapped
-/// before loading.
+/// Draws a lattice with its plates, side walls and grips into `place`, with the same scale for x and y: walls with
+/// their thickness, coloured by plastic fraction; rigid ones on top, in the colour of the plates; rings where walls
+/// overlapped before loading.
 void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const LatticeStage& stage);
 
 }  // namespace cellcrush::client
