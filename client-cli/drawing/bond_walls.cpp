@@ -10,8 +10,9 @@ namespace {
 
 /// Of a mean thickness: ends that lie at least so near to the mid-line of a foil are on it.
 constexpr double kOnMidLine = 0.05;
-/// Most pairs of walls at one height or beside each other.
-constexpr long kMostLooks = 1'000'000'000;
+/// Most pairs of walls that lie above each other, and of those that are near.
+constexpr long kMostPassed = 1'000'000'000;
+constexpr long kMostNear = 10'000'000;
 
 /// Coordinates of a place from the start of a wall: along it, and to its left.
 struct OnFoil {
@@ -115,15 +116,18 @@ std::vector<FacingFoils> find_facing(const std::vector<DrawnWall>& walls, double
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, low_x);
   std::vector<std::pair<std::size_t, std::size_t>> near;
-  long looked = 0;
+  long passed = 0;
+  long beside = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const DrawnWall& one = walls[order[i]];
     if (one.rise != 0.0) continue;
     for (std::size_t j = i + 1; j < order.size() && low_x(order[j]) <= high_x(order[i]) + room; ++j) {
-      if (++looked > kMostLooks) refuse("Too many lines of the drawing lie side by side. Leave out what is no wall.");
       const DrawnWall& other = walls[order[j]];
       const bool is_near = std::min(one.start.y, one.end.y) <= std::max(other.start.y, other.end.y) + room &&
                            std::min(other.start.y, other.end.y) <= std::max(one.start.y, one.end.y) + room;
+      if (++passed > kMostPassed || (is_near && ++beside > kMostNear)) {
+        refuse("Too many lines of the drawing lie side by side. Leave out what is no wall.");
+      }
       if (other.rise == 0.0 && is_near && facing_of(walls, order[i], order[j], share)) {
         near.push_back(std::minmax(order[i], order[j]));
       }
