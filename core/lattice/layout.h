@@ -41,6 +41,7 @@ struct Layout {
     const auto add = [](std::size_t sum, const LayoutWall& wall) { return sum + wall.elements; };
     return std::accumulate(walls.begin(), walls.end(), std::size_t{0}, add);
   }
+  [[nodiscard]] double chord_of(const LayoutWall& wall) const { return (joints[wall.end] - joints[wall.start]).norm(); }
 };
 
 /// Extent of the joints in x and y, mm.

@@ -9,10 +9,12 @@
 #include "contact/topology/initial_overlap.h"
 #include "contact/topology/wall_paths.h"
 #include "lattice/lattice.h"
+#include "lattice/list_walls.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
 #include "scene/slowest_wall.h"
+#include "scene/solid_area.h"
 
 namespace cellcrush {
 namespace {
@@ -49,24 +51,33 @@ void prepare_search(const SceneSpec& spec, const std::function<void()>& between_
 }
 
 struct PlannedScene {
+  ListedWalls listed;
   std::shared_ptr<Scene> scene;  ///< the mesh alone; null if problems prevent it
   MeshMeasures measures;
   RunPlan plan;
 };
 
 /// Overwrites `problems`. REQUIRES: a spec with its fidelity filled in.
-PlannedScene plan_scene(const SceneSpec& spec, const std::function<void()>& between_stages, Problems& problems) {
+PlannedScene plan_scene(const SceneSpec& filled, const std::function<void()>& between_stages, Problems& problems) {
   PlannedScene planned;
-  problems = check_spec(spec);
+  problems = check_spec(filled);
   if (prevents_meshing(problems)) {
     return planned;
   }
+  planned.listed = list_walls(filled);
+  if (!planned.listed.problems.empty()) {
+    problems.insert(problems.end(), planned.listed.problems.begin(), planned.listed.problems.end());
+    return planned;
+  }
+  between_stages();
+  const SceneSpec& spec = planned.listed.spec;
   // Built from the mesh part alone, so that specs with the same part have the same mesh.
   const SceneSpec part = mesh_part_of(spec);
   planned.scene = build_mesh(part);
   between_stages();
   planned.measures = measure_mesh(part, *planned.scene);
   planned.plan = plan_run(spec, planned.measures, problems);
+  name_made_walls(filled, problems);
   between_stages();
   return planned;
 }
@@ -74,12 +85,12 @@ PlannedScene plan_scene(const SceneSpec& spec, const std::function<void()>& betw
 }  // namespace
 
 SceneResult build_scene(const SceneSpec& given, const std::function<void()>& between_stages) {
-  const SceneSpec spec = fill_in_fidelity(given);
   SceneResult result;
-  const auto [scene, measures, plan] = plan_scene(spec, between_stages, result.problems);
+  const auto [listed, scene, measures, plan] = plan_scene(fill_in_fidelity(given), between_stages, result.problems);
   if (!result.problems.empty()) {
     return result;
   }
+  const SceneSpec& spec = listed.spec;
   scene->slow_loading = scene->single_fibres && steps_to_yield(spec, measures, plan) > kMostSingleSteps;
   scene->single_fibres = scene->single_fibres && !scene->slow_loading;
   scene->mass_damping = spec.numerics.mass_damping_per_s;
@@ -92,15 +103,15 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
   scene->start_overlaps = measures.start_overlaps;
   prepare_search(spec, between_stages, *scene);
   between_stages();
-  scene->fidelity = describe_fidelity(given);
+  const std::string fidelity = describe_fidelity(given);
+  scene->fidelity = listed.words + (listed.words.empty() || fidelity.empty() ? "" : " ") + fidelity;
   result.scene = scene;
   return result;
 }
 
 LatticeView view_lattice(const SceneSpec& given, const std::function<void()>& between_stages) {
-  const SceneSpec spec = fill_in_fidelity(given);
   LatticeView view;
-  const auto [scene, measures, plan] = plan_scene(spec, between_stages, view.problems);
+  const auto [listed, scene, measures, plan] = plan_scene(fill_in_fidelity(given), between_stages, view.problems);
   if (scene == nullptr) {
     return view;
   }
@@ -115,7 +126,7 @@ LatticeView view_lattice(const SceneSpec& given, const std::function<void()>& be
     }
   }
   // Walls of regular lattices are nearly of one length.
-  if (regular_lattice_of(spec) == nullptr && measures.slowest_wall.cost > kCostlyWall) {
+  if (regular_lattice_of(listed.spec) == nullptr && measures.slowest_wall.cost > kCostlyWall) {
     view.slowest = measures.slowest_wall.middle;
   }
   view.scene = scene;

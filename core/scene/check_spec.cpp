@@ -11,6 +11,7 @@
 
 #include "contact/topology/initial_overlap.h"
 #include "lattice/lattice.h"
+#include "lattice/voronoi.h"
 #include "push/half_planes.h"
 #include "scene/grips.h"
 #include "scene/mesh_part.h"
@@ -128,14 +129,17 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
   } else if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
     check_network(spec, check);
     check_imperfection(spec, shortest_wall_of(*network), "the shortest wall", check);
+  } else if (std::holds_alternative<VoronoiWalls>(spec.lattice)) {
+    check_imperfection(spec, check_voronoi(spec, check), "side_mm", check);
   } else if (std::holds_alternative<FrameWalls>(spec.lattice)) {
     check_frame(spec, check);
     check_no_imperfection(spec.imperfection, check);
   } else {
     check.add("lattice", "", "is missing.",
               "Give one of " + list_kinds("lattice.", &LatticeKind::name, [](const LatticeKind&) { return true; }) +
-                  ", lattice.network, lattice.frame.");
+                  ", lattice.voronoi, lattice.network, lattice.frame.");
   }
+  check_changes(spec, check);
   if ((kind == nullptr || !kind->has_rows_of_cells) && !spec.inclusions.rows.empty()) {
     const auto has_rows = [](const LatticeKind& other) { return other.has_rows_of_cells; };
     check.add("lattice.inclusions.rows", std::to_string(spec.inclusions.rows.size()) + " rows",
@@ -267,6 +271,9 @@ double count_elements(const SceneSpec& spec) {
   }
   if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
     return static_cast<double>(network->wall_count()) * elements_per_wall;
+  }
+  if (const auto* voronoi = std::get_if<VoronoiWalls>(&spec.lattice)) {
+    return count_elements(*voronoi, elements_per_wall);
   }
   double elements = 0.0;
   for (const FrameWalls::Beam& beam : std::get<FrameWalls>(spec.lattice).beams) {

@@ -29,6 +29,12 @@ void check_frame(const SceneSpec& spec, FieldChecker& check);
 /// Checks the lists of a network: joints that exist, walls of some length, entries that fit the walls.
 void check_network(const SceneSpec& spec, FieldChecker& check);
 
+/// Checks the numbers of a Voronoi honeycomb. Returns the side, mm; an endless one if it is not valid.
+double check_voronoi(const SceneSpec& spec, FieldChecker& check);
+
+/// Checks the changes of a lattice.
+void check_changes(const SceneSpec& spec, FieldChecker& check);
+
 /// The least distance of two joints that a wall of a network connects, mm; endless where none is sound.
 double shortest_wall_of(const NetworkWalls& network);
 

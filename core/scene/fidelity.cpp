@@ -17,6 +17,7 @@ DefaultMesh default_mesh_of(const SceneSpec& spec) {
   const LatticeKind* kind = kind_of(spec);
   if (!is_force_based(spec)) return {1, 2, 8, ""};
   if (kind != nullptr) return mesh_of(*kind, spec);
+  if (std::holds_alternative<VoronoiWalls>(spec.lattice)) return {1, 2, 8, "Voronoi honeycombs"};
   if (!std::holds_alternative<NetworkWalls>(spec.lattice)) return {1, 2, 8, ""};
   return has_walls_along_crush(spec) ? mesh_of_stacked_walls("networks with more than three walls at a joint")
                                      : DefaultMesh{1, 2, 8, "networks with at most three walls at a joint"};

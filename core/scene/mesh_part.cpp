@@ -180,6 +180,10 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   measures.thinnest_wall = std::ranges::min(scene.elements, {}, &Element::thickness).thickness;
   measures.approach_speed = approach_speed_of(scene);
   measures.material = scene.materials.front();
+  measures.walls_along_crush = has_walls_along_crush(part);
+  if (const RegularLattice* lattice = regular_lattice_of(part)) {
+    measures.bending_share = std::min(1.0, 3.0 * measures.thinnest_wall / *lattice->side_mm);
+  }
   const auto* frame = std::get_if<FrameWalls>(&part.lattice);
   measures.rigid_walls = !scene.rigid_walls.empty();
   for (const RigidWall& wall : scene.rigid_walls) {

@@ -45,9 +45,12 @@ struct MeshMeasures {
   double thinnest_wall = 0.0;
   double approach_speed = 0.0;  ///< mm/s, of what loads, motions and rigid walls move (E9a)
   SlowestWall slowest_wall;
-  Material material;         ///< of the lattice
-  bool contact = false;      ///< whether walls touch each other
-  bool rigid_walls = false;  ///< whether there are rigid walls
+  Material material;               ///< of the lattice
+  bool contact = false;            ///< whether walls touch each other
+  bool rigid_walls = false;        ///< whether there are rigid walls
+  bool walls_along_crush = false;  ///< has_walls_along_crush
+  /// Largest strain of a wall's fibres over the nominal strain, while the lattice is elastic.
+  double bending_share = 1.0;
   /// Mass of as many particles as there are, each the lightest, over that of the lightest rigid wall with a mass.
   double pressed_share = 0.0;
   /// Walls that cross each other, or stand in a rigid wall, before loading; grips that hold nothing of their own.

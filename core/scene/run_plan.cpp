@@ -100,12 +100,6 @@ void check_step_count(const SceneSpec& spec, double count, Problems& problems) {
   }
 }
 
-/// Largest strain of a wall's fibres over the nominal strain, while the lattice is elastic.
-double bending_share(const SceneSpec& spec, double thickness) {
-  const RegularLattice* lattice = regular_lattice_of(spec);
-  return lattice == nullptr ? 1.0 : std::min(1.0, 3.0 * thickness / *lattice->side_mm);
-}
-
 }  // namespace
 
 RunPlan plan_run(const SceneSpec& given, const MeshMeasures& mesh, Problems& problems) {
@@ -155,8 +149,7 @@ double steps_to_yield(const SceneSpec& spec, const MeshMeasures& mesh, const Run
     constexpr double kOfRun = 0.2;  // it starts slowly
     return kOfRun * static_cast<double>(plan.schedule.step_count);
   }
-  const double strain =
-      mesh.material.yield_stress / mesh.material.youngs_modulus / bending_share(spec, mesh.thinnest_wall);
+  const double strain = mesh.material.yield_stress / mesh.material.youngs_modulus / mesh.bending_share;
   // In the ramp, the strain grows with the square of time, to half of what the full speed gives in the same time.
   const double ramp = spec.loading.ramp_strain;
   const double strain_at_full_speed = strain < ramp ? 2.0 * std::sqrt(strain * ramp) : strain + ramp;

@@ -9,6 +9,7 @@
 
 #include "cellcrush/spec_checker.h"
 #include "fields/field_checker.h"
+#include "lattice/list_walls.h"
 #include "scene/rigid_links.h"
 #include "scene/time_step.h"
 
@@ -79,12 +80,15 @@ std::string words_of(const SlowestWall& slowest) {
 std::string times_text(double times) { return in_digits(times, 2); }
 
 Problems note_costly_wall(const SceneSpec& spec, const SlowestWall& slowest, StepBound bound) {
+  const bool is_made = has_made_walls(spec);
   const bool is_network = std::holds_alternative<NetworkWalls>(spec.lattice);
-  const bool is_listed = is_network || std::holds_alternative<FrameWalls>(spec.lattice);
+  const bool is_listed = is_made || is_network || std::holds_alternative<FrameWalls>(spec.lattice);
   // Walls of regular lattices are nearly of one length.
   if (!is_listed || bound != StepBound::elements || slowest.cost <= kCostlyWall) return {};
-  return {{is_network ? "lattice.network.walls" : "lattice.frame.beams[" + std::to_string(slowest.listed) + "]",
-           in_digits(slowest.length, 3) + " mm",
+  const std::string field = is_made      ? "lattice"
+                            : is_network ? "lattice.network.walls"
+                                         : "lattice.frame.beams[" + std::to_string(slowest.listed) + "]";
+  return {{field, in_digits(slowest.length, 3) + " mm",
            "is the length of a wall at " + place_of(slowest) +
                ", which sets the time step: half of the walls allow one " + times_text(slowest.cost) +
                " times as long, and the run would take as many times fewer steps.",

@@ -76,7 +76,7 @@ TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const Con
       const double of_contacts = striker_step_of(contact, lightest, mesh.pressed_share);
       hold_to(kStepFraction / std::hypot(1.0 / mesh.steps.stable, 1.0 / of_contacts), StepBound::contacts);
     }
-    if (has_walls_along_crush(spec)) {
+    if (mesh.walls_along_crush) {
       const double phase = phase_of_stacks(mesh.material, plates.speed, *spec.elements_per_wall);
       hold_to(phase * std::sqrt(lightest / contact.stiffness), StepBound::stacked_walls);
     }

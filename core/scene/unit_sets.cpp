@@ -95,6 +95,7 @@ double thinnest_wall_of(const SceneSpec& spec) {
     return network->thicknesses_mm.empty() ? network->wall_thickness_mm.value_or(0.0)
                                            : std::ranges::min(network->thicknesses_mm);
   }
+  if (const auto* voronoi = std::get_if<VoronoiWalls>(&spec.lattice)) return voronoi->wall_thickness_mm.value_or(0.0);
   const RegularLattice* lattice = regular_lattice_of(spec);
   return lattice == nullptr ? 0.0 : lattice->wall_thickness_mm.value_or(0.0);
 }

@@ -62,13 +62,16 @@ double end_shortening_of(const SceneSpec& spec, const Scene& scene) {
 
 /// At the strain rate of the whole lattice, on which the precision of fibres depends.
 SceneSpec specimen_of(SceneSpec spec) {
-  if (auto* lattice = std::get_if<RegularLattice>(&spec.lattice)) {
+  const auto limit = [&spec](auto& lattice) {
     const bool is_along_x = spec.loading.direction == LoadingSpec::Direction::x;
-    const int cells = is_along_x ? *lattice->columns : *lattice->rows;
+    const int cells = is_along_x ? *lattice.columns : *lattice.rows;
     if (auto& speed = spec.loading.speed_m_per_s) *speed *= std::min(1.0, static_cast<double>(kMostCells) / cells);
-    lattice->columns = std::min(*lattice->columns, kMostCells);
-    lattice->rows = std::min(*lattice->rows, kMostCells);
-  }
+    lattice.columns = std::min(*lattice.columns, kMostCells);
+    lattice.rows = std::min(*lattice.rows, kMostCells);
+  };
+  if (auto* lattice = std::get_if<RegularLattice>(&spec.lattice)) limit(*lattice);
+  if (auto* lattice = std::get_if<VoronoiWalls>(&spec.lattice)) limit(*lattice);
+  spec.changes = {};
   spec.imperfection = {};
   spec.inclusions = {};
   spec.numerics.time_step_s = 0.0;

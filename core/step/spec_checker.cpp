@@ -6,6 +6,7 @@
 
 #include "cellcrush/fidelity.h"
 #include "cellcrush/run_memory.h"
+#include "lattice/list_walls.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
@@ -20,8 +21,9 @@ constexpr std::size_t kMostMeshes = 64;
 }  // namespace
 
 struct SpecChecker::KnownMesh {
-  SceneSpec part;
+  SceneSpec part;  ///< with the walls as they are given
   MeshMeasures measures;
+  Problems problems = {};  ///< of made walls; there is no mesh then
 };
 
 SpecChecker::SpecChecker() = default;
@@ -34,8 +36,14 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given, const BeforeMesh
   if (prevents_meshing(verdict.problems)) {
     return verdict;
   }
-  const MeshMeasures& mesh = mesh_of(spec, before_mesh).measures;
+  const KnownMesh& known = mesh_of(spec, before_mesh);
+  if (!known.problems.empty()) {
+    verdict.problems.insert(verdict.problems.end(), known.problems.begin(), known.problems.end());
+    return verdict;
+  }
+  const MeshMeasures& mesh = known.measures;
   const RunPlan plan = plan_run(spec, mesh, verdict.problems);
+  name_made_walls(spec, verdict.problems);
   if (verdict.problems.empty()) {
     verdict.notes = find_implausible(given);
     std::ranges::copy(note_costly_wall(spec, mesh.slowest_wall, plan.schedule.bound),
@@ -49,7 +57,7 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given, const BeforeMesh
 
 void SpecChecker::know(const SceneSpec& given, const Scene& scene) {
   const SceneSpec part = mesh_part_of(fill_in_fidelity(given));
-  keep(std::make_unique<KnownMesh>(KnownMesh{part, measure_sound_mesh(part, scene)}));
+  keep(std::make_unique<KnownMesh>(KnownMesh{part, measure_sound_mesh(list_walls(part).spec, scene)}));
 }
 
 std::int64_t SpecChecker::elements_to_build(const SceneSpec& given) const {
@@ -74,8 +82,10 @@ const SpecChecker::KnownMesh& SpecChecker::mesh_of(const SceneSpec& spec, const 
   if (before_mesh) {
     before_mesh(static_cast<std::int64_t>(count_elements(spec)));
   }
-  const MeshMeasures measures = measure_mesh(part, *build_mesh(part));
-  keep(std::make_unique<KnownMesh>(KnownMesh{std::move(part), measures}));
+  ListedWalls listed = list_walls(part);
+  MeshMeasures measures;
+  if (listed.problems.empty()) measures = measure_mesh(listed.spec, *build_mesh(listed.spec));
+  keep(std::make_unique<KnownMesh>(KnownMesh{std::move(part), measures, std::move(listed.problems)}));
   return *known_.front();
 }
 

@@ -60,19 +60,6 @@ NetworkWalls read_network(const v1::Lattice::Network& in, Problems& problems) {
   return out;
 }
 
-void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
-  if (in.has_frame()) {
-    spec.lattice = to_spec(in.frame(), spec.loads, problems);
-  } else if (in.has_network()) {
-    spec.lattice = read_network(in.network(), problems);
-  } else if (auto regular = read_regular(in)) {
-    spec.lattice = *std::move(regular);
-  }
-  if (in.imperfection().has_amplitude_mm()) spec.imperfection.amplitude_mm = in.imperfection().amplitude_mm();
-  if (in.imperfection().has_bow_mm()) spec.imperfection.bow_mm = in.imperfection().bow_mm();
-  if (in.imperfection().has_seed()) spec.imperfection.seed = in.imperfection().seed();
-}
-
 // Whether the wire's enum ends with `last`, which is number `place` of the spec's values.
 template <class Wire, class Out>
 constexpr bool ends_alike(Wire greatest, Wire last, Out place, Out first = Out()) {
@@ -110,6 +97,54 @@ void read_choice(Wire in, const std::string& field, Out& out, Problems& problems
   for (int i = 2; i < values.value_count(); ++i)
     names += (i + 1 < values.value_count() ? ", " : " or ") + values.value(i)->name();
   problems.push_back({field, std::to_string(in), "is not a valid value.", "Use " + names + "."});
+}
+
+VoronoiWalls read_voronoi(const v1::Lattice::Voronoi& in) {
+  VoronoiWalls out;
+  if (in.has_columns()) out.columns = in.columns();
+  if (in.has_rows()) out.rows = in.rows();
+  if (in.has_side_mm()) out.side_mm = in.side_mm();
+  if (in.has_irregularity()) out.irregularity = in.irregularity();
+  if (in.has_relaxation_steps()) out.relaxation_steps = in.relaxation_steps();
+  if (in.has_seed()) out.seed = in.seed();
+  if (in.has_wall_thickness_mm()) out.wall_thickness_mm = in.wall_thickness_mm();
+  if (in.has_relative_density()) out.relative_density = in.relative_density();
+  if (in.has_edge_walls()) out.edge_walls = in.edge_walls();
+  return out;
+}
+
+void read_changes(const v1::Lattice& in, LatticeChanges& out, Problems& problems) {
+  if (in.defects().has_missing_walls()) out.defects.missing_walls = in.defects().missing_walls();
+  if (in.defects().has_thickness_scatter()) out.defects.thickness_scatter = in.defects().thickness_scatter();
+  if (in.defects().has_seed()) out.defects.seed = in.defects().seed();
+  const v1::Lattice::Grading& grading = in.grading();
+  read_choice(grading.axis(), "lattice.grading.axis", out.grading.axis, problems);
+  const auto copy = [](const auto& from, std::vector<double>& to) { to.assign(from.begin(), from.end()); };
+  copy(grading.thickness_steps(), out.grading.thickness_steps);
+  copy(grading.thickness_polynomial(), out.grading.thickness_polynomial);
+  copy(grading.size_steps(), out.grading.size_steps);
+  copy(grading.size_polynomial(), out.grading.size_polynomial);
+  if (in.has_rotation_degrees()) out.rotation_degrees = in.rotation_degrees();
+  copy(in.outline().corners_mm(), out.outline.corners_mm);
+  if (in.outline().has_edge_wall_thickness_mm()) {
+    out.outline.edge_wall_thickness_mm = in.outline().edge_wall_thickness_mm();
+  }
+}
+
+void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
+  if (in.has_frame()) {
+    spec.lattice = to_spec(in.frame(), spec.loads, problems);
+  } else if (in.has_network()) {
+    spec.lattice = read_network(in.network(), problems);
+  } else if (in.has_voronoi()) {
+    spec.lattice = read_voronoi(in.voronoi());
+  } else if (auto regular = read_regular(in)) {
+    spec.lattice = *std::move(regular);
+  }
+  if (in.imperfection().has_amplitude_mm()) spec.imperfection.amplitude_mm = in.imperfection().amplitude_mm();
+  if (in.imperfection().has_bow_mm()) spec.imperfection.bow_mm = in.imperfection().bow_mm();
+  if (in.imperfection().has_seed()) spec.imperfection.seed = in.imperfection().seed();
+  read_changes(in, spec.changes, problems);
 }
 
 void read_inclusions(const v1::Lattice::Inclusions& in, Inclusions& out, Problems& problems) {

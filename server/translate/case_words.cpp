@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -117,6 +118,22 @@ void describe_network(const v1::Lattice::Network& network, v1::CaseWords& words)
   if (network.materials_size() > 0) add_fact(words, "further materials", std::to_string(network.materials_size()));
 }
 
+void describe_voronoi(const v1::Lattice::Voronoi& voronoi, v1::CaseWords& words) {
+  words.set_lattice(fmt::format("Voronoi honeycomb, {} x {} cells, irregularity {:.4g}", voronoi.columns(),
+                                voronoi.rows(), voronoi.irregularity()));
+  words.set_theory_note("The quasi-static stress of a Voronoi honeycomb is not known, so no theory is drawn.");
+  add_fact(
+      words, "cells",
+      fmt::format("{} x {}, of regular ones {:.6g} mm a side", voronoi.columns(), voronoi.rows(), voronoi.side_mm()));
+  std::string nuclei = fmt::format("irregularity {:.4g}, seed {}", voronoi.irregularity(), voronoi.seed());
+  if (voronoi.relaxation_steps() > 0) nuclei += ", " + plural(voronoi.relaxation_steps(), "relaxation step");
+  add_fact(words, "nuclei", std::move(nuclei));
+  add_fact(words, "walls",
+           (voronoi.has_relative_density() ? fmt::format("relative density {:.4g}", voronoi.relative_density())
+                                           : fmt::format("{:.6g} mm thick", voronoi.wall_thickness_mm())) +
+               (voronoi.edge_walls() ? ", along the edges too" : ""));
+}
+
 void describe_cells(const RegularLattice& regular, v1::CaseWords& words) {
   const LatticeWords kind = words_of(regular);
   const std::string cells = fmt::format("{} x {} cells", regular.columns.value_or(0), regular.rows.value_or(0));
@@ -128,7 +145,39 @@ void describe_cells(const RegularLattice& regular, v1::CaseWords& words) {
                        regular.wall_thickness_mm.value_or(0.0), kind.walls.empty() ? "" : "; ", kind.walls));
 }
 
+std::string factors_text(const char* what, const google::protobuf::RepeatedField<double>& steps,
+                         const google::protobuf::RepeatedField<double>& polynomial) {
+  if (steps.empty() && polynomial.empty()) return {};
+  return steps.empty() ? fmt::format(", {} by the polynomial {}", what, fmt::join(polynomial, ", "))
+                       : fmt::format(", {} by steps {}", what, names_text(steps));
+}
+
+// What makes other walls of those of the lattice. Its theory does not apply to them.
+void describe_made_walls(const v1::Lattice& lattice, v1::CaseWords& words) {
+  const auto& [defects, grading, outline] = std::tie(lattice.defects(), lattice.grading(), lattice.outline());
+  const int facts = words.facts_size();
+  std::string missing;
+  if (defects.missing_walls() > 0.0)
+    missing += fmt::format("{:.4g} % of the walls missing, ", 100.0 * defects.missing_walls());
+  if (defects.thickness_scatter() > 0.0)
+    missing += fmt::format("thicknesses scattered by up to {:.4g} %, ", 100.0 * defects.thickness_scatter());
+  if (!missing.empty()) add_fact(words, "defects", missing + fmt::format("seed {}", defects.seed()));
+  const std::string graded = factors_text("thickness", grading.thickness_steps(), grading.thickness_polynomial()) +
+                             factors_text("size", grading.size_steps(), grading.size_polynomial());
+  if (!graded.empty())
+    add_fact(words, "grading", fmt::format("along {}{}", grading.axis() == v1::Loading::Y ? 'y' : 'x', graded));
+  if (lattice.rotation_degrees() != 0.0)
+    add_fact(words, "rotation", fmt::format("{:.6g} degrees", lattice.rotation_degrees()));
+  if (!outline.corners_mm().empty()) {
+    const int corners = outline.corners_mm_size() / 2;
+    add_fact(words, "outline", corners == 2 ? "a rectangle" : fmt::format("a polygon of {} corners", corners));
+  }
+  if (words.facts_size() > facts && !lattice.has_network() && !lattice.has_voronoi())
+    words.set_theory_note("Walls were changed: the theory of the unchanged lattice does not apply, and none is drawn.");
+}
+
 void describe_changes(const v1::Lattice& lattice, v1::CaseWords& words) {
+  describe_made_walls(lattice, words);
   const v1::Lattice::Imperfection& imperfection = lattice.imperfection();
   std::string offsets;
   if (imperfection.amplitude_mm() > 0.0)
@@ -219,6 +268,7 @@ v1::CaseWords describe_case(const v1::Case& scene) {
   words.set_plates(has_plates(scene));
   if (scene.lattice().has_frame()) describe_frame(scene.lattice().frame(), words);
   if (scene.lattice().has_network()) describe_network(scene.lattice().network(), words);
+  if (scene.lattice().has_voronoi()) describe_voronoi(scene.lattice().voronoi(), words);
   if (const auto regular = read_regular(scene.lattice())) describe_cells(*regular, words);
   describe_changes(scene.lattice(), words);
   describe_loading(loading_of(scene), words);

@@ -129,6 +129,8 @@ google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& 
   ListChecker lists;
   lists.check("lattice.frame", submitted.lattice().frame());
   lists.check("lattice.network", submitted.lattice().network());
+  lists.check("lattice.grading", submitted.lattice().grading());
+  lists.check("lattice.outline", submitted.lattice().outline());
   lists.check("loading", submitted.loading());
   lists.check("lattice.inclusions", submitted.lattice().inclusions());
   lists.check_points(submitted);

@@ -177,6 +177,7 @@ std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, 
   SceneSpec measured = find_preset(specimen.preset)->spec;
   measured.section = {};  // all were measured with the default elements
   const auto* cells = std::get_if<RegularLattice>(&spec.lattice);
+  if (spec.changes != LatticeChanges()) return std::nullopt;
   const auto& its = std::get<RegularLattice>(measured.lattice);
   if (cells == nullptr || cells->kind != its.kind) return std::nullopt;
   std::vector<std::string> fields;

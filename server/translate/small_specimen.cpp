@@ -64,7 +64,9 @@ std::string greatest_text(const std::vector<Difference>& rows, const std::string
 
 std::string describe_small_specimen(const SceneSpec& spec) {
   const auto* cells = std::get_if<RegularLattice>(&spec.lattice);
-  if (cells == nullptr || !(spec.loading.speed_m_per_s || spec.loading.quasi_static)) return {};
+  if (cells == nullptr || spec.changes != LatticeChanges() ||
+      !(spec.loading.speed_m_per_s || spec.loading.quasi_static))
+    return {};
   const Preset* largest = largest_measured(cells->kind);
   if (largest == nullptr) return {};
   const auto& whole = std::get<RegularLattice>(largest->spec.lattice);

@@ -117,11 +117,47 @@ void write_network(const NetworkWalls& in, v1::Lattice::Network& out) {
   out.mutable_wall_materials()->Assign(in.wall_materials.begin(), in.wall_materials.end());
 }
 
+void write_voronoi(const VoronoiWalls& in, v1::Lattice::Voronoi& out) {
+  if (in.columns) out.set_columns(*in.columns);
+  if (in.rows) out.set_rows(*in.rows);
+  if (in.side_mm) out.set_side_mm(*in.side_mm);
+  if (in.irregularity) out.set_irregularity(*in.irregularity);
+  out.set_relaxation_steps(in.relaxation_steps);
+  out.set_seed(in.seed);
+  if (in.wall_thickness_mm) out.set_wall_thickness_mm(*in.wall_thickness_mm);
+  if (in.relative_density) out.set_relative_density(*in.relative_density);
+  out.set_edge_walls(in.edge_walls);
+}
+
+void write_changes(const LatticeChanges& in, v1::Lattice& out) {
+  if (in.defects != Defects()) {
+    out.mutable_defects()->set_missing_walls(in.defects.missing_walls);
+    out.mutable_defects()->set_thickness_scatter(in.defects.thickness_scatter);
+    out.mutable_defects()->set_seed(in.defects.seed);
+  }
+  if (in.grading != Grading()) {
+    v1::Lattice::Grading& grading = *out.mutable_grading();
+    grading.set_axis(wire_of<v1::Loading::Direction>(in.grading.axis));
+    const auto copy = [](const std::vector<double>& from, auto& to) { to.Assign(from.begin(), from.end()); };
+    copy(in.grading.thickness_steps, *grading.mutable_thickness_steps());
+    copy(in.grading.thickness_polynomial, *grading.mutable_thickness_polynomial());
+    copy(in.grading.size_steps, *grading.mutable_size_steps());
+    copy(in.grading.size_polynomial, *grading.mutable_size_polynomial());
+  }
+  if (in.rotation_degrees != 0.0) out.set_rotation_degrees(in.rotation_degrees);
+  if (in.outline != Outline()) {
+    out.mutable_outline()->mutable_corners_mm()->Assign(in.outline.corners_mm.begin(), in.outline.corners_mm.end());
+    out.mutable_outline()->set_edge_wall_thickness_mm(in.outline.edge_wall_thickness_mm);
+  }
+}
+
 void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
   if (const auto* regular = std::get_if<RegularLattice>(&spec.lattice)) {
     write_regular(*regular, out);
   } else if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
     write_network(*network, *out.mutable_network());
+  } else if (const auto* voronoi = std::get_if<VoronoiWalls>(&spec.lattice)) {
+    write_voronoi(*voronoi, *out.mutable_voronoi());
   } else if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
     write_frame(*frame, *out.mutable_frame());
     write_node_loads(spec.loads, *out.mutable_frame());
@@ -129,6 +165,7 @@ void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
   out.mutable_imperfection()->set_amplitude_mm(spec.imperfection.amplitude_mm);
   out.mutable_imperfection()->set_bow_mm(spec.imperfection.bow_mm);
   out.mutable_imperfection()->set_seed(spec.imperfection.seed);
+  write_changes(spec.changes, out);
   if (!spec.inclusions.rows.empty()) {
     out.mutable_inclusions()->mutable_rows()->Assign(spec.inclusions.rows.begin(), spec.inclusions.rows.end());
     out.mutable_inclusions()->set_thickness_factor(spec.inclusions.thickness_factor);

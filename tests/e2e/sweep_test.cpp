@@ -49,6 +49,28 @@ TEST_F(SecondDay, AVelocitySweepEndsInATableWithTheoryBesideIt) {
   EXPECT_TRUE(json::parse(cellcrush({"list", "--json"}).output)["jobs"].empty()) << "its jobs go with it";
 }
 
+// The fields of a new kind of lattice and of its changes are found by reflection.
+TEST_F(SecondDay, AVoronoiHoneycombIsSweptOverItsIrregularityAndItsMissingWalls) {
+  const std::string foam = write_file("foam.txtpb", R"(
+    lattice { voronoi { columns: 5 rows: 4 side_mm: 4 irregularity: 0.3 seed: 2 relative_density: 0.08 } }
+    depth_mm: 4
+    material { youngs_modulus_mpa: 69000 yield_stress_mpa: 76 density_kg_per_m3: 2700 }
+    loading { speed_m_per_s: 100 end_strain: 0.4 })");
+  const Outcome check = cellcrush({"check", foam, "--set", "lattice.defects.missing_walls=0.1", "--json"});
+  ASSERT_EQ(check.exit_code, 0) << check.all();
+  EXPECT_THAT(json::parse(check.output)["modelled"].dump(),
+              ::testing::ContainsRegex("Voronoi honeycomb of 20 cells, .* walls missing, none of which splits"));
+  const Outcome sweep = cellcrush({"sweep", foam, "--over", "lattice.voronoi.irregularity=0.2,0.8", "--over",
+                                   "lattice.defects.missing_walls=0,0.1", "--watch"},
+                                  kCrushLimit);
+  ASSERT_EQ(sweep.exit_code, 0) << sweep.all();
+  const json rows = json::parse(cellcrush({"table", first_word(sweep), "--json"}).output)["rows"];
+  ASSERT_EQ(rows.size(), 4U);
+  for (const json& row : rows) EXPECT_EQ(row["result"]["state"], "SUCCEEDED");
+  const Outcome help = cellcrush({"explain", "lattice.voronoi.irregularity"});
+  EXPECT_THAT(help.output, HasSubstr("0 gives regular"));
+}
+
 TEST_F(SecondDay, ConvergeGivesTheLimitOfEachPlateauWithItsInterval) {
   const Outcome converge = cellcrush(
       {"converge", small(), "--set", "lattice.imperfection.amplitude_mm=0.01", "--meshes", "1,2,4", "--seeds", "2"},

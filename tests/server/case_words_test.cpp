@@ -61,6 +61,13 @@ TEST(CaseWords, DescribeRegularLattices) {
     std::vector<std::string> facts;
   };
   const Row rows[] = {
+      {"lattice { voronoi { columns: 20 rows: 12 side_mm: 5 irregularity: 0.6 seed: 4 relative_density: 0.1 } }",
+       {"cells: 20 x 12, of regular ones 5 mm a side", "nuclei: irregularity 0.6, seed 4",
+        "walls: relative density 0.1"}},
+      {"lattice { square { columns: 20 rows: 12 side_mm: 5 wall_thickness_mm: 0.2 } defects { missing_walls: 0.05 } "
+       "grading { axis: Y thickness_steps: [1, 1.5] } rotation_degrees: 45 outline { corners_mm: [0, 0, 50, 40] } }",
+       {"defects: 5 % of the walls missing, seed 0", "grading: along y, thickness by steps 1, 1.5",
+        "rotation: 45 degrees", "outline: a rectangle"}},
       {"lattice { square { columns: 20 rows: 12 side_mm: 5 wall_thickness_mm: 0.2 } }",
        {"squares: 20 x 12 cells", "walls: 5 mm long, 0.2 mm thick"}},
       {"lattice { triangle { columns: 74 rows: 21 side_mm: 6.918918918918919 wall_thickness_mm: 0.20500756756756758 } "

@@ -22,6 +22,7 @@ namespace {
 using google::protobuf::util::MessageDifferencer;
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
@@ -208,6 +209,30 @@ TEST(Translate, ANetworkComesThroughBothWays) {
   const auto checked = translate::check_case(given);
   EXPECT_THAT(fields_of(checked.response), IsEmpty());
   EXPECT_EQ(checked.wall_count, 4);
+}
+
+TEST(Translate, AVoronoiHoneycombAndItsChangesComeThroughBothWays) {
+  v1::Case given = testing::small_case();
+  given.clear_lattice();
+  given = testing::with_text(given, R"(lattice {
+    voronoi { columns: 6 rows: 4 side_mm: 4 irregularity: 0.5 relaxation_steps: 2 seed: 18446744073709551615
+              relative_density: 0.1 edge_walls: true }
+    defects { missing_walls: 0.05 thickness_scatter: 0.1 seed: 3 }
+    grading { axis: Y thickness_steps: [1, 2] size_polynomial: [1, 0.5] }
+    rotation_degrees: 30
+    outline { corners_mm: [5, 5, 30, 18] edge_wall_thickness_mm: 0.2 }
+  })");
+  const auto reading = translate::to_spec(given);
+  EXPECT_THAT(reading.problems, IsEmpty());
+  v1::Lattice back = translate::to_case(reading.spec).lattice();
+  back.clear_imperfection();
+  v1::Lattice expected = given.lattice();
+  expected.clear_imperfection();
+  EXPECT_TRUE(MessageDifferencer::Equals(back, expected)) << back.DebugString();
+  const auto checked = translate::check_case(given);
+  EXPECT_THAT(fields_of(checked.response), IsEmpty());
+  EXPECT_THAT(checked.response.modelled(),
+              Contains(HasSubstr("turned by 30 degrees; sizes graded; cut at the outline")));
 }
 
 TEST(Translate, ANetworkWithTooLongListsIsRefused) {

@@ -62,6 +62,21 @@ struct NetworkWalls {
   bool operator==(const NetworkWalls&) const = default;
 };
 
+/// A Voronoi honeycomb: the walls between the cells of nuclei that keep a least distance (lattice/voronoi.h).
+struct VoronoiWalls {
+  std::optional<int> columns;
+  std::optional<int> rows;
+  std::optional<double> side_mm;  ///< of the regular hexagons
+  std::optional<double> irregularity;
+  int relaxation_steps = 0;
+  std::uint64_t seed = 0;
+  std::optional<double> wall_thickness_mm;  ///< unless `relative_density` is given
+  std::optional<double> relative_density;
+  bool edge_walls = false;
+
+  bool operator==(const VoronoiWalls&) const = default;
+};
+
 /// Walls that are listed one by one: an explicit planar frame. Nodes are named by their index in `nodes`.
 struct FrameWalls {
   struct Node {
@@ -183,6 +198,43 @@ struct Inclusions {
   bool operator==(const Inclusions&) const = default;
 };
 
+/// Changes of the walls of any lattice but a frame (lattice/list_walls.h).
+struct Defects {
+  double missing_walls = 0.0;  ///< fraction of the walls
+  double thickness_scatter = 0.0;
+  std::uint64_t seed = 0;
+
+  bool operator==(const Defects&) const = default;
+};
+
+/// Relative factors along one axis. At most one of each pair of lists is given.
+struct Grading {
+  enum class Axis { x, y };
+  Axis axis = Axis::x;
+  std::vector<double> thickness_steps;
+  std::vector<double> thickness_polynomial;
+  std::vector<double> size_steps;
+  std::vector<double> size_polynomial;
+
+  bool operator==(const Grading&) const = default;
+};
+
+struct Outline {
+  std::vector<double> corners_mm;  ///< x and y of each; two are those of a rectangle
+  double edge_wall_thickness_mm = 0.0;
+
+  bool operator==(const Outline&) const = default;
+};
+
+struct LatticeChanges {
+  Defects defects;
+  Grading grading;
+  double rotation_degrees = 0.0;
+  Outline outline;
+
+  bool operator==(const LatticeChanges&) const = default;
+};
+
 struct Imperfection {
   double amplitude_mm = 0.0;  ///< of the joints
   std::uint64_t seed = 0;
@@ -302,7 +354,8 @@ struct OutputSpec {
 
 struct SceneSpec {
   std::string title;
-  std::variant<std::monostate, RegularLattice, NetworkWalls, FrameWalls> lattice;
+  std::variant<std::monostate, RegularLattice, VoronoiWalls, NetworkWalls, FrameWalls> lattice;
+  LatticeChanges changes;
   LoadsSpec loads;
   Imperfection imperfection;
   Inclusions inclusions;
