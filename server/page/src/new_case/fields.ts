@@ -36,6 +36,8 @@ export function groupsOf(kind: LatticeKind): Group[] {
       "loading.sides.friction"] },
     { title: "Imperfection", isOpen: false, paths: isListed(kind) ? []
       : under("lattice.imperfection", ["amplitude_mm", "seed", "bow_mm"]) },
+    { title: "Defects and rotation", isOpen: false, paths: isListed(kind) ? []
+      : [...under("lattice.defects", ["missing_walls", "thickness_scatter", "seed"]), "lattice.rotation_degrees"] },
     { title: "Material, further", isOpen: false, paths: under("material", singleFields(MaterialSchema).filter((name) =>
       !kMaterial.includes(name))) },
     { title: "Mesh and section", isOpen: false, paths: ["numerics.fidelity", "elements_per_wall",
