@@ -28,8 +28,8 @@ struct Nuclei {
 /// The nuclei of a Voronoi honeycomb before any relaxation. They start on the regular set and are moved at random, each
 /// fifty times, by up to `irregularity` times d0 in x and in y. A move is kept if no other nucleus is then closer than
 /// (1 - irregularity) d0, of which up to two units are lost to rounding.
-/// Placing nuclei one by one where there is room, as is usual, gives such sets as well, but only of irregularities above
-/// 0.25: sets of less fill up first. REQUIRES: a checked lattice.
+/// Placing nuclei one by one where there is room, as is usual, gives such sets as well, but only of irregularities
+/// above 0.25: sets of less fill up first. REQUIRES: a checked lattice.
 Nuclei place_nuclei(const VoronoiWalls& lattice);
 
 }  // namespace cellcrush

@@ -13,8 +13,8 @@ struct VoronoiLayout {
   double thickness = 0.0;  ///< mm, of all walls
 };
 
-/// Joints and walls between the cells of the nuclei (lattice/nuclei.h), after Lloyd's relaxation (Lloyd, 1982). The same
-/// lattice gives the same bits on every machine: nuclei are whole numbers, which cells meet is decided exactly
+/// Joints and walls between the cells of the nuclei (lattice/nuclei.h), after Lloyd's relaxation (Lloyd, 1982). The
+/// same lattice gives the same bits on every machine: nuclei are whole numbers, which cells meet is decided exactly
 /// (Boost.Polygon), and the place of a joint, the centre of the circle through three nuclei, is one quotient of exact
 /// integers. REQUIRES: a checked lattice.
 VoronoiLayout lay_out_voronoi(const VoronoiWalls& lattice, int elements_per_wall);
