@@ -38,8 +38,8 @@ struct JoinedWalls {
 
 /// Bonds walls face to face, joins the ends of walls that lie within the tolerance of each other, divides walls where
 /// ends of others meet them and, if asked, where they cross, and leaves out what is there twice. Joints are numbered in
-/// the order of the walls. Throws DrawingError if a wall has no thickness, or nothing is left, and for a drawing that is
-/// too large or too dense.
+/// the order of the walls. Throws DrawingError if a wall has no thickness, or nothing is left, and for a drawing that
+/// is too large or too dense.
 JoinedWalls join_walls(const Drawing& drawing, const JoinOptions& options);
 
 }  // namespace cellcrush::drawing

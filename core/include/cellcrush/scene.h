@@ -112,8 +112,8 @@ struct RigidBodies {
   [[nodiscard]] int particle_count() const { return offset.empty() ? 0 : offset.back(); }
 };
 
-/// Where the nodes and beams of a frame, or the joints and walls of a network, are in the lists of the case. Rigid links
-/// come last, and their joints first (scene/rigid_links.h). Empty if all are in the order of the lists.
+/// Where the nodes and beams of a frame, or the joints and walls of a network, are in the lists of the case. Rigid
+/// links come last, and their joints first (scene/rigid_links.h). Empty if all are in the order of the lists.
 struct ListOrder {
   std::vector<int> joint;  ///< of each joint, as an index into the list
   std::vector<int> wall;   ///< of each wall, then of each rigid element

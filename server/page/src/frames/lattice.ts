@@ -35,12 +35,6 @@ function placesOf(particles: number[], ends: number[]): number[] {
   return places;
 }
 
-// The first place of each particle in a list.
-function placesOf(particles: number[], list: number[]): number[] {
-  const wanted = new Set(particles);
-  return list.flatMap((particle, at) => wanted.delete(particle) ? [at] : []);
-}
-
 export function latticeOf(mesh: Mesh): Lattice {
   return {
     ends: Uint32Array.from(mesh.elementNodes),
