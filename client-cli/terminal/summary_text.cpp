@@ -68,11 +68,11 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   }
   if (summary.has_crush_forces()) {
     const v1::CrushForces& forces = summary.crush_forces();
-    table.add({"mean crush force, impact plate", quantity_text(forces.mean_n(), "N"), "",
-               fmt::format("over a stroke of {} mm; {:.3g} of the peak of {}", number_text(forces.stroke_mm()),
-                           forces.efficiency(), quantity_text(forces.peak_n(), "N"))});
     table.add(
-        {"specific energy absorbed", number_text(forces.specific_energy_j_per_g()) + " J/g", "", "over that stroke"});
+        {"mean crush force, impact plate", quantity_text(forces.mean_n(), "N"), "",
+         fmt::format("over {} mm; {:.3g} of the peak force", number_text(forces.stroke_mm()), forces.efficiency())});
+    table.add(
+        {"specific energy absorbed", number_text(forces.specific_energy_j_per_g()) + " J/g", "", "over that travel"});
   }
   // A file of an earlier version lacks it.
   const bool of_theory = theory && summary.theory().densification_strain() > 0.0;

@@ -286,16 +286,18 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       // Of a job to be updated: of these, the daemon reads its name only.
       "Job.name", "Job.LabelsEntry.key", "Job.LabelsEntry.value", "Job.cause_message", "Job.executor", "Job.owner",
       "Job.place", "Job.remedy", "Job.retry_of", "Job.sweep", "Job.title", "Summary.crush_mode_words",
-      "Summary.end_words", "Summary.other_rise_words",
-      "Warning.message", "Warning.remedy",
+      "Summary.end_words", "Summary.other_rise_words", "Warning.message", "Warning.remedy",
       // Of a sweep: paths of fields in a case, and what the daemon writes itself and takes from nobody.
       "SweepAxis.field", "SweepPoint.FieldsEntry.key", "Sweep.name", "Sweep.jobs", "Sweep.owner",
       "Sweep.StateCountsEntry.key", "Problem.field", "Problem.value", "Problem.message", "Problem.remedy",
       "CaseWords.lattice", "CaseWords.loading", "CaseWords.theory_note", "CaseWords.Fact.heading",
       "CaseWords.Fact.text",
-      // Of a case: its title and the ids of a frame.
-      "Case.title", "Frame.Node.id", "Frame.Beam.start", "Frame.Beam.end", "Frame.Support.node", "Frame.NodalLoad.node",
-      "Frame.NodalMotion.node", "Frame.InitialVelocity.node", "Frame.RigidWall.id", "Frame.watched_nodes"};
+      // Of a drawing to be imported: its bytes, its name with the ending that tells the format, its unit.
+      "ImportLatticeRequest.File.content", "ImportLatticeRequest.File.name", "ImportLatticeRequest.unit",
+      // Of a case: its title and the ids of a frame and of grips.
+      "Loading.Grip.id", "Case.title", "Frame.Node.id", "Frame.Beam.start", "Frame.Beam.end", "Frame.Support.node",
+      "Frame.NodalLoad.node", "Frame.NodalMotion.node", "Frame.InitialVelocity.node", "Frame.RigidWall.id",
+      "Frame.watched_nodes"};
   EXPECT_THAT(texts_of_requests(), ::testing::ContainerEq(known));
 }
 
