@@ -77,7 +77,7 @@ void add_preview_command(CLI::App& app, Session& session) {
   add_option(*command, kOutputOptions, "-o,--output", options->file, "Picture file: FILE.svg, FILE.pdf or FILE.png")
       ->required();
   add_examples(*command, {"cellcrush preview my.txtpb -o lattice.svg",
-                          "cellcrush preview foam.dxf --unit mm --thickness 0.2 -o foam.png"});
+                          "cellcrush preview foam.csv --unit mm --thickness 0.2 -o foam.png"});
 }
 
 }  // namespace cellcrush::client

@@ -68,9 +68,8 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   }
   if (summary.has_crush_forces()) {
     const v1::CrushForces& forces = summary.crush_forces();
-    table.add(
-        {"mean crush force, impact plate", quantity_text(forces.mean_n(), "N"), "",
-         fmt::format("over {} mm; {:.3g} of the peak force", number_text(forces.stroke_mm()), forces.efficiency())});
+    table.add({"mean crush force, impact plate", quantity_text(forces.mean_n(), "N"), "",
+               fmt::format("over {} mm; {:.3g} of the peak", number_text(forces.stroke_mm()), forces.efficiency())});
     table.add(
         {"specific energy absorbed", number_text(forces.specific_energy_j_per_g()) + " J/g", "", "over that travel"});
   }
