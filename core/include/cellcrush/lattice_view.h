@@ -21,7 +21,7 @@ struct LatticeView {
 
 inline constexpr std::size_t kMostCrossingPlaces = 1000;
 
-/// Builds what there is to draw of a spec, also of one that cannot run because its walls cross.
+/// Builds the view of a spec, also of one that cannot run because its walls cross.
 LatticeView view_lattice(
     const SceneSpec& given, const std::function<void()>& between_stages = [] {});
 
