@@ -259,6 +259,20 @@ std::optional<v1::Problem> idle_seed_note(const v1::Sweep& sweep, const std::vec
                      "Set lattice.imperfection.amplitude_mm or bow_mm above 0.");
 }
 
+// The default mesh follows the speed and the direction of the crush.
+std::optional<v1::Problem> changed_mesh_note(const std::map<int, std::vector<std::size_t>>& points_of_mesh,
+                                             const JobMaker& maker) {
+  if (points_of_mesh.size() < 2) return std::nullopt;
+  std::string meshes;
+  for (const auto& [mesh, points] : points_of_mesh) {
+    meshes += (meshes.empty() ? "" : "; ") + std::to_string(mesh) + " at " + std::to_string(points.size()) +
+              (points.size() == 1 ? " point (" : " points (first: ") +
+              cut_text(maker.text(points.front()), kLongestTitle) + ")";
+  }
+  return implausible("elements_per_wall", "is not given, and its default changes within the sweep: " + meshes + ".",
+                     "Set elements_per_wall, so that all points have the same mesh.");
+}
+
 }  // namespace
 
 std::string JobMaker::text(std::size_t point) const { return text_of_point(points_.fields, points_.values[point]); }
@@ -289,12 +303,14 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
   check_sizes(sweep, points.values.size());
   PointProblems problems(points.values.size(), PointProblems::Merge::equal);
   PointProblems notes(points.values.size(), PointProblems::Merge::but_for_numbers);
+  std::map<int, std::vector<std::size_t>> points_of_mesh;
   PointChecker checker(*out.maker, checking);
   for (std::size_t first = 0; first < points.values.size(); first += kPointsAtOnce) {
     for (auto& point : checker.check(first, std::min(first + kPointsAtOnce, points.values.size()))) {
       const std::size_t i = out.jobs.size();
       for (const auto& problem : point.verdict.problems) problems.add(problem, i, point.text);
       for (const auto& note : point.verdict.notes) notes.add(note, i, point.text);
+      if (const int mesh = point.verdict.default_mesh; mesh > 0) points_of_mesh[mesh].push_back(i);
       if (point.verdict.most_memory_bytes > out.most_memory_bytes) {
         out.most_memory_bytes = point.verdict.most_memory_bytes;
         out.largest = i;
@@ -312,6 +328,7 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
   out.notes = notes.merged();
   if (auto note = repetition_note(points)) *out.notes.Add() = *std::move(note);
   if (auto note = idle_seed_note(sweep, points.fields)) *out.notes.Add() = *std::move(note);
+  if (auto note = changed_mesh_note(points_of_mesh, *out.maker)) *out.notes.Add() = *std::move(note);
   return out;
 }
 

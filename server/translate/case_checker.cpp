@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "cellcrush/fidelity.h"
 #include "cellcrush/spec_checker.h"
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
@@ -34,6 +35,8 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted, const BeforeM
   if (!out.problems.empty()) return out;
   for (const auto& note : verdict.notes) out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
   out.element_count = verdict.element_count;
+  const bool has_default_mesh = !reading.spec.elements_per_wall && !submitted.lattice().has_frame();
+  if (has_default_mesh) out.default_mesh = *fill_in_fidelity(reading.spec).elements_per_wall;
   out.element_steps = verdict.element_count * verdict.step_count;
   out.most_memory_bytes = memory_of_worker(
       reading.spec, {verdict.most_memory_bytes, verdict.element_count, reading.spec.output.sample_count});

@@ -28,6 +28,8 @@ class CaseChecker {
     std::vector<v1::Problem> problems;
     std::vector<v1::Problem> notes;  ///< those of check_case; empty if there are problems
     std::int64_t element_count = 0;  ///< 0 if there are problems
+    int default_mesh =
+        0;  ///< elements_per_wall by default; 0 if the case gives it, if a frame, or if there are problems
     std::int64_t element_steps = 0;  ///< elements times steps of the run; 0 if there are problems
     /// The prediction of check_case, or slightly more (cellcrush/spec_checker.h); 0 if there are problems.
     std::int64_t most_memory_bytes = 0;

@@ -237,6 +237,25 @@ TEST(SweepPlan, IsTheSameWhateverTheNumberOfThreads) {
   }
 }
 
+// The default mesh of hexagons crushed along y is finer above 25 m/s.
+TEST(SweepPlan, NotesWhereTheDefaultMeshChanges) {
+  MeshPlaces places;
+  v1::Sweep sweep;
+  *sweep.mutable_case_() = testing::small_case();
+  sweep.mutable_case_()->mutable_loading()->set_direction(v1::Loading::Y);
+  add_list(sweep, "loading.speed_m_per_s", {10.0, 25.0, 50.0});
+  const auto notes_of = [&] { return plan_sweep(sweep, {places, 1, is_never_cancelled}).notes; };
+  sweep.mutable_case_()->clear_elements_per_wall();
+  const auto notes = notes_of();
+  ASSERT_EQ(notes.size(), 1);
+  EXPECT_EQ(notes[0].field(), "elements_per_wall");
+  EXPECT_EQ(notes[0].kind(), v1::Problem::IMPLAUSIBLE);
+  EXPECT_THAT(notes[0].message(), HasSubstr("2 at 2 points (first: loading.speed_m_per_s = 10); "
+                                            "8 at 1 point (loading.speed_m_per_s = 50)."));
+  sweep.mutable_case_()->set_elements_per_wall(2);
+  EXPECT_EQ(notes_of().size(), 0);
+}
+
 TEST(SweepPlan, KeepsNoJobs) {
   MeshPlaces places;
   const v1::Sweep sweep = testing::with_text(
