@@ -1,6 +1,7 @@
 #include "lattice/layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,13 @@ std::vector<int> numbers_of(const std::vector<Vector2>& joints) {
   std::vector<int> numbers(joints.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
+}
+
+double length_of(const Layout& layout, const LayoutWall& wall) {
+  const double chord = layout.chord_of(wall);
+  if (wall.rise == 0.0) return chord;
+  const double half_angle = 2.0 * std::atan(2.0 * std::abs(wall.rise) / chord);
+  return chord * half_angle / std::sin(half_angle);
 }
 
 /// Puts the joints into the order given by their present numbers.
@@ -52,6 +60,15 @@ Bounds bounds_of(const std::vector<Vector2>& points) {
 Vector2 envelope_of(const std::vector<Vector2>& joints) {
   const auto [low, high] = bounds_of(joints);
   return high - low;
+}
+
+void divide_walls(int elements_of_mean, Layout& layout) {
+  double sum = 0.0;
+  for (const LayoutWall& wall : layout.walls) sum += length_of(layout, wall);
+  const double per_mm = elements_of_mean * static_cast<double>(layout.walls.size()) / sum;
+  for (LayoutWall& wall : layout.walls) {
+    if (!wall.rigid) wall.elements = std::max(1, static_cast<int>(std::lround(per_mm * length_of(layout, wall))));
+  }
 }
 
 void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints) {

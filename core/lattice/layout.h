@@ -44,6 +44,10 @@ struct Layout {
   [[nodiscard]] double chord_of(const LayoutWall& wall) const { return (joints[wall.end] - joints[wall.start]).norm(); }
 };
 
+/// Divides every wall that is not rigid in proportion to its length: one of mean length into this many elements, each
+/// into at least one. Elements are then of about one length, and no short one sets the step.
+void divide_walls(int elements_of_mean, Layout& layout);
+
 /// Extent of the joints in x and y, mm.
 Vector2 envelope_of(const std::vector<Vector2>& joints);
 

@@ -38,7 +38,7 @@ std::pair<Layout, std::string> lay_out_unchanged(const SceneSpec& spec) {
   }
   const auto* network = std::get_if<NetworkWalls>(&spec.lattice);
   const LatticeKind* kind = kind_of(spec);
-  Layout layout = network != nullptr ? lay_out_network(*network, *spec.elements_per_wall) : kind->lay_out(spec);
+  Layout layout = network != nullptr ? lay_out_network(*network) : kind->lay_out(spec);
   std::string words = network != nullptr ? "network" : std::string(kind->plural);
   words += " of " + counted(static_cast<int>(layout.walls.size()), "wall");
   return {std::move(layout), std::move(words)};

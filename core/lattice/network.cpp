@@ -9,7 +9,7 @@ Vector2 joint_of(const NetworkWalls& network, int joint) {
 
 }  // namespace
 
-Layout lay_out_network(const NetworkWalls& network, int elements_per_wall, int links) {
+Layout lay_out_network(const NetworkWalls& network, int links) {
   Layout layout;
   layout.joints.reserve(network.joint_count());
   for (std::size_t joint = 0; joint < network.joint_count(); ++joint) {
@@ -22,7 +22,6 @@ Layout lay_out_network(const NetworkWalls& network, int elements_per_wall, int l
     added.end = network.walls[2 * wall + 1];
     added.thickness = network.thicknesses_mm.empty() ? *network.wall_thickness_mm : network.thicknesses_mm[wall];
     added.rigid = wall + links >= network.wall_count();
-    added.elements = added.rigid ? 1 : elements_per_wall;
     added.material = network.wall_materials.empty() ? 0 : network.wall_materials[wall];
     added.rise = network.rises_mm.empty() ? 0.0 : network.rises_mm[wall];
   }

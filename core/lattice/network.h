@@ -5,9 +5,9 @@
 
 namespace cellcrush {
 
-/// Joints and walls of a network in the order of its lists. The last walls are rigid links.
+/// Joints and undivided walls of a network in the order of its lists. The last walls are rigid links.
 /// REQUIRES: a checked network.
-Layout lay_out_network(const NetworkWalls& network, int elements_per_wall, int links = 0);
+Layout lay_out_network(const NetworkWalls& network, int links = 0);
 
 /// Whether its joints have more than three walls in the mean, so that it bears by stretching its walls. These are then
 /// stacked along the crush, as those of squares and triangles are.

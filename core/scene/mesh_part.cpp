@@ -60,7 +60,8 @@ Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   }
   const auto* network = std::get_if<NetworkWalls>(&spec.lattice);
   const LatticeKind* kind = kind_of(spec);
-  Layout layout = network != nullptr ? lay_out_network(*network, *spec.elements_per_wall, links) : kind->lay_out(spec);
+  Layout layout = network != nullptr ? lay_out_network(*network, links) : kind->lay_out(spec);
+  divide_walls(*spec.elements_per_wall, layout);
   const Vector2 envelope = envelope_of(layout.joints);
   const int axis = crush_axis_of(spec);
   scene.length = envelope[axis];

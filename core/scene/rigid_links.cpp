@@ -67,7 +67,7 @@ Candidates candidates_of(const SceneSpec& spec, const FrameWalls& frame) {
 }
 
 Candidates candidates_of(const SceneSpec& spec, const NetworkWalls& network) {
-  const Layout layout = lay_out_network(network, 1);
+  const Layout layout = lay_out_network(network);
   Candidates all;
   all.nodes.assign(layout.joints.begin(), layout.joints.end());
   for (const LayoutWall& listed : layout.walls) {

@@ -251,7 +251,8 @@ TEST(RigidLinks, OfAFoamAreThoseOfItsFrame) {
   EXPECT_EQ(of_network->rigid_link_count(), of_frame->rigid_link_count());
   EXPECT_EQ(of_network->rigid.offset, of_frame->rigid.offset);
   EXPECT_EQ(of_network->list_order.wall, of_frame->list_order.wall);
-  EXPECT_EQ(of_network->stable_step, of_frame->stable_step);
+  // A beam of a frame has two elements however short it is.
+  EXPECT_GT(of_network->stable_step, 1.9 * of_frame->stable_step);
 }
 
 TEST(RigidLinks, AreNotMadeOfBeamsThatAreHeldLoadedOrManyInARow) {

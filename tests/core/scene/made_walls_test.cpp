@@ -56,7 +56,7 @@ LatticeChanges outlined(std::vector<double> corners, double edge_wall_thickness 
 Layout layout_of(const SceneSpec& spec) {
   const ListedWalls listed = list_walls(fill_in_fidelity(spec));
   EXPECT_TRUE(listed.problems.empty());
-  return lay_out_network(std::get<NetworkWalls>(listed.spec.lattice), 1);
+  return lay_out_network(std::get<NetworkWalls>(listed.spec.lattice));
 }
 
 Layout squares_with(const LatticeChanges& changes, int columns = 10, int rows = 10) {
