@@ -61,10 +61,16 @@ double own_number(const RegularLattice& lattice, std::string_view name) {
   return std::ranges::find(find_kind(lattice.kind)->own_numbers, name, &OwnNumber::name)->default_value(lattice);
 }
 
+bool is_fast_crush(const SceneSpec& spec) { return spec.loading.speed_m_per_s.value_or(0.0) > kSlowCrush; }
+
 DefaultMesh mesh_of(const LatticeKind& kind, const SceneSpec& spec) {
   if (kind.mesh != nullptr) return kind.mesh(spec);
   return kind.has_walls_along_crush ? mesh_of_stacked_walls(kind.plural)
-                                    : DefaultMesh{1, 2, 8, std::string(kind.plural)};
+                                    : mesh_of_bent_walls(spec, std::string(kind.plural));
+}
+
+DefaultMesh mesh_of_bent_walls(const SceneSpec& spec, std::string of_what) {
+  return {is_fast_crush(spec) ? 2 : 1, 2, 8, std::move(of_what)};
 }
 
 DefaultMesh mesh_of_stacked_walls(std::string_view plural) {

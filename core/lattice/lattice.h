@@ -79,8 +79,18 @@ std::string path_of_lattice(const SceneSpec& spec);
 /// A number of its own: as given, or its default. REQUIRES: a number of its kind.
 double own_number(const RegularLattice& lattice, std::string_view name);
 
+/// Plate speed beyond which a mesh must resolve more, m/s.
+inline constexpr double kSlowCrush = 25.0;
+
+/// Whether the plate is faster than kSlowCrush.
+bool is_fast_crush(const SceneSpec& spec);
+
 /// The mesh of a spec of a kind.
 DefaultMesh mesh_of(const LatticeKind& kind, const SceneSpec& spec);
+
+/// The mesh of walls that bend. In a fast crush, walls of one element cannot fold: those of the crushed layer overlap, by
+/// half of its volume at 100 m/s, and the run ends.
+DefaultMesh mesh_of_bent_walls(const SceneSpec& spec, std::string of_what);
 
 /// The mesh of walls along the crush, which buckle in short waves.
 DefaultMesh mesh_of_stacked_walls(std::string_view plural);

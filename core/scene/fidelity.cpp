@@ -15,12 +15,12 @@ bool is_force_based(const SceneSpec& spec) { return spec.section.formulation == 
 /// That of the lattice. The elements of the paper keep the paper's mesh, and a frame has it if it gives none.
 DefaultMesh default_mesh_of(const SceneSpec& spec) {
   const LatticeKind* kind = kind_of(spec);
-  if (!is_force_based(spec)) return {1, 2, 8, ""};
+  if (!is_force_based(spec)) return mesh_of_bent_walls(spec, "");
   if (kind != nullptr) return mesh_of(*kind, spec);
-  if (std::holds_alternative<VoronoiWalls>(spec.lattice)) return {1, 2, 8, "Voronoi honeycombs"};
-  if (!std::holds_alternative<NetworkWalls>(spec.lattice)) return {1, 2, 8, ""};
+  if (std::holds_alternative<VoronoiWalls>(spec.lattice)) return mesh_of_bent_walls(spec, "Voronoi honeycombs");
+  if (!std::holds_alternative<NetworkWalls>(spec.lattice)) return mesh_of_bent_walls(spec, "");
   return has_walls_along_crush(spec) ? mesh_of_stacked_walls("networks with more than three walls at a joint")
-                                     : DefaultMesh{1, 2, 8, "networks with at most three walls at a joint"};
+                                     : mesh_of_bent_walls(spec, "networks with at most three walls at a joint");
 }
 
 FidelityPoint point_of(const SceneSpec& spec) {

@@ -174,12 +174,13 @@ RunStatus check_walls(const Scene& scene, const State& state, const Sample& samp
             scene.plates.present ? kShorterStep : kStifferContact};
   }
   if (sample.densest_layer.solid_fraction > kMostCompaction) {
-    return {RunStatus::Kind::overcompaction,
-            words_of(sample.densest_layer) + " at " + moment_of(state.step, state.time) + ", strain " +
-                to_text(std::round(1e3 * sample.strain) / 1e3) +
-                ". Walls overlap there by more than contacts can bear: the forces are no longer those of metal.",
-            "Give a smaller loading.end_strain. The samples before are kept; from a solid fraction of 1 on, take their "
-            "stresses as a lower bound."};
+    return {
+        RunStatus::Kind::overcompaction,
+        words_of(sample.densest_layer) + " at " + moment_of(state.step, state.time) + ", strain " +
+            to_text(std::round(1e3 * sample.strain) / 1e3) +
+            ". Walls overlap there by more than contacts can bear: the forces are no longer those of metal.",
+        "Give a smaller loading.end_strain, or an elements_per_wall of at least 2. The samples before are kept; from a "
+        "solid fraction of 1 on, take their stresses as a lower bound."};
   }
   return {};
 }

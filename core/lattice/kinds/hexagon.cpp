@@ -121,11 +121,10 @@ ClosedForms forms_of_hexagons(const RegularLattice& hexagons, LoadingSpec::Direc
 // STANDARD is the coarsest mesh whose plateau stresses lie within 4 % (impact) and 10 % (support) of a mesh twice as
 // fine, at 25 to 200 m/s. Along y some differences of 8 elements exceed the bounds (core/what-is-computed.md).
 DefaultMesh mesh_of_hexagons(const SceneSpec& spec) {
-  constexpr double kSlow = 25.0;  // m/s; above it, walls along the crush need more than 2 elements
-  if (spec.loading.direction == LoadingSpec::Direction::y && spec.loading.speed_m_per_s.value_or(0.0) > kSlow) {
+  if (spec.loading.direction == LoadingSpec::Direction::y && is_fast_crush(spec)) {
     return {2, 8, 16, "hexagons crushed along y faster than 25 m/s"};
   }
-  return {1, 2, 8, "hexagons"};
+  return mesh_of_bent_walls(spec, "hexagons");
 }
 
 }  // namespace

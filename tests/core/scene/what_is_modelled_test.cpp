@@ -105,11 +105,35 @@ TEST(Fidelity, EveryLatticeHasACoarserAndAFinerMesh) {
     EXPECT_EQ(meshes, expected);
   };
   SceneSpec spec = scenes::preset("type-i");
+  expect_meshes(spec, {2, 2, 8});
+  spec.loading.speed_m_per_s = 25.0;
   expect_meshes(spec, {1, 2, 8});
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  expect_meshes(spec, {1, 2, 8});
+  spec = scenes::preset("type-i");
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  expect_meshes(spec, {2, 2, 8});
+  spec = scenes::preset("type-i");
   spec.loading.direction = LoadingSpec::Direction::y;
   expect_meshes(spec, {2, 8, 16});
   expect_meshes(scenes::preset("type-ii-as-counted"), {8, 16, 32});
   expect_meshes(scenes::preset("type-iii-as-counted"), {8, 16, 32});
+}
+
+RunStatus::Kind end_of(const SceneSpec& spec) {
+  Simulation simulation(scenes::build(spec));
+  scenes::watch(simulation, [](const Sample&) {});
+  return simulation.status().kind;
+}
+
+// With one element per wall, walls of the crushed layer overlap by half of its volume, and the run ends.
+TEST(Fidelity, DraftsOfFastCrushesReachTheirEnd) {
+  SceneSpec spec = scenes::preset("type-i");
+  spec.loading.end_strain = 0.2;
+  spec.numerics.fidelity = NumericsSpec::Fidelity::draft;
+  EXPECT_EQ(end_of(spec), RunStatus::Kind::finished);
+  spec.elements_per_wall = 1;
+  EXPECT_EQ(end_of(spec), RunStatus::Kind::overcompaction);
 }
 
 TEST(Fidelity, FastCrushesOfHexagonsAlongYHaveAFinerMesh) {
