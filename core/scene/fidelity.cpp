@@ -42,7 +42,7 @@ std::vector<FidelityPoint> fidelity_points(const SceneSpec& spec) {
 // From tests/bench/results/work_precision.csv. With 16 and 32 elements per wall an element-step takes as long as with
 // 8, as far as a shared machine tells (mesh_study.csv).
 double step_cost_of(int elements_per_wall) {
-  if (elements_per_wall < 4) return elements_per_wall == 1 ? 1.02 : 1.0;
+  if (elements_per_wall < 4) return 1.0;
   return elements_per_wall < 8 ? 0.9 : 1.05;
 }
 
