@@ -5,7 +5,7 @@ import { create } from "@bufbuild/protobuf";
 import { CaseSchema, Frame_RigidWallSchema, Lattice_HexagonSchema,
          Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
 import { printable } from "../src/dom/element";
-import { caseValues, fieldAt, groupsOf, kLatticeKinds, linesOf, pathsBeside, readField,
+import { caseValues, fieldAt, groupsOf, isSingle, kLatticeKinds, linesOf, pathsBeside, readField, typedAt,
          writeField } from "../src/new_case/fields";
 import { baseOf, pathIn } from "../src/dom/base";
 import { labelsOf } from "../src/new_case/order";
@@ -68,6 +68,23 @@ test("what has no field in the form stands beside it, and is removed only by nam
   assert.deepEqual(pathsBeside(value, inForm), ["lattice.inclusions"]);
   const paths = groupsOf(frame).flatMap((group) => group.paths);
   assert.ok(paths.includes("lattice.frame.end_time_s") && !paths.includes("loading.end_time_s"));
+});
+
+test("lists of numbers are separated by blanks, commas with blanks or semicolons", () => {
+  const value = hexagons();
+  for (const text of ["1 1.5 2", "1, 1.5, 2", "1; 1,5 ;2", " 1\t1.5  2 "]) {
+    assert.ok(writeField(value, "lattice.grading.thickness_steps", text), text);
+    assert.deepEqual(value.lattice.grading.thicknessSteps, [1, 1.5, 2]);
+  }
+  assert.equal(readField(value, "lattice.grading.thickness_steps"), "1, 1.5, 2");
+  assert.equal(writeField(value, "lattice.grading.thickness_steps", "1 x 2"), false);
+  assert.equal(typedAt("lattice.grading.thickness_steps", "1 x 2").problem,
+               "has an entry, “x”, that is not a number: write digits with a point, such as 0.35 or 2e-7");
+  assert.deepEqual(value.lattice.grading.thicknessSteps, [1, 1.5, 2]);
+  assert.ok(writeField(value, "lattice.grading.thickness_steps", ""));
+  assert.deepEqual(value.lattice.grading.thicknessSteps, []);
+  assert.equal(limitsOf("lattice.grading.thickness_steps"), "Default none; numbers separated by blanks, at most 1000");
+  assert.ok(!isSingle("lattice.outline.corners_mm") && isSingle("lattice.outline.edge_wall_thickness_mm"));
 });
 
 test("a text that is no value of its field is refused", () => {

@@ -38,6 +38,9 @@ export function groupsOf(kind: LatticeKind): Group[] {
       : under("lattice.imperfection", ["amplitude_mm", "seed", "bow_mm"]) },
     { title: "Defects and rotation", isOpen: false, paths: isListed(kind) ? []
       : [...under("lattice.defects", ["missing_walls", "thickness_scatter", "seed"]), "lattice.rotation_degrees"] },
+    { title: "Grading and outline", isOpen: false, paths: isListed(kind) ? []
+      : [...under("lattice.grading", ["axis", "thickness_steps", "thickness_polynomial", "size_steps",
+        "size_polynomial"]), ...under("lattice.outline", ["corners_mm", "edge_wall_thickness_mm"])] },
     { title: "Material, further", isOpen: false, paths: under("material", singleFields(MaterialSchema).filter((name) =>
       !kMaterial.includes(name))) },
     { title: "Mesh and section", isOpen: false, paths: ["numerics.fidelity", "elements_per_wall",
@@ -50,6 +53,9 @@ export function groupsOf(kind: LatticeKind): Group[] {
   ];
   return groups.filter(({ paths }) => paths.length > 0);
 }
+
+/** Whether a field holds one value, such as the axis of a sweep can. */
+export const isSingle = (path: string): boolean => fieldAt(path).field.fieldKind !== "list";
 
 export interface Place { field: DescField; parent: DescMessage }
 
@@ -150,6 +156,7 @@ export function writeField(value: Case, path: string, text: string): boolean {
     holder?.clear(field);
     return true;
   }
+  if (field.fieldKind === "list") return holder !== undefined && writeNumbers(holder, field, trimmed);
   const parsed = parse(field, trimmed);
   if (!holder || parsed === undefined) return false;
   try {
@@ -158,6 +165,18 @@ export function writeField(value: Case, path: string, text: string): boolean {
   } catch {
     return false; // such as a fraction for a count
   }
+}
+
+// A comma without a blank may be a decimal sign.
+const entriesOf = (text: string): string[] => text.trim().split(/\s*;\s*|,?\s+/).filter(Boolean);
+
+function writeNumbers(holder: ReflectMessage, field: DescField & { fieldKind: "list" }, text: string): boolean {
+  const numbers = entriesOf(text).map((entry) => readReal(entry).plain);
+  if (field.listKind !== "scalar" || field.scalar !== ScalarType.DOUBLE || numbers.includes(undefined)) return false;
+  const list = holder.get(field);
+  list.clear();
+  for (const number of numbers) list.add(Number(number));
+  return true;
 }
 
 function parse(field: DescField, text: string): unknown {
@@ -174,6 +193,10 @@ function parse(field: DescField, text: string): unknown {
 }
 
 function typedFor(field: DescField, text: string): TypedNumber | undefined {
+  if (field.fieldKind === "list") {
+    const faulty = entriesOf(text).find((entry) => readReal(entry).problem);
+    return faulty === undefined ? undefined : { problem: `has an entry, “${faulty}”, that ${readReal(faulty).problem}` };
+  }
   switch (field.fieldKind === "scalar" ? field.scalar : undefined) {
     case ScalarType.DOUBLE: return readReal(text);
     case ScalarType.INT32:

@@ -5,7 +5,7 @@ import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { h, labelled, replaceChildren, setText } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { FieldInput } from "./field_input";
-import { groupsOf, isListed, kLatticeKinds, linesOf, pathsBeside, readField, writeField, type Group,
+import { groupsOf, isListed, isSingle, kLatticeKinds, linesOf, pathsBeside, readField, writeField, type Group,
          type LatticeKind } from "./fields";
 import { defaultOf, fieldHelp, helpOf, labelOf } from "./words";
 
@@ -40,9 +40,9 @@ export class CaseForm {
     this.build();
   }
 
-  /** The fields of the form, for the axis of a sweep. */
+  /** The fields of the form that the axis of a sweep may have. */
   get paths(): string[] {
-    return [...this.inputs.keys()];
+    return [...this.inputs.keys()].filter(isSingle);
   }
 
   private build(): void {
@@ -54,7 +54,7 @@ export class CaseForm {
     this.kind.value = kind.name;
     const groups = groupsOf(kind).map((group) => this.groupOf({ ...group, paths: group.paths.filter((path) =>
       !isNewer || !path.startsWith(`lattice.${kind.name}.`)) }));
-    const beside = pathsBeside(this.value, this.paths);
+    const beside = pathsBeside(this.value, [...this.inputs.keys()]);
     this.beside = new Map(beside.map((path) => [path, h("div", { class: "bad" })]));
     replaceChildren(this.element,
       labelled("Title", this.title), !isListed(kind) && !isNewer && labelled("Cells", this.kind),

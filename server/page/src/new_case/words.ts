@@ -28,7 +28,10 @@ export function nameOf(path: string): { words: string; unit: string } {
 const kLabels: Record<string, string> = {
   youngs_modulus_mpa: "Young’s modulus", poissons_ratio: "Poisson’s ratio",
   "plates.friction": "Friction at the plates",
-  "contact.friction": "Friction between walls", amplitude_mm: "Offset of joints, at most",
+  "contact.friction": "Friction between walls", thickness_steps: "Thickness by steps", size_steps: "Size by steps",
+  thickness_polynomial: "Thickness by a polynomial", size_polynomial: "Size by a polynomial",
+  "lattice.outline.corners_mm": "Corners of the outline",
+  "lattice.outline.edge_wall_thickness_mm": "Thickness of walls along the outline", amplitude_mm: "Offset of joints, at most",
   bow_mm: "Bow of walls, at most", plane: "Plane stress or strain", direction: "Direction",
   sample_count: "Samples", frame_count: "Frames", vertical_wall_thickness_mm: "Thickness of the walls along y",
   gravity_x_m_per_s2: "Gravity along x", gravity_y_m_per_s2: "Gravity along y",
@@ -67,7 +70,9 @@ export function limitsOf(path: string): string {
   const of = rulesOf(path);
   const { required, default: value, minimum, maximum, below, upTo, limits } = of;
   const most = maximum === undefined ? upTo : number(maximum);
-  const range = minimum === undefined ? "" : `${number(minimum)} to ${below ? "below " : ""}${most}`;
+  const isList = fieldAt(path).field.fieldKind === "list";
+  const range = isList ? `numbers separated by blanks, at most ${most}`
+    : minimum === undefined ? "" : `${number(minimum)} to ${below ? "below " : ""}${most}`;
   if (isSometimesRequired(of)) return [`R${limits.slice(1)}`, range].filter(Boolean).join("; ");
   const all = [range, limits].filter(Boolean).join(", ");
   const start = required ? "Required" : value && `Default ${value}`;
