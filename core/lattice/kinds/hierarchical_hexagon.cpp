@@ -1,3 +1,5 @@
+#include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -8,9 +10,11 @@
 // Regular hexagons of which every joint is a small hexagon of side gamma l instead (Ajdari, Jahromi, Papadopoulos,
 // Nayeb-Hashemi and Vaziri, Int. J. Solids Struct. 49 (2012), 1413). Rows and columns are those of the hexagons.
 //
-// Closed forms of slender walls, with r = t/l: E* = sqrt 3 E r^3 / D and nu* = 1 - gamma^3 / D, with D = 0.75 - 3.525
-// gamma + 3.6 gamma^2 + 2.9 gamma^3. The walls' axial
-// stretch, which they leave out, lowers the modulus: at gamma = 0.3 by 25 r^2 of it.
+// Moduli. The middle of a large wall is a centre of inversion and bears no moment, so that a stress sigma loads the
+// three large walls of a joint by sqrt 3 l sigma d there, d their directions. In the ring of six walls between them a
+// force and a moment about its middle go round, which change at the large walls and are those of least energy. Exact
+// for beams without shear. Slender walls have E* = sqrt 3 E r^3 / D and nu* = 1 - gamma^3 / D, with r = t/l and D =
+// 0.75 - 3.525 gamma + 3.6 gamma^2 + 2.9 gamma^3.
 namespace cellcrush {
 
 const LatticeKind& hexagon_lattice();
@@ -18,6 +22,17 @@ const LatticeKind& hexagon_lattice();
 namespace {
 
 constexpr const char* kSmallSide = "small_side_mm";
+
+/// Corners of a small hexagon from its middle: that at 30 degrees, then counter-clockwise.
+std::array<Vector2, 6> corners_of(double side) {
+  const double across = 0.5 * std::numbers::sqrt3 * side;
+  return {{{across, 0.5 * side},
+           {0.0, side},
+           {-across, 0.5 * side},
+           {-across, -0.5 * side},
+           {0.0, -side},
+           {across, -0.5 * side}}};
+}
 
 /// The corner of a small hexagon that lies in a direction: 0 at 30 degrees, then counter-clockwise.
 int corner_towards(const Vector2& direction) {
@@ -33,10 +48,7 @@ Layout lay_out_hierarchical_hexagons(const SceneSpec& spec) {
   hexagons.kind = "hexagon";
   hexagons.own.clear();
   const Layout large = hexagon_lattice().lay_out(plain);
-  const double small = own_number(*regular_lattice_of(spec), kSmallSide);
-  const double across = 0.5 * std::numbers::sqrt3 * small;
-  const Vector2 corner[] = {{across, 0.5 * small},   {0.0, small},  {-across, 0.5 * small},
-                            {-across, -0.5 * small}, {0.0, -small}, {across, -0.5 * small}};
+  const std::array<Vector2, 6> corner = corners_of(own_number(*regular_lattice_of(spec), kSmallSide));
   Layout layout;
   const auto add_wall = [&](int start, int end) {
     layout.walls.push_back({start, end, *hexagons.wall_thickness_mm, *spec.elements_per_wall});
@@ -55,14 +67,53 @@ Layout lay_out_hierarchical_hexagons(const SceneSpec& spec) {
   return layout;
 }
 
+/// Energy of a small hexagon and the halves of its large walls under a stress, with E and l of 1.
+double energy_of_joint(const Eigen::Matrix2d& stress, double gamma, double thickness) {
+  const double bending = 6.0 / (thickness * thickness * thickness);  // 1 / 2 E I
+  const double axial = 0.5 / thickness;
+  const double arm = 0.5 - gamma;  // of half a large wall
+  const std::array<Vector2, 6> outwards_to = corners_of(1.0);
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+  double energy = 0.0;  // energy + 2 slope z + z curvature z, of the force and the moment z in the first wall
+  Eigen::Vector3d changed = Eigen::Vector3d::Zero();  // of force and moment, from the first wall to this one
+  for (int i = 0; i < 6; ++i) {
+    const Vector2 corner = gamma * outwards_to[i];
+    const Vector2 next = gamma * outwards_to[(i + 1) % 6];
+    if (i % 2 == 0) {
+      const Vector2& outwards = outwards_to[i];
+      const Vector2 force = std::numbers::sqrt3 * stress * outwards;
+      const double across = cross(outwards, force);
+      const double along = outwards.dot(force);
+      energy += bending * across * across * arm * arm * arm / 3.0 + axial * along * along * arm;
+      changed += Eigen::Vector3d(force.x(), force.y(), 0.5 * across);
+    }
+    const auto add = [&](const Eigen::Vector3d& share, double weight) {  // of the force and the moment
+      const double own = share.dot(changed);
+      energy += weight * own * own;
+      slope += weight * own * share;
+      curvature += weight * share * share.transpose();
+    };
+    const Vector2 direction = (next - corner) / gamma;
+    add({direction.x(), direction.y(), 0.0}, axial * gamma);
+    for (const int place : {0, 1, 2}) {  // start, middle and end: Simpson's rule
+      const Vector2 point = corner + 0.5 * place * (next - corner);
+      add({point.y(), -point.x(), 1.0}, bending * gamma * (place == 1 ? 4.0 : 1.0) / 6.0);
+    }
+  }
+  return energy - slope.dot(curvature.ldlt().solve(slope));
+}
+
 ClosedForms forms_of_hierarchical_hexagons(const RegularLattice& hexagons, LoadingSpec::Direction) {
   const double ratio = *hexagons.wall_thickness_mm / *hexagons.side_mm;
   const double gamma = own_number(hexagons, kSmallSide) / *hexagons.side_mm;
-  const double cube = gamma * gamma * gamma;
-  const double compliance = 0.75 - 3.525 * gamma + 3.6 * gamma * gamma + 2.9 * cube;
+  const Eigen::Matrix2d both = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d one = Eigen::Vector2d::UnitX().asDiagonal();
+  const double area = 0.75 * std::numbers::sqrt3;  // of a joint
+  const double modulus = 0.5 * area / energy_of_joint(one, gamma, ratio);
   return {.density = 2.0 / std::numbers::sqrt3 * (1.0 + 2.0 * gamma) * ratio,
-          .modulus = std::numbers::sqrt3 * ratio * ratio * ratio / compliance,
-          .poissons_ratio = 1.0 - cube / compliance};
+          .modulus = modulus,
+          .poissons_ratio = 1.0 - energy_of_joint(both, gamma, ratio) * modulus / area};
 }
 
 }  // namespace

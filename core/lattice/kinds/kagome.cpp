@@ -34,13 +34,15 @@ Layout lay_out_kagome(const SceneSpec& spec) {
 }
 
 /// Walls yield axially: sigma_y t / (sqrt 3 l) along the lines of walls along x; sqrt 3 / 2 sigma_y t / l across them,
-/// carried by the other two families. The moduli are those of the walls' axial stretch; bending adds (t/l)^2 of them.
+/// carried by the other two families. The moduli are those of walls that stretch and bend. Every joint is a centre of
+/// inversion, so that joints move evenly, and turn against the mean of their walls; exact for beams without shear.
 ClosedForms forms_of_kagome(const RegularLattice& kagome, LoadingSpec::Direction direction) {
   const double ratio = *kagome.wall_thickness_mm / *kagome.side_mm;
+  const double bending = 0.5 * ratio * ratio;  // of the shear modulus
   const bool is_along_walls = direction == LoadingSpec::Direction::x;
   return {.density = std::numbers::sqrt3 * ratio,
-          .modulus = ratio / std::numbers::sqrt3,
-          .poissons_ratio = 1.0 / 3.0,
+          .modulus = ratio / std::numbers::sqrt3 * (1.0 + bending) / (1.0 + bending / 3.0),
+          .poissons_ratio = (1.0 - bending) / (3.0 + bending),
           .collapse_stress = (is_along_walls ? 1.0 / std::numbers::sqrt3 : 0.5 * std::numbers::sqrt3) * ratio};
 }
 
