@@ -46,6 +46,7 @@ std::vector<OneLattice> all_lattices() {
   add("hexagon_flat", "hexagon", {{"angle_degrees", 10.0}});
   add("hexagon_expanded", "hexagon", {{"vertical_wall_thickness_mm", 2.0 * kRatio * kSide}});
   add("arrowhead_steep", "arrowhead", {{"long_angle_degrees", 70.0}, {"short_angle_degrees", 20.0}});
+  add("anti_tetrachiral_large", "anti_tetrachiral", {{"ring_radius_mm", 0.4 * kSide}});
   add("hierarchical_hexagon_small", "hierarchical_hexagon", {{"small_side_mm", 0.1 * kSide}});
   return all;
 }
@@ -111,6 +112,10 @@ TEST_P(EachLattice, HasTheWallsAndTheDensityOfItsClosedForms) {
   EXPECT_NEAR(limit_of(few.second, many.second) / kind().closed_forms(lattice(), kX).density, 1.0, 0.01);
 }
 
+bool has_curves(const RegularLattice& lattice) {
+  return lattice.kind == "sinusoidal_square" || lattice.kind == "anti_tetrachiral";
+}
+
 /// Holds closed forms against the unit cell of the walls, at a slenderness.
 void expect_moduli(RegularLattice lattice, double ratio) {
   SCOPED_TRACE(ratio);
@@ -118,21 +123,34 @@ void expect_moduli(RegularLattice lattice, double ratio) {
   if (lattice.own.contains("vertical_wall_thickness_mm"))
     lattice.own["vertical_wall_thickness_mm"] = 2.0 * ratio * kSide;
   SceneSpec spec = spec_of(lattice, 8, LoadingSpec::Direction::x);
-  spec.elements_per_wall = lattice.kind == "sinusoidal_square" ? 32 : 1;  // curves in straight pieces
-  const auto scene = scenes::build(spec);
+  spec.elements_per_wall = has_curves(lattice) ? 32 : 1;  // in straight pieces
+  const UnitCell cell = find_unit_cell(*scenes::build(spec));
   for (const auto direction : {LoadingSpec::Direction::x, LoadingSpec::Direction::y}) {
     const ClosedForms forms = kind_of(spec)->closed_forms(lattice, direction);
     if (!forms.modulus) continue;
-    const auto solved = solve_periodic_cell(*scene, direction == LoadingSpec::Direction::x ? 0 : 1);
+    const auto solved = solve_periodic_cell(cell, direction == LoadingSpec::Direction::x ? 0 : 1);
     scenes::record_bound("E*", solved.modulus / *forms.modulus - 1.0, 2e-3);
     scenes::record_bound("nu", solved.poissons_ratio - *forms.poissons_ratio, 2e-3);
   }
 }
 
 TEST_P(EachLattice, HasTheElasticModuliOfItsClosedForms) {
-  expect_moduli(lattice(), 0.005);
-  const bool is_of_slender_walls = lattice().kind == "kagome" || lattice().kind == "hierarchical_hexagon";
-  if (!is_of_slender_walls) expect_moduli(lattice(), 0.05);
+  for (const double ratio : {0.005, 0.05}) expect_moduli(lattice(), ratio);
+}
+
+TEST_P(EachLattice, HasTheCollapseStressOfItsClosedForms) {
+  SceneSpec its = spec(8, kX);
+  std::get<RegularLattice>(its.lattice).wall_thickness_mm = 0.005 * kSide;
+  if (lattice().own.contains("vertical_wall_thickness_mm"))
+    std::get<RegularLattice>(its.lattice).own["vertical_wall_thickness_mm"] = 0.01 * kSide;
+  its.elements_per_wall = has_curves(lattice()) ? 8 : 1;
+  const UnitCell cell = find_unit_cell(*scenes::build(its));
+  for (const auto direction : {kX, kY}) {
+    const ClosedForms forms = kind().closed_forms(*regular_lattice_of(its), direction);
+    if (!forms.collapse_stress) continue;
+    const double solved = collapse_stress_of_periodic_cell(cell, direction == kX ? 0 : 1);
+    scenes::record_bound("collapse stress", solved / *forms.collapse_stress - 1.0, 0.01);
+  }
 }
 
 TEST_P(EachLattice, ClosesItsLedgerInAShortCrush) {
@@ -195,6 +213,11 @@ TEST(OwnNumbers, AreRefusedBeyondTheirLimitsAndWhereTheyDoNotFit) {
   EXPECT_THAT(faulty_fields("sinusoidal_square", {{"amplitude_mm", 0.0}}),
               ElementsAre("lattice.sinusoidal_square.amplitude_mm"));
   EXPECT_THAT(faulty_fields("sinusoidal_square", {}, 1), ElementsAre("elements_per_wall"));
+  EXPECT_THAT(faulty_fields("anti_tetrachiral", {}, 1), ElementsAre("elements_per_wall"));
+  EXPECT_THAT(faulty_fields("anti_tetrachiral", {{"ring_radius_mm", 4.8}}), IsEmpty());
+  EXPECT_THAT(faulty_fields("anti_tetrachiral", {{"ring_radius_mm", 4.9}}),
+              ElementsAre("lattice.anti_tetrachiral.ring_radius_mm"))
+      << "walls of 0.2 mm";
 }
 
 }  // namespace

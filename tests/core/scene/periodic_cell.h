@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cellcrush/scene.h"
+#include "core/scene/unit_cell.h"
 
 namespace cellcrush {
 
@@ -10,9 +10,12 @@ struct CellModuli {
   double poissons_ratio = 0.0;
 };
 
-/// Finds the unit cell that repeats in the middle of a scene, and solves it as straight Euler-Bernoulli beams with
-/// periodic displacements. Shares nothing with the solver but positions, elements and thicknesses.
-/// REQUIRES: one lattice without imperfection, at least eight cells wide and high.
-CellModuli solve_periodic_cell(const Scene& scene, int axis);
+/// Solves a unit cell as straight Euler-Bernoulli beams with periodic displacements.
+CellModuli solve_periodic_cell(const UnitCell& cell, int axis);
+
+/// The uniform stress along an axis, over sigma_y, at which a unit cell of elastic, perfectly plastic beams becomes a
+/// mechanism: its parts yield one by one, by a force of t or a moment of t^2/4, until its stiffness has fallen to a
+/// thousandth. Displacements stay small; force and moment do not weaken each other.
+double collapse_stress_of_periodic_cell(const UnitCell& cell, int axis);
 
 }  // namespace cellcrush
