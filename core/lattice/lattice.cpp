@@ -84,12 +84,19 @@ std::string note_of_stretched_walls(const std::string& plural) {
          "Eq. 51, which builds on it, predicts the plateau.";
 }
 
+std::string note_of_turning_walls(const std::string& measured) {
+  return "The quasi-static stress is that at which the walls of an endless lattice begin to turn. Plateaus of 8 x 8 "
+         "cells were " +
+         measured + " of it.";
+}
+
 LatticeWords words_of(const RegularLattice& lattice) {
   const LatticeKind* kind = find_kind(lattice.kind);
   if (kind == nullptr) {
     return {};
   }
-  return {std::string(kind->plural), own_numbers_in_words(lattice, *kind), kind->theory_note};
+  return {std::string(kind->plural), own_numbers_in_words(lattice, *kind),
+          kind->theory_note == nullptr ? "" : kind->theory_note(lattice)};
 }
 
 std::vector<std::string> lattice_names() {

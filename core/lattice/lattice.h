@@ -28,13 +28,13 @@ struct OwnNumber {
   double most_of_side = 0.0;  ///< its upper limit over side_mm; 0: its limits are those of its field in case.proto
 };
 
-/// Closed forms of a large lattice of slender walls, crushed along one axis, over the numbers of the wall: a modulus
-/// over E, a stress over sigma_y. Empty where none is known.
+/// Closed forms of an endless lattice, crushed along one axis, over the numbers of the wall: a modulus over E, a stress
+/// over sigma_y. The moduli are those of Euler-Bernoulli beams.
 struct ClosedForms {
   double density = 0.0;  ///< walls counted from joint to joint
-  std::optional<double> modulus = {};
-  std::optional<double> poissons_ratio = {};   ///< of the strain across the crush
-  std::optional<double> collapse_stress = {};  ///< quasi-static, of rigid, perfectly plastic walls
+  double modulus = 0.0;
+  double poissons_ratio = 0.0;                 ///< of the strain across the crush
+  std::optional<double> collapse_stress = {};  ///< quasi-static, of slender, rigid, perfectly plastic walls
 };
 
 /// What one kind of lattice of equal cells answers. Each kind is a file of lattice/kinds, and a message of its name in
@@ -58,8 +58,8 @@ struct LatticeKind {
   ClosedForms (*closed_forms)(const RegularLattice& lattice, LoadingSpec::Direction direction) = nullptr;
   /// For force-based elements, at the direction and speed of the spec. Null: that of stacked walls, or of hexagons.
   DefaultMesh (*mesh)(const SceneSpec& spec) = nullptr;
-  /// When not to compare it with theory, as sentences; empty where theory applies.
-  std::string theory_note = {};
+  /// When not to compare it with theory, as sentences; null or empty where theory applies. Numbers may be missing.
+  std::string (*theory_note)(const RegularLattice& lattice) = nullptr;
 };
 
 /// All kinds, by name. CMake writes the list from the files of lattice/kinds: NAME.cpp defines NAME_lattice().
@@ -97,5 +97,8 @@ DefaultMesh mesh_of_stacked_walls(std::string_view plural);
 
 /// The theory note of a lattice whose walls yield axially.
 std::string note_of_stretched_walls(const std::string& plural);
+
+/// That of a lattice whose walls turn: `measured` is what plateaus were over the collapse stress.
+std::string note_of_turning_walls(const std::string& measured);
 
 }  // namespace cellcrush

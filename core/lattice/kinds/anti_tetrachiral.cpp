@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "fields/field_checker.h"
 #include "lattice/lattice.h"
@@ -22,6 +24,16 @@ namespace {
 
 constexpr const char* kRadius = "ring_radius_mm";
 
+/// Elements of a wall of mean length that give so many to the quarter of a ring, in a large lattice. Numbers may be
+/// missing or not valid.
+int elements_for(int of_quarter, const RegularLattice& lattice) {
+  constexpr int kMost = 64;
+  const double quarter = 0.5 * std::numbers::pi * own_number(lattice, kRadius);
+  if (!(quarter > 0.0)) return kMost;
+  const double mean = (4.0 * quarter + 2.0 * lattice.side_mm.value_or(0.0)) / 6.0;
+  return static_cast<int>(std::min(1.0 * kMost, std::ceil(of_quarter * mean / quarter)));
+}
+
 void check_rings(const SceneSpec& spec, double side, FieldChecker& check) {
   const RegularLattice& lattice = *regular_lattice_of(spec);
   const double thickness = lattice.wall_thickness_mm.value_or(0.0);
@@ -30,8 +42,10 @@ void check_rings(const SceneSpec& spec, double side, FieldChecker& check) {
     check.add("lattice.anti_tetrachiral.ring_radius_mm", to_text(radius), "makes neighbouring rings overlap.",
               "Give at most " + to_text(0.5 * (side - thickness)) + ".");
   }
-  if (*spec.elements_per_wall == 1) {
-    check.add("elements_per_wall", "1", "makes squares of the rings.", "Give at least 2.");
+  constexpr int kFewest = 2;  // of a quarter of a ring
+  if (std::isfinite(side) && *spec.elements_per_wall < elements_for(kFewest, lattice)) {
+    check.add("elements_per_wall", std::to_string(*spec.elements_per_wall), "makes squares of the rings.",
+              "Give at least " + std::to_string(elements_for(kFewest, lattice)) + ", or a greater ring_radius_mm.");
   }
 }
 
@@ -101,8 +115,9 @@ const LatticeKind& anti_tetrachiral_lattice() {
       .lay_out = lay_out_rings,
       .closed_forms = forms_of_rings,
       .mesh =
-          [](const SceneSpec&) {
-            return DefaultMesh{2, 4, 8, "anti-tetrachiral rings"};
+          [](const SceneSpec& spec) {
+            const auto elements = [&](int of_quarter) { return elements_for(of_quarter, *regular_lattice_of(spec)); };
+            return DefaultMesh{elements(2), elements(4), elements(8), "anti-tetrachiral rings"};
           },
   };
   return kKind;

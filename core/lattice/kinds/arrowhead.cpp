@@ -123,6 +123,8 @@ const LatticeKind& arrowhead_lattice() {
       .check = check_arrowheads,
       .lay_out = lay_out_arrowheads,
       .closed_forms = forms_of_arrowheads,
+      .theory_note =
+          [](const RegularLattice&) { return note_of_turning_walls("0.6 along x and, as they close, 3.9 along y"); },
   };
   return kKind;
 }

@@ -50,6 +50,7 @@ const LatticeKind& diamond_lattice() {
       .walls_per_cell = 4.0,
       .lay_out = lay_out_diamonds,
       .closed_forms = forms_of_diamonds,
+      .theory_note = [](const RegularLattice&) { return note_of_turning_walls("0.8"); },
   };
   return kKind;
 }

@@ -127,6 +127,12 @@ DefaultMesh mesh_of_hexagons(const SceneSpec& spec) {
   return mesh_of_bent_walls(spec, "hexagons");
 }
 
+std::string note_of_hexagons(const RegularLattice& hexagons) {
+  const bool are_regular =
+      own_number(hexagons, kAngle) == 30.0 && own_number(hexagons, kHeight) == hexagons.side_mm.value_or(0.0);
+  return are_regular ? "" : note_of_turning_walls("0.3 to 0.9");
+}
+
 }  // namespace
 
 const LatticeKind& hexagon_lattice() {
@@ -142,6 +148,7 @@ const LatticeKind& hexagon_lattice() {
       .lay_out = lay_out_hexagons,
       .closed_forms = forms_of_hexagons,
       .mesh = mesh_of_hexagons,
+      .theory_note = note_of_hexagons,
   };
   return kKind;
 }

@@ -126,7 +126,11 @@ const LatticeKind& hierarchical_hexagon_lattice() {
       .own_numbers = {{kSmallSide, [](const RegularLattice& its) { return 0.3 * its.side_mm.value_or(0.0); }, 0.49}},
       .lay_out = lay_out_hierarchical_hexagons,
       .closed_forms = forms_of_hierarchical_hexagons,
-      .theory_note = "The quasi-static stress of hierarchical hexagons is not known, so no theory is drawn.",
+      .theory_note =
+          [](const RegularLattice&) {
+            return std::string(
+                "The quasi-static stress of hierarchical hexagons is not known: no theory of it applies.");
+          },
   };
   return kKind;
 }

@@ -56,7 +56,7 @@ const LatticeKind& kagome_lattice() {
       .has_walls_along_crush = true,
       .lay_out = lay_out_kagome,
       .closed_forms = forms_of_kagome,
-      .theory_note = note_of_stretched_walls("Kagome lattices"),
+      .theory_note = [](const RegularLattice&) { return note_of_stretched_walls("Kagome lattices"); },
   };
   return kKind;
 }

@@ -82,6 +82,7 @@ const LatticeKind& sinusoidal_square_lattice() {
           [](const SceneSpec&) {
             return DefaultMesh{2, 4, 8, "sinusoidal squares"};
           },
+      .theory_note = [](const RegularLattice&) { return note_of_turning_walls("0.5"); },
   };
   return kKind;
 }

@@ -55,7 +55,7 @@ const LatticeKind& triangle_lattice() {
       .has_walls_along_crush = true,
       .lay_out = lay_out_triangles,
       .closed_forms = forms_of_triangles,
-      .theory_note = note_of_stretched_walls("Triangles"),
+      .theory_note = [](const RegularLattice&) { return note_of_stretched_walls("Triangles"); },
   };
   return kKind;
 }
