@@ -140,6 +140,16 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   table.add({"predicted result file", size_text(check.predicted_bytes())});
   if (check.predicted_disk_bytes() > 0) table.add({"predicted disk space", size_text(check.predicted_disk_bytes())});
   if (check.predicted_memory_bytes() > 0) table.add({"predicted memory", size_text(check.predicted_memory_bytes())});
+  if (check.theory().has_modulus_mpa()) {
+    const v1::Theory& theory = check.theory();
+    const ShownUnit unit = unit_by_size("MPa", theory.modulus_mpa());
+    table.add({"theory: elastic modulus", number_text(unit.factor * theory.modulus_mpa()),
+               fmt::format("{} (across the crush {})", unit.name, quantity_text(theory.modulus_across_mpa(), "MPa"))});
+    table.add({"theory: Poisson's ratio", number_text(theory.poissons_ratio()),
+               fmt::format("elastic (across the crush {})", number_text(theory.poissons_ratio_across()))});
+  }
+  if (check.words().plates() && check.theory().gibson_ashby_mpa() <= 0)
+    table.add({"theory: quasi-static, shock", "none", "applies"});
   if (check.theory().gibson_ashby_mpa() > 0) {
     const ShownUnit stress = unit_by_size("MPa", check.theory().shock_mpa());
     table.add({"theory: quasi-static (Gibson-Ashby)", number_text(stress.factor * check.theory().gibson_ashby_mpa()),
@@ -156,8 +166,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   text += table.text(2, width);
   if (check.notes_size() > 0) text += '\n' + notes_text(check.notes());
   const std::string& note = check.words().theory_note();
-  if (!note.empty() && check.theory().shock_mpa() > 0)
-    text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
+  if (!note.empty()) text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
   if (!check.small_specimen().empty()) text += '\n' + wrapped(printable(check.small_specimen()), width, "  ", "  ");
   text += fidelity_text(check, width);
   if (check.modelled_size() > 0) text += "\nmodel and simplifications\n";

@@ -32,6 +32,7 @@ bool has_closed(const v1::Summary& summary) {
 
 void add_plateau_rows(Table& table, const v1::Summary& summary) {
   const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
+  const bool has_moduli = summary.theory().has_modulus_mpa();
   const ShownUnit unit =
       unit_by_size("MPa", std::max({summary.plateau_stress_impact_mpa(), summary.plateau_stress_support_mpa(),
                                     summary.plateau_stress_to_densification_mpa(), summary.theory().shock_mpa()}));
@@ -47,7 +48,7 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   };
   table.add({fmt::format("plateau stress, {:.0f}-{:.0f} % strain", 100 * summary.plateau_window_low(),
                          100 * summary.plateau_window_high()),
-             "computed", theory ? "theory" : ""});
+             "computed", theory || has_moduli ? "theory" : "", theory ? "" : "no theory applies"});
   stress_row("impact", summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa(),
              summary.theory().shock_mpa(),
              theory_text("shock theory (Eq. 51)", summary.has_shock_error_relative(), summary.shock_error_relative()));
@@ -92,9 +93,15 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   if (summary.has_solid_fraction_at_densification()) {
     table.add({"solid fraction at densification", number_text(summary.solid_fraction_at_densification())});
   }
+  if (has_moduli) {
+    table.add(
+        {"elastic modulus", "", quantity_text(summary.theory().modulus_mpa(), "MPa"), "E* of an endless lattice"});
+  }
   if (summary.has_poissons_ratio()) {
-    table.add({"Poisson's ratio", number_text(summary.poissons_ratio()), "",
-               fmt::format("secant, up to {:.3g} strain", summary.plateau_window_high())});
+    table.add({"Poisson's ratio", number_text(summary.poissons_ratio()),
+               has_moduli ? number_text(summary.theory().poissons_ratio()) : "",
+               has_moduli ? fmt::format("secant to {:.3g}; theory: elastic", summary.plateau_window_high())
+                          : fmt::format("secant, up to {:.3g} strain", summary.plateau_window_high())});
   }
   if (summary.has_valid_to_strain()) {
     table.add({"valid to strain", number_text(summary.valid_to_strain()), "", "the lattice is closed from there on"});
@@ -224,8 +231,7 @@ std::string summary_text(const v1::Job& job, int width) {
   std::string text = table.text(2, width);
   if (plates) text += end_text(summary, width) + mode_text(summary, width);
   const std::string& note = job.words().theory_note();
-  if (!note.empty() && summary.theory().shock_mpa() > 0)
-    text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
+  if (!note.empty() && plates) text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
   for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning, width);
   if (plates && summary.has_front()) text += '\n' + front_text(summary.front(), width);
   if (summary.has_ledger()) text += '\n' + ledger_text(summary.ledger(), width);

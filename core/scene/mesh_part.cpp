@@ -4,6 +4,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "cellcrush/lattice_moduli.h"
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
 #include "lattice/network.h"
@@ -94,6 +95,19 @@ Material material_of(const MaterialSpec& spec) {
     material.law.*parameter.value *= factor;
   }
   return material;
+}
+
+std::optional<LatticeModuli> elastic_moduli_of(const SceneSpec& spec) {
+  const LatticeKind* kind = kind_of(spec);
+  if (kind == nullptr || spec.changes != LatticeChanges()) return std::nullopt;
+  const double modulus_of_walls = material_of(spec.material).youngs_modulus;
+  const auto moduli_in = [&](LoadingSpec::Direction direction) {
+    const ClosedForms forms = kind->closed_forms(*regular_lattice_of(spec), direction);
+    return ElasticModuli{forms.modulus * modulus_of_walls, forms.poissons_ratio};
+  };
+  using Direction = LoadingSpec::Direction;
+  const bool is_along_x = crush_axis_of(spec) == 0;
+  return LatticeModuli{moduli_in(spec.loading.direction), moduli_in(is_along_x ? Direction::y : Direction::x)};
 }
 
 int crush_axis_of(const SceneSpec& spec) { return spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1; }

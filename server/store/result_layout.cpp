@@ -219,8 +219,7 @@ void write_summary_attributes(hid_t file, const v1::Summary& summary) {
   write_attribute(file, "step_count", static_cast<std::int64_t>(summary.step_count()));
   write_attribute(file, "rigid_link_count", static_cast<std::int64_t>(summary.rigid_link_count()));
   write_attribute(file, "start_overlap_count", static_cast<std::int64_t>(summary.start_overlap_count()));
-  write_attribute(file, "theory_gibson_ashby_mpa", summary.theory().gibson_ashby_mpa());
-  write_attribute(file, "theory_shock_mpa", summary.theory().shock_mpa());
+  write_numbers(file, "theory_", summary.theory());
   write_warnings(file, summary);
   write_collapse(file, summary);
   write_numbers(file, "ledger_", summary.ledger());

@@ -108,7 +108,7 @@ void describe_network(const v1::Lattice::Network& network, v1::CaseWords& words)
   const int walls = network.walls_size() / 2;
   words.set_lattice(
       fmt::format("network of {} and {}", plural(network.joints_mm_size() / 2, "joint"), plural(walls, "wall")));
-  words.set_theory_note("The quasi-static stress of a network is not known, so no theory is drawn.");
+  words.set_theory_note("The quasi-static stress of a network is not known: no theory applies.");
   std::vector<double> thicknesses(network.thicknesses_mm().begin(), network.thicknesses_mm().end());
   if (thicknesses.empty()) thicknesses.push_back(network.wall_thickness_mm());
   add_fact(words, "walls", fmt::format("{}, {} mm thick", walls, range_text(thicknesses)));
@@ -121,7 +121,7 @@ void describe_network(const v1::Lattice::Network& network, v1::CaseWords& words)
 void describe_voronoi(const v1::Lattice::Voronoi& voronoi, v1::CaseWords& words) {
   words.set_lattice(fmt::format("Voronoi honeycomb, {} x {} cells, irregularity {:.4g}", voronoi.columns(),
                                 voronoi.rows(), voronoi.irregularity()));
-  words.set_theory_note("The quasi-static stress of a Voronoi honeycomb is not known, so no theory is drawn.");
+  words.set_theory_note("The quasi-static stress of a Voronoi honeycomb is not known: no theory applies.");
   add_fact(
       words, "cells",
       fmt::format("{} x {}, of regular ones {:.6g} mm a side", voronoi.columns(), voronoi.rows(), voronoi.side_mm()));
@@ -173,7 +173,7 @@ void describe_made_walls(const v1::Lattice& lattice, v1::CaseWords& words) {
     add_fact(words, "outline", corners == 2 ? "a rectangle" : fmt::format("a polygon of {} corners", corners));
   }
   if (words.facts_size() > facts && !lattice.has_network() && !lattice.has_voronoi())
-    words.set_theory_note("Walls were changed: the theory of the unchanged lattice does not apply, and none is drawn.");
+    words.set_theory_note("Walls were changed: no theory applies, not even that of the unchanged lattice.");
 }
 
 void describe_changes(const v1::Lattice& lattice, v1::CaseWords& words) {

@@ -157,6 +157,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   out.meshes->know(spec, *scene);
   const auto facts = facts_of(*scene);
   describe(facts, out.response);
+  add_moduli(spec, *out.response.mutable_theory());
   *out.response.mutable_completed_case() = to_case(complete_spec(spec, *scene));
   if (submitted.lattice().has_frame()) {
     restore_names(submitted.lattice().frame(),

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "cellcrush/lattice_moduli.h"
 #include "columns/sample_parts.h"
 
 namespace cellcrush::translate {
@@ -220,6 +221,15 @@ v1::Theory to_proto(const Theory& theory) {
   out.set_shock_mpa(theory.shock);
   out.set_densification_strain(theory.densification_strain);
   return out;
+}
+
+void add_moduli(const SceneSpec& spec, v1::Theory& out) {
+  const auto moduli = elastic_moduli_of(spec);
+  if (!moduli) return;
+  out.set_modulus_mpa(moduli->along.modulus);
+  out.set_poissons_ratio(moduli->along.poissons_ratio);
+  out.set_modulus_across_mpa(moduli->across.modulus);
+  out.set_poissons_ratio_across(moduli->across.poissons_ratio);
 }
 
 v1::Summary::End to_proto(RunEnd end) {

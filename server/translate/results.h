@@ -22,6 +22,8 @@ v1::Sample to_proto(const Sample& sample, const v1::Case& scene);
 v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh);
 v1::Theory to_proto(const Theory& theory);
+/// Adds the elastic moduli of the lattice of a spec, if they are known. REQUIRES: a spec without problems.
+void add_moduli(const SceneSpec& spec, v1::Theory& out);
 
 /// Processor time of a run, s; the solver has no clock.
 struct RunTime {

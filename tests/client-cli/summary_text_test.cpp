@@ -61,6 +61,15 @@ TEST(SummaryText, HasThePeakStressWithItsFilter) {
   EXPECT_THAT(summary_text(from_text<v1::Job>("words { plates: true } summary {}"), 140), Not(HasSubstr("peak")));
 }
 
+TEST(SummaryText, HasTheElasticModuliOfTheoryAndSaysWhereNoneApplies) {
+  const auto job = from_text<v1::Job>(R"(words { plates: true } summary {
+    plateau_window_high: 0.4 poissons_ratio: 0.25 theory { modulus_mpa: 101 poissons_ratio: 0.97 } })");
+  const std::string text = summary_text(job, 140);
+  EXPECT_THAT(text, ContainsRegex("computed +theory +no theory applies"));
+  EXPECT_THAT(text, ContainsRegex("elastic modulus +101 MPa +E\\* of an endless lattice"));
+  EXPECT_THAT(text, ContainsRegex("Poisson's ratio +0.25.* +0.97.* +secant to 0.4; theory: elastic"));
+}
+
 TEST(SummaryText, HasTheCrushForcesAndPoissonsRatioIfKnown) {
   const auto job = from_text<v1::Job>(R"(words { plates: true } summary {
     plateau_window_high: 0.4 poissons_ratio: -0.25

@@ -90,6 +90,9 @@ TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {
   EXPECT_GT(response.predicted_bytes(), 10'000);
   EXPECT_EQ(response.completed_case().elements_per_wall(), 2);
   EXPECT_GT(response.theory().shock_mpa(), response.theory().gibson_ashby_mpa());
+  EXPECT_GT(response.theory().modulus_mpa(), 0.0);
+  EXPECT_NEAR(response.theory().modulus_mpa() * response.theory().poissons_ratio_across(),
+              response.theory().modulus_across_mpa() * response.theory().poissons_ratio(), 1e-6);
 }
 
 TEST_F(CasesServiceTest, APreviewHasTheMeshThatARunWouldHave) {

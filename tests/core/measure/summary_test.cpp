@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cellcrush/lattice_moduli.h"
 #include "cellcrush/simulation.h"
 #include "measure/curve.h"
 #include "measure/lasting_rise.h"
@@ -67,6 +68,25 @@ TEST(Theory, TypeIHasGibsonAshbyAndEquation51) {
   EXPECT_NEAR(theory.gibson_ashby, 2.0 / 3.0 * 76.0 * 0.0866 * 0.0866, 1e-9);
   const double density = 72.1438e-6 / (512.687 * 128.0 * 4.0);
   EXPECT_NEAR(theory.shock, theory.gibson_ashby + density * 1e10 / theory.densification_strain, 2e-4);
+}
+
+TEST(Theory, HasTheElasticModuliAlongTheCrushAndAcrossIt) {
+  SceneSpec spec = scenes::hexagon_specimen(8, 8);
+  spec.loading.direction = LoadingSpec::Direction::y;
+  const auto [along, across] = elastic_moduli_of(spec).value();
+  const double squared = 0.0866 * 0.0866;
+  const double slender = 4.0 / std::sqrt(3.0) * 69000.0 * 0.0866 * squared;
+  EXPECT_NEAR(across.modulus, slender / (1.0 + 3.0 * squared), 1e-6 * slender);
+  EXPECT_NEAR(along.modulus * across.poissons_ratio, across.modulus * along.poissons_ratio, 1e-9 * slender)
+      << "Maxwell and Betti";
+  EXPECT_NEAR(along.poissons_ratio, 1.0, 0.04);
+  spec.material.plane = MaterialSpec::Plane::strain;
+  spec.material.poissons_ratio = 0.3;
+  const ElasticModuli held = elastic_moduli_of(spec).value().along;
+  EXPECT_NEAR(held.modulus, along.modulus / 0.91, 1e-9 * slender);
+  EXPECT_EQ(held.poissons_ratio, along.poissons_ratio);
+  spec.changes.rotation_degrees = 10.0;
+  EXPECT_FALSE(elastic_moduli_of(spec)) << "no closed form is known of changed walls";
 }
 
 class SummaryTest : public testing::Test {

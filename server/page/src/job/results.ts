@@ -45,7 +45,9 @@ export function resultsList(s: Summary, note: string): HTMLElement {
     }
   }
   if (s.poissonsRatio !== undefined) {
-    add("Poisson's ratio", "poissons_ratio", number(s.poissonsRatio), `secant, up to strain ${s.plateauWindowHigh}`);
+    const elastic = theory?.poissonsRatio;
+    add("Poisson's ratio", "poissons_ratio", number(s.poissonsRatio), `secant, up to strain ${s.plateauWindowHigh}`
+        + (elastic === undefined ? "" : `; ${number(elastic)} of elastic walls`));
   }
   if (s.validToStrain !== undefined) {
     add("Valid to strain", "valid_to_strain", strainText(s.validToStrain),

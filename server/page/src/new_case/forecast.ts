@@ -5,7 +5,8 @@ import { h, replaceChildren, setText } from "../dom/element";
 import { bytes, count, duration, number, percent } from "../dom/format";
 
 const kRows = ["predicted time on one core", "memory", "result file", "beam elements", "time steps",
-               "specimen", "relative density", "plateau by Gibson-Ashby", "plateau by shock theory (Eq. 51)"];
+               "specimen", "relative density", "plateau by Gibson-Ashby", "plateau by shock theory (Eq. 51)",
+               "elastic modulus by theory", "Poisson’s ratio by theory"];
 
 export class Forecast {
   readonly element = h("section", { class: "card forecast" });
@@ -27,8 +28,12 @@ export class Forecast {
         count(check.elementCount), count(check.stepCount),
         check.lengthMm ? `${number(check.lengthMm)} × ${number(check.widthMm)} mm` : "–",
         check.relativeDensity ? percent(check.relativeDensity, 3) : "–",
-        hasTheory ? `${number(theory.gibsonAshbyMpa)} MPa` : "–",
-        hasTheory ? `${number(theory.shockMpa)} MPa` : "–"];
+        hasTheory ? `${number(theory.gibsonAshbyMpa)} MPa` : "none applies",
+        hasTheory ? `${number(theory.shockMpa)} MPa` : "none applies",
+        theory?.modulusMpa ? `${number(theory.modulusMpa)} MPa; across ${number(theory.modulusAcrossMpa ?? 0)} MPa`
+          : "none applies",
+        theory?.poissonsRatio !== undefined
+          ? `${number(theory.poissonsRatio)}; across ${number(theory.poissonsRatioAcross ?? 0)}` : "none applies"];
       texts.forEach((text, i) => setText(this.values[i], text));
     }
     const entry = (problem: Problem, kind: string): HTMLElement =>
