@@ -15,6 +15,7 @@
 #include "case_file/set_field.h"
 #include "command_error.h"
 #include "connection/connection.h"
+#include "drawing/compact_network.h"
 #include "drawing/drawing.h"
 #include "results/field_value.h"
 #include "usage/suggestion.h"
@@ -112,6 +113,9 @@ void change(v1::Case& target, const CaseOptions& options, v1::ImportReport* repo
         "--lattice.");
   }
   assign(target, options.assignments);
+  // Only where every number stays the same.
+  if (target.lattice().has_network() && target.lattice().network().ByteSizeLong() > drawing::kLargestLists)
+    drawing::make_compact(*target.mutable_lattice()->mutable_network(), drawing::Rounding::none);
 }
 
 }  // namespace

@@ -164,7 +164,8 @@ void Connection::check_request_size(std::int64_t size) {
   constexpr double kMebibyte = 1024.0 * 1024.0;
   refuse(
       fmt::format("the request has {:.2f} MiB ({} bytes), above the message limit of {:.0f} MiB ({} bytes); make the "
-                  "case smaller, such as a frame with fewer nodes and beams",
+                  "case smaller, such as a frame with fewer nodes and beams, or a network of numbers with at most six "
+                  "decimals",
                   static_cast<double>(size) / kMebibyte, size, kLargestRequest / kMebibyte, kLargestRequest));
 }
 

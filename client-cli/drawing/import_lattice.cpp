@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "drawing/compact_network.h"
 #include "drawing/drawing.h"
 #include "drawing/join_walls.h"
 #include "drawing/lattice_marks.h"
@@ -82,6 +83,10 @@ v1::ImportLatticeResponse import_lattice(const v1::ImportLatticeRequest& request
   add_marks(v1::LatticeMarks::ISLAND, joined.islands, *report.mutable_marks());
   for (const std::string& what : drawing.left_out) report.add_left_out(what);
   for (const std::string& line : lines_of(report)) report.add_lines(line);
+  if (joined.network.ByteSizeLong() > kLargestLists && make_compact(joined.network, Rounding::to_a_step)) {
+    report.add_lines(
+        fmt::format("lists in the compact form, in steps of {:.3g} mm", 1.0 / joined.network.compact().steps_per_mm()));
+  }
   *out.mutable_network() = std::move(joined.network);
   return out;
 }

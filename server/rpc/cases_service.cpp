@@ -16,7 +16,6 @@
 namespace cellcrush::rpc {
 namespace {
 
-constexpr std::size_t kLargestPreview = 3'000'000;        // bytes
 constexpr std::size_t kLargestOfSmallDrawings = 100'000;  // bytes, which take milliseconds
 constexpr std::size_t kLongestFileName = 255;
 
@@ -61,11 +60,11 @@ class CaseCalls {
     const auto place = take_place(call, request.case_());
     auto preview = translate::preview_case(request.case_(), [&call] { call.require_wanted(); });
     if (!preview.has_mesh()) throw RefusedCase(preview.problems());
-    if (preview.mesh().ByteSizeLong() > kLargestPreview) {
+    if (preview.mesh().ByteSizeLong() > translate::kLargestPreview) {
       throw ServiceError(ServiceError::Kind::exhausted,
                          "The mesh of the case has " + std::to_string(preview.mesh().element_nodes_size() / 2) +
-                             " elements, more than a preview can hold. Preview it with fewer cells or with "
-                             "elements_per_wall 1.");
+                             " elements even with elements_per_wall 1, more than a preview can hold. Preview it "
+                             "with fewer cells.");
     }
     return preview;
   }

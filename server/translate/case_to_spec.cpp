@@ -11,6 +11,7 @@
 
 #include "cellcrush/lattice_words.h"
 #include "translate/loads_places.h"
+#include "translate/network_lists.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -46,17 +47,12 @@ RegularLattice read_numbers(const google::protobuf::Message& in) {
 }
 
 NetworkWalls read_network(const v1::Lattice::Network& in, Problems& problems) {
-  NetworkWalls out;
-  out.joints_mm.assign(in.joints_mm().begin(), in.joints_mm().end());
-  out.walls.assign(in.walls().begin(), in.walls().end());
-  if (in.has_wall_thickness_mm()) out.wall_thickness_mm = in.wall_thickness_mm();
-  out.thicknesses_mm.assign(in.thicknesses_mm().begin(), in.thicknesses_mm().end());
-  out.rises_mm.assign(in.rises_mm().begin(), in.rises_mm().end());
+  check_compact(in, problems);
+  NetworkWalls out = lists_of(in);
   for (int i = 0; i < in.materials_size(); ++i) {
     const std::string path = "lattice.network.materials[" + std::to_string(i) + "].";
     out.materials.push_back(to_spec(in.materials(i), path, problems));
   }
-  out.wall_materials.assign(in.wall_materials().begin(), in.wall_materials().end());
   return out;
 }
 

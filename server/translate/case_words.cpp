@@ -12,6 +12,7 @@
 #include "cellcrush/lattice_words.h"
 #include "translate/case_to_spec.h"
 #include "translate/loads_places.h"
+#include "translate/network_lists.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -105,15 +106,15 @@ void describe_frame(const v1::Frame& frame, v1::CaseWords& words) {
 }
 
 void describe_network(const v1::Lattice::Network& network, v1::CaseWords& words) {
-  const int walls = network.walls_size() / 2;
-  words.set_lattice(
-      fmt::format("network of {} and {}", plural(network.joints_mm_size() / 2, "joint"), plural(walls, "wall")));
+  const NetworkWalls lists = lists_of(network);
+  const int walls = static_cast<int>(lists.wall_count());
+  words.set_lattice(fmt::format("network of {} and {}", plural(static_cast<int>(lists.joint_count()), "joint"),
+                                plural(walls, "wall")));
   words.set_theory_note("The quasi-static stress of a network is not known: no theory applies.");
-  std::vector<double> thicknesses(network.thicknesses_mm().begin(), network.thicknesses_mm().end());
+  std::vector<double> thicknesses = lists.thicknesses_mm;
   if (thicknesses.empty()) thicknesses.push_back(network.wall_thickness_mm());
   add_fact(words, "walls", fmt::format("{}, {} mm thick", walls, range_text(thicknesses)));
-  const auto arcs =
-      std::count_if(network.rises_mm().begin(), network.rises_mm().end(), [](double r) { return r != 0; });
+  const auto arcs = std::ranges::count_if(lists.rises_mm, [](double rise) { return rise != 0.0; });
   if (arcs > 0) add_fact(words, "arcs", plural(static_cast<int>(arcs), "wall"));
   if (network.materials_size() > 0) add_fact(words, "further materials", std::to_string(network.materials_size()));
 }

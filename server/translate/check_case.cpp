@@ -92,6 +92,16 @@ void restore_names(const v1::Frame& submitted, v1::Frame& completed) {
   for (auto& velocity : *completed.mutable_initial_velocities()) rename(*velocity.mutable_node());
 }
 
+// A network keeps the form in which it was given.
+void restore_lists(const v1::Lattice::Network& submitted, v1::Lattice::Network& completed) {
+  if (!submitted.has_compact()) return;
+  completed.clear_joints_mm();
+  completed.clear_walls();
+  completed.clear_thicknesses_mm();
+  completed.clear_rises_mm();
+  *completed.mutable_compact() = submitted.compact();
+}
+
 // A case as the solver reads it.
 struct Built {
   SceneSpec spec;
@@ -129,6 +139,7 @@ google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& 
   ListChecker lists;
   lists.check("lattice.frame", submitted.lattice().frame());
   lists.check("lattice.network", submitted.lattice().network());
+  lists.check("lattice.network.compact", submitted.lattice().network().compact());
   lists.check("lattice.grading", submitted.lattice().grading());
   lists.check("lattice.outline", submitted.lattice().outline());
   lists.check("loading", submitted.loading());
@@ -164,6 +175,8 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
                   *out.response.mutable_completed_case()->mutable_lattice()->mutable_frame());
   }
   v1::Case& completed = *out.response.mutable_completed_case();
+  if (submitted.lattice().has_network())
+    restore_lists(submitted.lattice().network(), *completed.mutable_lattice()->mutable_network());
   auto& walls = completed.lattice().has_frame() ? *completed.mutable_lattice()->mutable_frame()->mutable_rigid_walls()
                                                 : *completed.mutable_loading()->mutable_rigid_walls();
   for (int i = 0; i < walls.size(); ++i) walls[i].set_id(rigid_walls_of(submitted)[i].id());

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "translate/network_lists.h"
+
 namespace cellcrush::translate {
 namespace {
 
@@ -59,6 +61,7 @@ void move_to_frame(v1::Case& scene) {
 }
 
 void name_as_given(const v1::Case& submitted, Problems& problems) {
+  if (submitted.lattice().has_network()) name_compact(submitted.lattice().network(), problems);
   if (!submitted.lattice().has_frame()) return;
   for (Problem& problem : problems) {
     for (const char* name : kFields) {

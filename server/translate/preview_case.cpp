@@ -1,5 +1,6 @@
 #include "translate/preview_case.h"
 
+#include <utility>
 #include <vector>
 
 #include "cellcrush/lattice_view.h"
@@ -77,6 +78,14 @@ v1::PreviewCaseResponse preview_case(const v1::Case& submitted, const std::funct
   cut_problems(*out.mutable_problems());
   if (!view.scene || !reading.problems.empty()) return out;
   *out.mutable_mesh() = to_proto(mesh_of(*view.scene));
+  if (out.mesh().ByteSizeLong() > kLargestPreview && reading.spec.elements_per_wall != 1) {
+    reading.spec.elements_per_wall = 1;
+    LatticeView coarse = view_lattice(reading.spec, between_stages);
+    if (coarse.scene) {
+      view = std::move(coarse);
+      *out.mutable_mesh() = to_proto(mesh_of(*view.scene));
+    }
+  }
   mark(submitted.lattice(), view, out);
   return out;
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "drawing/compact_network.h"
 #include "drawing/join_walls.h"
 #include "drawing/svg_path.h"
 
@@ -328,6 +329,39 @@ TEST(MeshDrawing, OfGmshHasItsLinesOfBothVersions) {
       "f.msh");
   ASSERT_THAT(now.walls, SizeIs(1));
   EXPECT_EQ(distance(now.walls[0].start, now.walls[0].end), 5.0);
+}
+
+v1::Lattice::Network two_walls(double far) {
+  v1::Lattice::Network out;
+  for (const double number : {0.5, -1.25, far, -1.25, far, 3.0}) out.add_joints_mm(number);
+  for (const int joint : {0, 1, 2, 1}) out.add_walls(joint);
+  for (const double thickness : {0.1, 0.25}) out.add_thicknesses_mm(thickness);
+  return out;
+}
+
+TEST(CompactNetwork, CountsStepsFromNumberToNumber) {
+  v1::Lattice::Network network = two_walls(10.1);
+  ASSERT_TRUE(make_compact(network, Rounding::none));
+  EXPECT_EQ(network.compact().steps_per_mm(), 100) << "the fewest that keep two decimals";
+  EXPECT_THAT(network.compact().joint_differences(), ElementsAre(50, -125, 960, 0, 0, 425));
+  EXPECT_THAT(network.compact().wall_differences(), ElementsAre(0, 1, 1, -1));
+  EXPECT_THAT(network.compact().thicknesses(), ElementsAre(10, 25));
+  EXPECT_FALSE(make_compact(network, Rounding::none)) << "It is compact.";
+}
+
+TEST(CompactNetwork, RoundsOnlyWhatMayBeRounded) {
+  for (const double far : {10.0 / 3.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    v1::Lattice::Network network = two_walls(far);
+    EXPECT_FALSE(make_compact(network, Rounding::none)) << far;
+    EXPECT_THAT(network.joints_mm(), SizeIs(6)) << far;
+    EXPECT_EQ(make_compact(network, Rounding::to_a_step), far < 1e6) << far;
+  }
+  v1::Lattice::Network wide = two_walls(1e5 / 3.0);
+  ASSERT_TRUE(make_compact(wide, Rounding::to_a_step));
+  EXPECT_EQ(wide.compact().steps_per_mm(), 10'000) << "Differences have 32 bits.";
+  v1::Lattice::Network thin = two_walls(10.0 / 3.0);
+  thin.set_thicknesses_mm(0, 1e-7);
+  EXPECT_FALSE(make_compact(thin, Rounding::to_a_step)) << "No wall loses its thickness.";
 }
 
 }  // namespace

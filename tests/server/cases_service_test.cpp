@@ -121,7 +121,7 @@ TEST_F(CasesServiceTest, APreviewOfABadOrHugeCaseIsRefused) {
   v1::PreviewCaseRequest request;
   *request.mutable_case_() = with_text(small_case(), "lattice { hexagon { columns: 300 rows: 300 } }");
   const auto huge = try_call(*client().cases, &v1::Cases::Stub::PreviewCase, request);
-  EXPECT_THAT(huge, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "elements_per_wall"));
+  EXPECT_THAT(huge, Fails(grpc::StatusCode::RESOURCE_EXHAUSTED, "fewer cells"));
   request.mutable_case_()->set_depth_mm(-1.0);
   const auto bad = try_call(*client().cases, &v1::Cases::Stub::PreviewCase, request);
   EXPECT_THAT(bad, Fails(grpc::StatusCode::INVALID_ARGUMENT, "depth_mm"));

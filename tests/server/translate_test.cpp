@@ -5,9 +5,11 @@
 #include <map>
 #include <type_traits>
 
+#include "drawing/compact_network.h"
 #include "programs/text_proto.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
+#include "server/brick_network.h"
 #include "server/small_case.h"
 #include "translate/case_checker.h"
 #include "translate/case_to_spec.h"
@@ -20,11 +22,13 @@ namespace cellcrush {
 namespace {
 
 using google::protobuf::util::MessageDifferencer;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
 
 std::vector<std::string> fields_of(const Problems& problems) {
@@ -209,6 +213,47 @@ TEST(Translate, ANetworkComesThroughBothWays) {
   const auto checked = translate::check_case(given);
   EXPECT_THAT(fields_of(checked.response), IsEmpty());
   EXPECT_EQ(checked.wall_count, 4);
+}
+
+// Decimal fractions have no exact double: the compact form gives the very same ones.
+TEST(Translate, TheCompactFormOfANetworkIsTheSameNetwork) {
+  v1::Case given = testing::brick_network(40, 30);
+  v1::Lattice::Network& network = *given.mutable_lattice()->mutable_network();
+  for (int wall = 0; wall < network.walls_size() / 2; ++wall) network.add_rises_mm(wall % 2 == 0 ? 0.000123 : -0.01);
+  const auto lists = translate::to_spec(given);
+  ASSERT_TRUE(drawing::make_compact(network, drawing::Rounding::none));
+  EXPECT_EQ(network.joints_mm_size() + network.walls_size() + network.thicknesses_mm_size(), 0);
+  EXPECT_EQ(network.compact().steps_per_mm(), 1'000'000);
+  const auto compact = translate::to_spec(given);
+  EXPECT_THAT(compact.problems, IsEmpty());
+  EXPECT_TRUE(compact.spec.lattice == lists.spec.lattice);
+  const auto checked = translate::check_case(given);
+  EXPECT_THAT(fields_of(checked.response), IsEmpty());
+  const auto& completed = checked.response.completed_case().lattice().network();
+  EXPECT_EQ(completed.SerializeAsString(), network.SerializeAsString()) << "in the form in which it was given";
+}
+
+TEST(Translate, AProblemOfTheCompactFormNamesItsFields) {
+  v1::Case given = testing::brick_network(4, 3);
+  v1::Lattice::Network& network = *given.mutable_lattice()->mutable_network();
+  ASSERT_TRUE(drawing::make_compact(network, drawing::Rounding::none));
+  v1::Lattice::Network::Compact& compact = *network.mutable_compact();
+  compact.set_wall_differences(0, 2'000'000'000);
+  compact.set_wall_differences(1, 2'000'000'000);
+  compact.set_thicknesses(2, -3);
+  EXPECT_THAT(fields_of(translate::check_case(given).response),
+              AllOf(Contains(StartsWith("lattice.network.compact.wall_differences[0]")),
+                    Contains("lattice.network.compact.thicknesses[2]")));
+  for (const int steps : {-1, 0, 2'000'000'000}) {
+    compact.set_steps_per_mm(steps);
+    EXPECT_THAT(fields_of(translate::check_case(given).response), Contains("lattice.network.compact.steps_per_mm"));
+  }
+  compact.clear_steps_per_mm();
+  network.add_rises_mm(1.0);
+  EXPECT_THAT(fields_of(translate::check_case(given).response),
+              AllOf(Contains("lattice.network.compact.steps_per_mm"), Contains("lattice.network.rises_mm")));
+  compact.mutable_rises()->Resize(200'001, 0);
+  EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("lattice.network.compact.rises"));
 }
 
 TEST(Translate, AVoronoiHoneycombAndItsChangesComeThroughBothWays) {

@@ -1,4 +1,5 @@
 // The drawing of the lattice of a case that does not run yet.
+import { Code, ConnectError } from "@connectrpc/connect";
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
 import { api } from "../api/clients";
 import { latticeOf } from "../frames/lattice";
@@ -7,7 +8,7 @@ import { legendOf } from "../picture/marks";
 import { Picture } from "../picture/picture";
 import { facesOf } from "../picture/rigid_walls";
 
-const kMostElements = 150_000;
+const kSurelyDrawn = 150_000; // elements
 
 export class Preview {
   readonly element: HTMLElement;
@@ -34,7 +35,6 @@ export class Preview {
     this.shownKey = key;
     this.abort.abort();
     const abort = (this.abort = new AbortController());
-    if (elementCount > kMostElements) return setText(this.note, "The mesh is too large for a drawing.");
     try {
       const { mesh, marks } = await api.cases.previewCase({ case: value }, { signal: abort.signal });
       if (!mesh || abort.signal.aborted) return;
@@ -42,7 +42,9 @@ export class Preview {
       this.picture.setLattice(latticeOf(mesh));
       this.picture.showUndeformed(facesOf(value), marks);
       replaceChildren(this.legend, ...legendOf(marks));
-    } catch {
+    } catch (error) {
+      if (elementCount > kSurelyDrawn && ConnectError.from(error).code === Code.ResourceExhausted)
+        return setText(this.note, "The mesh is too large for a drawing.");
       this.shownKey = ""; // the check has told the problem; the next change draws again
     }
   }
