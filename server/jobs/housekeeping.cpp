@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "store/lattice_file.h"
+
 namespace cellcrush::jobs {
 namespace {
 
@@ -89,6 +91,7 @@ bool Housekeeping::delete_ended(const std::stop_token& stop) {
     run_posted();
     return stop.stop_requested();
   };
+  store::remove_unused_lattices(parts_.folder.lattices());
   parts_.deletion.finish_sweeps(given_up);
   retention_.measure(given_up);
   return retention_.enforce(given_up);

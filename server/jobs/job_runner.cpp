@@ -9,6 +9,7 @@
 #include "jobs/outcome.h"
 #include "pause.h"
 #include "store/job_state.h"
+#include "store/journal_mending.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::jobs {
@@ -149,6 +150,7 @@ void JobRunner::end_leftover_if_possible(std::int64_t job) {
 }
 
 worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
+  if (!stored.has_case) throw store::unreadable_case(stored.number);
   worker::Order order;
   order.set_job(store::name_of(stored.number));
   *order.mutable_case_() = stored.job.case_();

@@ -23,6 +23,7 @@
 #include "jobs/report_feed.h"
 #include "jobs/worker_process.h"
 #include "store/durable_file.h"
+#include "store/lattice_file.h"
 #include "worker/claim.h"
 #include "worker/worker_main.h"
 
@@ -247,7 +248,7 @@ WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order
     return {.kind = WorkerExit::Kind::broken};
   }
   if (process) return follow(*process, follower, events, oom_kills_);
-  write_order(folder, order);
+  write_order(folder, store::put_lattice_apart(folder, order));
   pid_t child = 0;
   std::vector<std::string> command = {program_.string(), "worker", "--folder", folder.root().string()};
   if (life_ == Life::ends_with_parent) command.insert(command.end(), {"--end-with", std::to_string(getpid())});

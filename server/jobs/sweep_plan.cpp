@@ -19,6 +19,7 @@
 #include "jobs/case_field.h"
 #include "jobs/seed_means.h"
 #include "jobs/sweep_points.h"
+#include "store/large_lattice.h"
 #include "translate/case_checker.h"
 
 namespace cellcrush::jobs {
@@ -45,7 +46,9 @@ class JobMaker {
 namespace {
 
 constexpr std::size_t kLongestTitle = 200;                 // of a case, in bytes
-constexpr std::size_t kMostCaseBytes = 256 * 1024 * 1024;  // of all cases of a sweep
+constexpr std::size_t kMostCaseBytes = 256 * 1024 * 1024;  // of all cases of a sweep, as the journal keeps them
+constexpr std::size_t kMostMadeBytes = std::size_t{1}
+                                       << 30;  // of all cases, each of which is made, checked and written
 // Checked before merging the problems, which may be numerous.
 constexpr std::size_t kPointsAtOnce = 64;
 // Of the sweep with the names of its jobs, each of up to this many bytes: the daemon returns both in one message, which
@@ -83,8 +86,19 @@ std::string title_of(std::string title, std::string point) {
   return title.empty() ? point : title + ", " + point;
 }
 
-// Throws InvalidField if the sweep is too large for its number of points.
-void check_sizes(const v1::Sweep& sweep, std::size_t points) {
+// Size of the walls that all cases of the sweep have in common, and the journal keeps once; 0 for small ones.
+std::size_t bytes_in_common(const v1::Sweep& sweep, const std::vector<std::string>& fields) {
+  v1::Case without = sweep.case_();
+  const auto walls = store::take_lattice_out(without);
+  const auto& lattice = sweep.case_().lattice();
+  const auto* kind = lattice.GetReflection()->GetOneofFieldDescriptor(lattice, lattice.GetDescriptor()->oneof_decl(0));
+  const auto varies = [&](const std::string& field) { return field.starts_with("lattice." + kind->name() + "."); };
+  return !walls || std::ranges::any_of(fields, varies) ? 0 : walls->size();
+}
+
+// Throws InvalidField if the sweep is too large for its points.
+void check_sizes(const v1::Sweep& sweep, const SweepPoints& given) {
+  const std::size_t points = given.values.size();
   if (const std::size_t bytes = sweep.ByteSizeLong(); bytes + kNameBytes * points > kMostNamedBytes) {
     throw InvalidField(
         "sweep", "has " + std::to_string(bytes) + " bytes, too many with " + std::to_string(points) + " points.",
@@ -92,9 +106,13 @@ void check_sizes(const v1::Sweep& sweep, std::size_t points) {
             " bytes for so many points. Lists on axes that advance together (with_previous) take 8 bytes "
             "a value, entries of `points` several times as much.");
   }
-  if (sweep.case_().ByteSizeLong() * points > kMostCaseBytes) {
+  const std::size_t whole = sweep.case_().ByteSizeLong();
+  const bool is_kept = (whole - bytes_in_common(sweep, given.fields)) * points <= kMostCaseBytes;
+  if (!is_kept || whole * points > kMostMadeBytes) {
     throw InvalidField("sweep", "has " + std::to_string(points) + " points, too many for a case of this size.",
-                       "Use fewer points: all cases together may have at most 256 MiB.");
+                       is_kept ? "Use fewer points: all cases together may have at most 1 GiB."
+                               : "Use fewer points: all cases together may have at most 256 MiB, in which walls that "
+                                 "no point changes do not count.");
   }
   if (bytes_of_labels(sweep) * points > kMostLabelBytes) {
     throw InvalidField(
@@ -300,7 +318,7 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
   SweepPlan out;
   out.maker = std::make_shared<const JobMaker>(sweep, checking.executor);
   const SweepPoints& points = out.maker->points();
-  check_sizes(sweep, points.values.size());
+  check_sizes(sweep, points);
   PointProblems problems(points.values.size(), PointProblems::Merge::equal);
   PointProblems notes(points.values.size(), PointProblems::Merge::but_for_numbers);
   std::map<int, std::vector<std::size_t>> points_of_mesh;

@@ -16,6 +16,7 @@
 #include "error.h"
 #include "slurm/small_file.h"
 #include "store/durable_file.h"
+#include "store/lattice_file.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::slurm {
@@ -192,6 +193,7 @@ void prepare_shared_folder(const ClusterOptions& options, const fs::path& data_f
   }
   const auto named = named_attempts(data_folder);
   remove_unused(folder / "attempts", [&](const fs::path& path) { return named.contains(path.filename()); });
+  store::remove_unused_lattices(folder / "lattices");
   remove_unused(folder / "batches", [&](const fs::path& path) {
     const auto batch = read_message<Batch>(path / "tasks");
     if (!batch) return false;

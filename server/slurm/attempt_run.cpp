@@ -14,6 +14,7 @@
 #include "pause.h"
 #include "slurm/attempt_exit.h"
 #include "slurm/small_file.h"
+#include "store/lattice_file.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -26,6 +27,8 @@ constexpr std::chrono::milliseconds kBetweenBeats{5'000};
 void AttemptRun::run(const store::JobFolder& folder) {
   const auto order = read_message<worker::Order>(folder.order(), kOrder);
   if (!order) throw ServiceError(ServiceError::Kind::data_loss, folder.order().string() + " is damaged.");
+  worker::Order whole = *order;
+  store::read_lattice_of(folder, whole);
   mirror_.emplace(folder, shared_.files(), size_of(folder.reports()));
   jobs::WorkerEvents events;
   events.started = [](int) {};

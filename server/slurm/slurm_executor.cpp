@@ -14,6 +14,7 @@
 #include "slurm/mirror.h"
 #include "slurm/small_file.h"
 #include "store/durable_file.h"
+#include "store/lattice_file.h"
 #include "store/report_log.h"
 #include "store/resource_name.h"
 #include "store/result_writer.h"
@@ -110,6 +111,7 @@ void SlurmExecutor::tidy_up_after(const Attempt& attempt, bool has_begun) {
       if (!is_over(batch->tasks(task))) return;
     }
     if (const int error = store::remove_own(folder); error != 0) store::throw_file_error(folder, "removed", error);
+    store::remove_unused_lattices(AttemptFolder(options_.folder, attempt.id()).files().lattices());
   } catch (const std::exception& error) {
     spdlog::warn("{} cannot be removed: {}", folder.string(), error.what());
   }
@@ -142,7 +144,7 @@ std::shared_ptr<Submission> SlurmExecutor::open_attempt(const store::JobFolder& 
     const AttemptFolder partial(shared.root().string() + ".partial");
     if (const int error = store::make_own_folder(partial.root()); error != 0)
       store::throw_file_error(partial.root(), "used", error);
-    write_small_file(partial.files().order(), order.SerializeAsString());
+    write_small_file(partial.files().order(), store::put_lattice_apart(partial.files(), order).SerializeAsString());
     copy_run(folder, partial.files());
     partial.request(Request::NONE);
     if (const int error = store::rename_own(partial.root(), shared.root()); error != 0)

@@ -129,6 +129,8 @@ void compute(const std::string& id, const AttemptFolder& shared, const TaskOptio
     const store::JobFolder folder(scratch.path());
     patiently(end, [&] {
       copy_durably(shared.files().order(), folder.order(), kOrder);
+      if (store::is_own_file(shared.files().lattice()))
+        copy_durably(shared.files().lattice(), folder.lattice(), kOrder);
       copy_run(shared.files(), folder);
     });
     jobs::LocalProcess workers(options.worker_program, kStallLimit, jobs::count_oom_kills,

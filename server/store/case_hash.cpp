@@ -17,6 +17,10 @@ std::string hash_of(const google::protobuf::Message& message) {
     coded.SetSerializationDeterministic(true);
     message.SerializeToCodedStream(&coded);
   }
+  return sha256_of(bytes);
+}
+
+std::string sha256_of(std::string_view bytes) {
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
   SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest.data());
   return absl::BytesToHexString({reinterpret_cast<const char*>(digest.data()), digest.size()});

@@ -163,8 +163,9 @@ void DataFolder::set_aside(std::int64_t job, const std::string& reason) const {
 
 void DataFolder::clean_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
-  for (const auto& path : {folder.partial_result(), folder.order(), folder.claim(), folder.partial_checkpoint(),
-                           folder.previous_checkpoint(), folder.checkpoint(), folder.attempt()})
+  for (const auto& path :
+       {folder.partial_result(), folder.order(), folder.lattice(), folder.claim(), folder.partial_checkpoint(),
+        folder.previous_checkpoint(), folder.checkpoint(), folder.attempt()})
     remove_file(path);
   // Reports go last: they mark a folder that holds more than a result. Without a result, they are the job's history.
   const bool is_history = has_reports(job) && !find_own(folder.result()) && !find_own(folder.history());

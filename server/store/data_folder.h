@@ -21,6 +21,7 @@ std::optional<std::string> daemon_of(const std::filesystem::path& root);
 ///   ballast         room for what is owed when the disk is full
 ///   ballast.start   room for a start on a full disk
 ///   jobs/N/         what job N leaves: result.h5 (result_format.md)
+///   lattices/       large lattices of jobs that run (lattice_file.h)
 ///   set-aside/      what was found in jobs/ and belongs to no job, or could not be used
 class DataFolder {
  public:
@@ -38,6 +39,8 @@ class DataFolder {
   /// Deletes everything but the result from the folder of an ended job. Without one, the reports become its history.
   /// Throws ServiceError.
   void clean_job_folder(std::int64_t job) const;
+
+  [[nodiscard]] std::filesystem::path lattices() const { return root_ / "lattices"; }
 
   /// Whether the job's folder contains reports of workers.
   [[nodiscard]] bool has_reports(std::int64_t job) const;

@@ -13,6 +13,9 @@ class JobFolder {
 
   [[nodiscard]] const std::filesystem::path& root() const { return root_; }
   [[nodiscard]] std::filesystem::path order() const { return root_ / "order"; }
+  /// The lattice of the order, if large (lattice_file.h), and the folder of those that are shared.
+  [[nodiscard]] std::filesystem::path lattice() const { return root_ / "lattice"; }
+  [[nodiscard]] std::filesystem::path lattices() const { return root_.parent_path().parent_path() / "lattices"; }
   [[nodiscard]] std::filesystem::path claim() const { return root_ / "worker"; }
   [[nodiscard]] std::filesystem::path reports() const { return root_ / "reports"; }
   /// The samples of an ended job whose result does not have them; as the reports.

@@ -32,8 +32,10 @@ void add_state(Database& database, std::int64_t number, const v1::Job& job, std:
 }
 
 void insert_mesh(Database& database, std::int64_t job, const v1::Mesh& mesh) {
-  Statement insert(database, "INSERT OR REPLACE INTO meshes (job, mesh) VALUES (?1, ?2)");
-  insert.bind(1, job).bind_blob(2, mesh.SerializeAsString()).run();
+  // Deleted first, which a replacement is not to the trigger that forgets contents.
+  Statement(database, "DELETE FROM meshes WHERE job = ?1").bind(1, job).run();
+  Statement insert(database, "INSERT INTO meshes (job, mesh) VALUES (?1, ?2)");
+  insert.bind(1, job).bind_blob(2, ContentWriter(database).of_mesh(mesh)).run();
 }
 
 bool has_job(Database& database, std::int64_t job) {
@@ -49,6 +51,7 @@ void remove_rows(Database& database, std::int64_t job) {
 
 JobInserter::JobInserter(Database& database)
     : database_(database),
+      contents_(database),
       job_(database,
            "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence, priority, "
            "submission, element_steps, owner, title, bytes, executor, case_checksum) "
@@ -60,11 +63,13 @@ std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   job.set_state(v1::Job::PENDING);
   if (job.executor().empty()) job.set_executor(kLocalExecutor);
   *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
-  // Removed temporarily, so that the bytes are made without copying it.
+  // Taken out, so that the bytes are made without it.
   const std::unique_ptr<v1::Case> submitted(job.release_case_());
   if (submitted) job.set_title(submitted->title());
   const std::string bytes = job_bytes(job);
-  const std::string case_bytes = submitted ? submitted->SerializeAsString() : "";
+  const std::string title = submitted ? folded_title(submitted->title()) : "";
+  const std::size_t case_size = submitted ? submitted->ByteSizeLong() : 0;
+  const std::string case_bytes = submitted ? contents_.of_case(std::move(*submitted)) : "";
   job_.bind(1, v1::Job::PENDING).bind_blob(2, bytes).bind_blob(3, case_bytes);
   if (entry.request_id.empty()) {
     job_.bind_null(4).bind_null(5);
@@ -72,8 +77,7 @@ std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
     job_.bind_text(4, entry.request_id).bind_text(5, entry.request_hash);
   }
   job_.bind(6, job.priority()).bind(8, entry.element_steps).bind_text(9, job.owner());
-  job_.bind_text(10, submitted ? folded_title(submitted->title()) : "");
-  job_.bind(11, static_cast<std::int64_t>(case_bytes.size() + 2 * bytes.size()));
+  job_.bind_text(10, title).bind(11, static_cast<std::int64_t>(case_size + 2 * bytes.size()));
   job_.bind_text(12, executor_column(job.executor()));
   entry.submission ? job_.bind(7, *entry.submission) : job_.bind_null(7);
   job_.run();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cellcrush/v1/job.pb.h"
+#include "store/contents.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -44,6 +45,7 @@ class JobInserter {
 
  private:
   Database& database_;
+  ContentWriter contents_;
   Statement job_;
   Statement event_;
   Statement label_;

@@ -157,11 +157,13 @@ void Journal::note_service_clock() {
 void Journal::set_measured(const std::vector<Measured>& jobs) {
   if (jobs.empty()) return;
   writes_.run([&] {
-    Statement update(database_,
-                     "UPDATE jobs SET measured = 1, bytes = ?2 + LENGTH(job) + LENGTH(submitted_case) "
-                     "+ COALESCE((SELECT SUM(LENGTH(payload)) FROM events WHERE job = ?1), 0) "
-                     "+ COALESCE((SELECT LENGTH(mesh) FROM meshes WHERE job = ?1), 0) "
-                     "WHERE number = ?1 AND ended_at IS NOT NULL");
+    // What it shares with others counts in full.
+    Statement update(database_, "UPDATE jobs SET measured = 1, bytes = ?2 + LENGTH(job) + LENGTH(submitted_case) + " +
+                                    content_size_of("jobs") +
+                                    " + COALESCE((SELECT SUM(LENGTH(payload)) FROM events WHERE job = ?1), 0) "
+                                    "+ COALESCE((SELECT LENGTH(mesh) + " +
+                                    content_size_of("meshes") +
+                                    " FROM meshes WHERE job = ?1), 0) WHERE number = ?1 AND ended_at IS NOT NULL");
     for (const auto& [job, folder_bytes] : jobs) update.bind(1, job).bind(2, folder_bytes).run();
   });
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "store/contents.h"
 #include "store/job_filter.h"
 #include "store/job_rows.h"
 #include "store/job_state.h"
@@ -31,11 +32,12 @@ std::vector<DamagedJob> find_damaged(Database& database) {
   Statement read(database,
                  "SELECT number, state, job, submitted_case, checksum = expected_checksum AS is_whole, "
                  "case_checksum = row_checksum(submitted_case) AS has_case FROM jobs ORDER BY number");
+  ContentReader contents(database);
   std::vector<DamagedJob> out;
   while (read.step()) {
     DamagedJob row{read.integer(0), read.integer(1), {}, {}, false, false};
     row.has_job = read.integer(4) != 0 && read_job_bytes(read.bytes(2), row.state, row.job);
-    row.has_case = read.integer(5) != 0 && row.submitted.ParseFromString(read.bytes(3));
+    row.has_case = read.integer(5) != 0 && contents.read_case(read.bytes(3), row.submitted);
     if (!row.has_job || !row.has_case) out.push_back(std::move(row));
   }
   return out;
@@ -85,7 +87,8 @@ void rewrite_row(Database& database, const DamagedJob& row, const std::filesyste
                    "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4, samples = ?5, begun_again = ?6, "
                    "states = (SELECT COUNT(*) FROM events WHERE job = ?1), priority = ?7, owner = ?8, title = ?9, "
                    "executor = ?10, ended_at = ?11, submission = NULL, element_steps = 0, measured = 0, "
-                   "bytes = LENGTH(submitted_case) + 2 * LENGTH(?3) WHERE number = ?1");
+                   "bytes = LENGTH(submitted_case) + 2 * LENGTH(?3) + " +
+                       content_size_of("jobs") + " WHERE number = ?1");
   update.bind(1, row.number).bind(2, row.job.state()).bind_blob(3, job_bytes(row.job));
   update.bind(4, std::max(newest, begun_again + samples + states)).bind(5, samples).bind(6, begun_again);
   update.bind(7, row.job.priority()).bind_text(8, row.job.owner()).bind_text(9, folded_title(row.submitted.title()));
@@ -148,6 +151,11 @@ ServiceError unreadable_entry(std::int64_t job) {
   return {
       ServiceError::Kind::data_loss,
       "The records of " + name_of(job) + " cannot be read: the journal was damaged. Restart the daemon to repair it."};
+}
+
+ServiceError unreadable_case(std::int64_t job) {
+  return {ServiceError::Kind::data_loss,
+          "The case of " + name_of(job) + " cannot be read: the journal was damaged. Restore a backup."};
 }
 
 ServiceError unreadable_sweep(std::int64_t sweep) {

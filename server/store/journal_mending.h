@@ -17,6 +17,9 @@ bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job);
 /// The error for a row of a job that was damaged since the journal was opened: data_loss.
 ServiceError unreadable_entry(std::int64_t job);
 
+/// The same for the case of a job.
+ServiceError unreadable_case(std::int64_t job);
+
 /// The error for a sweep whose request or points are damaged: data_loss.
 ServiceError unreadable_sweep(std::int64_t sweep);
 

@@ -57,14 +57,16 @@ struct JournalReader::Numbers {
 };
 
 JournalReader::JournalReader(const std::filesystem::path& path)
-    : database_(path), epoch_(read_epoch(database_)), samples_(path.parent_path()) {}
+    : database_(path), contents_(database_), epoch_(read_epoch(database_)), samples_(path.parent_path()) {}
 
 StoredJob JournalReader::read_job(const Statement& row) {
   StoredJob out;
   out.number = row.integer(0);
   out.is_damaged = row.integer(6) == 0 || !read_job_bytes(row.bytes(1), row.integer(4), out.job);
   if (out.is_damaged) set_corrupt(out.job);
-  if (row.integer(7) == 0 || !out.job.mutable_case_()->ParseFromString(row.bytes(2))) out.job.mutable_case_()->Clear();
+  v1::Case& submitted = *out.job.mutable_case_();
+  out.has_case = row.integer(7) != 0 && contents_.read_case(row.bytes(2), submitted);
+  if (!out.has_case) submitted.Clear();
   out.job.set_name(name_of(out.number));
   out.last_sequence = row.integer(3);
   out.samples = row.integer(5);
@@ -240,7 +242,7 @@ std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
   Statement read(database_, "SELECT mesh, checksum = expected_checksum FROM meshes WHERE job = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
   v1::Mesh mesh;
-  if (read.integer(1) != 0 && mesh.ParseFromString(read.bytes(0))) return mesh;
+  if (read.integer(1) != 0 && contents_.read_mesh(read.bytes(0), mesh)) return mesh;
   spdlog::error("The mesh of {} cannot be read: the journal was damaged.", name_of(job));
   return std::nullopt;
 }

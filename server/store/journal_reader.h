@@ -13,6 +13,7 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "mutex.h"
+#include "store/contents.h"
 #include "store/job_filter.h"
 #include "store/journal_schema.h"
 #include "store/page_room.h"
@@ -28,6 +29,7 @@ struct StoredJob {
   v1::Job job;
   std::int64_t last_sequence = 0;
   std::int64_t samples = 0;  ///< since it last began
+  bool has_case = true;      ///< whether its case could be read; an empty one stands for it otherwise
   bool is_damaged = false;   ///< `job` is then FAILED with STORE_CORRUPT, whatever it was
 };
 
@@ -106,7 +108,7 @@ class JournalReader {
       "number, job, submitted_case, last_sequence, state, samples, checksum = expected_checksum, "
       "case_checksum = row_checksum(submitted_case)";
   /// A row damaged since the journal was opened is presented as such.
-  static StoredJob read_job(const Statement& row);
+  StoredJob read_job(const Statement& row) CELLCRUSH_REQUIRES(mutex_);
 
   /// Numbers between these two, exclusive.
   struct Range {
@@ -129,6 +131,7 @@ class JournalReader {
 
   Mutex mutex_;
   Database database_ CELLCRUSH_GUARDED_BY(mutex_);
+  ContentReader contents_ CELLCRUSH_GUARDED_BY(mutex_);
   std::set<std::pair<std::int64_t, std::int64_t>> said_ CELLCRUSH_GUARDED_BY(mutex_);  ///< jobs and runs, once each
   Epoch epoch_;
   SampleReader samples_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "error.h"
+#include "store/contents.h"
 #include "store/durable_file.h"
 #include "store/job_folder.h"
 #include "store/job_state.h"
@@ -91,7 +92,7 @@ void upgrade_from_version_6(Database& database, const std::filesystem::path& dat
       "PRAGMA user_version = 7;");
 }
 
-constexpr std::int64_t kVersion = 8;
+constexpr std::int64_t kVersion = 9;
 
 // As version 7 had them; those of a new journal are then sealed too.
 constexpr const char* kTables = R"sql(
@@ -253,9 +254,9 @@ void require_known_version(Database& database) {
       ServiceError::Kind::failed_precondition,
       "The journal has version " + std::to_string(version) + "; this daemon supports version " +
           std::to_string(kVersion) + ". " +
-          (version == 6 || version == 7 ? "cellcrushd upgrades the folder when it starts on it."
-                                        : std::string("Run ") + (version > kVersion ? "a newer" : "an earlier") +
-                                              " cellcrushd, or use another data folder."));
+          (version >= 6 && version < kVersion ? "cellcrushd upgrades the folder when it starts on it."
+                                              : std::string("Run ") + (version > kVersion ? "a newer" : "an earlier") +
+                                                    " cellcrushd, or use another data folder."));
 }
 
 std::int64_t prepare_journal(Database& database, const std::filesystem::path& data_folder) {
@@ -268,6 +269,11 @@ std::int64_t prepare_journal(Database& database, const std::filesystem::path& da
   if (journal_version(database) == 7) {
     seal_tables(database);
     database.execute("PRAGMA user_version = 8");
+  }
+  // Rows of version 8 keep their large parts to themselves.
+  if (journal_version(database) == 8) {
+    add_contents(database);
+    database.execute("PRAGMA user_version = 9");
   }
   require_known_version(database);
   if (read_epoch(database).id.empty()) {

@@ -37,8 +37,8 @@ Epoch epoch_for_callers(Epoch epoch, const std::filesystem::path& journal);
 /// Starts a new epoch; `restored` as in Epoch. Throws ServiceError.
 void begin_epoch(Database& database, const std::string& restored);
 
-/// Creates the tables of a new journal, or upgrades one of the two versions before. Returns the seconds counted by the
-/// service clock (ServiceClock). Throws ServiceError (failed_precondition) for a journal of another version.
+/// Creates the tables of a new journal, or upgrades one of the three versions before. Returns the seconds counted by
+/// the service clock (ServiceClock). Throws ServiceError (failed_precondition) for a journal of another version.
 std::int64_t prepare_journal(Database& database, const std::filesystem::path& data_folder);
 
 /// Throws ServiceError (failed_precondition) for a journal of another version.

@@ -14,11 +14,11 @@ namespace cellcrush::store {
 namespace {
 
 // A sweep stores its request; its jobs and states are looked up.
-std::string sweep_bytes(v1::Sweep sweep) {
+std::string sweep_bytes(Database& database, v1::Sweep sweep) {
   sweep.clear_name();
   sweep.clear_jobs();
   sweep.clear_state_counts();
-  return sweep.SerializeAsString();
+  return ContentWriter(database).of_sweep(std::move(sweep));
 }
 
 void note_request(Database& database, std::int64_t sweep, const std::string& request_id,
@@ -55,10 +55,12 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
       "sweep_jobs.stopped)) "
       "ORDER BY sweep_jobs.position");
   read.bind(1, sweep).bind(2, v1::Job::FAILED).bind(3, v1::Job::CANCELLED);
+  ContentReader contents(database);
   std::vector<Retry> out;
   while (read.step()) {
-    if (read.integer(5) == 0) throw unreadable_entry(read.integer(0));
     auto& [job, queued] = out.emplace_back();
+    if (read.integer(5) == 0 || !contents.read_case(read.bytes(2), *job.mutable_case_()))
+      throw unreadable_entry(read.integer(0));
     v1::Job ended;
     ended.ParseFromString(read.bytes(1));
     *job.mutable_labels() = ended.labels();
@@ -68,7 +70,6 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
     job.set_executor(ended.executor().empty() ? kLocalExecutor : ended.executor());
     job.set_retry_of(name_of(read.integer(0)));
     job.set_sweep(sweep_name_of(sweep));
-    job.mutable_case_()->ParseFromString(read.bytes(2));
     queued = {
         read.integer(0), 0, ended.priority(), read.integer(3), sweep, static_cast<int>(read.integer(4)), ended.owner(),
         job.executor()};
@@ -122,7 +123,7 @@ Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<S
     Statement insert(database_,
                      "INSERT INTO sweeps (sweep, max_parallel, max_failures, owner, deleting) "
                      "VALUES (?1, ?2, ?3, ?4, ?5)");
-    insert.bind_blob(1, sweep_bytes(sweep)).bind(2, sweep.max_parallel()).bind(3, sweep.max_failures());
+    insert.bind_blob(1, sweep_bytes(database_, sweep)).bind(2, sweep.max_parallel()).bind(3, sweep.max_failures());
     insert.bind_text(4, sweep.owner()).bind(5, in_parts ? 1 : 0).run();
     created.sweep = database_.last_number();
     if (in_parts) creation.begin(created.sweep);

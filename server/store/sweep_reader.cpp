@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cellcrush/v1/job.pb.h"
+#include "store/contents.h"
 #include "store/journal_mending.h"
 #include "store/resource_name.h"
 
@@ -18,7 +19,7 @@ std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep, Jobs jobs) 
   Statement read(database_,
                  "SELECT sweep, checksum = expected_checksum FROM sweeps WHERE number = ?1 AND deleting = 0");
   if (!read.bind(1, sweep).step()) return std::nullopt;
-  bool is_whole = read.integer(1) != 0 && out.ParseFromString(read.bytes(0));
+  bool is_whole = read.integer(1) != 0 && ContentReader(database_).read_sweep(read.bytes(0), out);
   Statement members(
       database_,
       "SELECT jobs.number, CASE WHEN jobs.checksum = jobs.expected_checksum THEN jobs.state ELSE ?2 END, "

@@ -9,6 +9,7 @@
 #include "error.h"
 #include "store/backup_manifest.h"
 #include "store/change_count.h"
+#include "store/contents.h"
 #include "store/job_folder.h"
 #include "store/job_rows.h"
 #include "store/job_state.h"
@@ -97,11 +98,13 @@ class JournalCheck {
                    "(SELECT MAX(sequence) FROM events WHERE events.job = jobs.number), "
                    "checksum = expected_checksum, case_checksum = row_checksum(submitted_case), "
                    "states = (SELECT COUNT(*) FROM events WHERE events.job = jobs.number) FROM jobs ORDER BY number");
+    ContentReader contents(database_);
     while (read.step()) {
       ++found_.jobs;
       const std::int64_t number = read.integer(0);
       v1::Job job;
-      if (read.integer(9) == 0 || !v1::Case().ParseFromString(read.bytes(3))) add_row("The case", number);
+      v1::Case submitted;
+      if (read.integer(9) == 0 || !contents.read_case(read.bytes(3), submitted)) add_row("The case", number);
       if (read.integer(8) == 0 || !read_job_bytes(read.bytes(2), read.integer(1), job)) {
         add_row("The entry", number);
         continue;
@@ -132,7 +135,9 @@ class JournalCheck {
   void check_meshes() {
     Statement read(database_, "SELECT job, mesh, checksum = expected_checksum FROM meshes");
     while (read.step()) {
-      if (read.integer(2) == 0 || !v1::Mesh().ParseFromString(read.bytes(1))) add_row("The mesh", read.integer(0));
+      v1::Mesh mesh;
+      if (read.integer(2) == 0 || !ContentReader(database_).read_mesh(read.bytes(1), mesh))
+        add_row("The mesh", read.integer(0));
     }
   }
 
@@ -140,7 +145,8 @@ class JournalCheck {
     Statement sweeps(database_, "SELECT number, sweep, checksum = expected_checksum FROM sweeps");
     while (sweeps.step()) {
       ++found_.sweeps;
-      if (sweeps.integer(2) == 0 || !v1::Sweep().ParseFromString(sweeps.bytes(1)))
+      v1::Sweep sweep;
+      if (sweeps.integer(2) == 0 || !ContentReader(database_).read_sweep(sweeps.bytes(1), sweep))
         add(unreadable_sweep(sweeps.integer(0)).what());
     }
     Statement points(database_, "SELECT job, point, checksum = expected_checksum FROM sweep_jobs");

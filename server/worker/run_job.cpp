@@ -15,6 +15,7 @@
 #include "cellcrush/run_memory.h"
 #include "cellcrush/scene.h"
 #include "error.h"
+#include "store/lattice_file.h"
 #include "store/own_folder.h"
 #include "translate/case_to_spec.h"
 #include "translate/results.h"
@@ -309,8 +310,13 @@ Final left_for(const ServiceError& error, const store::JobFolder& folder, const 
   return out;
 }
 
-Final end_of(const store::JobFolder& folder, const Order& order, store::ReportLog& log,
-             const RequestedStop& requested_stop) {
+Final end_of(const store::JobFolder& folder, Order& order, store::ReportLog& log, const RequestedStop& requested_stop) {
+  try {
+    store::read_lattice_of(folder, order);
+  } catch (const ServiceError& error) {
+    if (error.kind() != ServiceError::Kind::data_loss) throw;
+    return failure(v1::Job::STORE_CORRUPT, error.what(), "Submit the case again.");
+  }
   if (order.has_given_up()) return give_up(folder, order, log, requested_stop, order.given_up());
   Final loss;
   try {
@@ -333,7 +339,7 @@ Final end_of(const store::JobFolder& folder, const Order& order, store::ReportLo
 
 }  // namespace
 
-void run_job(const store::JobFolder& folder, const Order& order, const RequestedStop& requested_stop) {
+void run_job(const store::JobFolder& folder, Order order, const RequestedStop& requested_stop) {
   store::ReportLog log(folder.reports());
   Report report;
   *report.mutable_final() = end_of(folder, order, log, requested_stop);

@@ -4,6 +4,8 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <utility>
+
 #include "store/durable_file.h"
 #include "worker/claim.h"
 #include "worker/run_job.h"
@@ -27,7 +29,7 @@ int run(const store::JobFolder& job) {
     Order order;
     const OpenFile file = store::open_own(job.order(), O_RDONLY, "read");
     if (!order.ParseFromFileDescriptor(file.get())) return kNoReport;
-    run_job(job, order, pending_request);
+    run_job(job, std::move(order), pending_request);
     return kReported;
   } catch (const std::exception& error) {
     return exit_code_of(error);

@@ -1,4 +1,4 @@
-// A daemon of today on the data of the two versions before (tests/server/data): nothing is lost.
+// A daemon of today on the data of the three versions before (tests/server/data): nothing is lost.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -31,30 +31,36 @@ class UpgradeTest : public FaultFixture {
     ASSERT_EQ(std::system(command.c_str()), 0);
     std::filesystem::permissions(data_folder(), std::filesystem::perms::owner_all);
   }
+
+  void serve(int version) {
+    ASSERT_NO_FATAL_FAILURE(unpack(version));
+    ASSERT_NO_FATAL_FAILURE(start_daemon({"--workers", "1"}));
+    auto client = this->client();
+    const auto jobs = all_jobs(client);
+    EXPECT_EQ(jobs.size(), 7U);
+    EXPECT_EQ(jobs.at("jobs/1").state(), v1::Job::SUCCEEDED);
+    EXPECT_EQ(jobs.at("jobs/2").state(), v1::Job::CANCELLED);
+    EXPECT_EQ(client.history("jobs/1").size(), 21U);
+    for (const char* ended : {"jobs/1", "jobs/2"}) {
+      grpc::Status status;
+      EXPECT_GT(client.download(ended, 0, status).size(), 1000U);
+      EXPECT_TRUE(status.ok()) << status.error_message();
+    }
+    EXPECT_EQ(get_sweep(client, "sweeps/1").jobs_size(), 2);
+    stop_daemon();
+    EXPECT_THAT(store::verify_folder(data_folder()).problems, IsEmpty());
+  }
 };
 
 // Damage afterwards is found, so the rows were sealed.
 TEST_F(UpgradeTest, AJournalOfVersion7IsServedAndSealed) {
-  ASSERT_NO_FATAL_FAILURE(unpack(7));
-  ASSERT_NO_FATAL_FAILURE(start_daemon({"--workers", "1"}));
-  auto client = this->client();
-  const auto jobs = all_jobs(client);
-  EXPECT_EQ(jobs.size(), 7U);
-  EXPECT_EQ(jobs.at("jobs/1").state(), v1::Job::SUCCEEDED);
-  EXPECT_EQ(jobs.at("jobs/2").state(), v1::Job::CANCELLED);
-  EXPECT_EQ(client.history("jobs/1").size(), 21U);
-  for (const char* ended : {"jobs/1", "jobs/2"}) {
-    grpc::Status status;
-    EXPECT_GT(client.download(ended, 0, status).size(), 1000U);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-  }
-  EXPECT_EQ(get_sweep(client, "sweeps/1").jobs_size(), 2);
-  stop_daemon();
-  EXPECT_THAT(store::verify_folder(data_folder()).problems, IsEmpty());
+  ASSERT_NO_FATAL_FAILURE(serve(7));
   store::Database damaged(journal());
   damaged.execute("DROP TRIGGER seal_changed_jobs; UPDATE jobs SET priority = 5 WHERE number = 2");
   EXPECT_THAT(store::verify_folder(data_folder()).problems, ElementsAre(HasSubstr("jobs/2")));
 }
+
+TEST_F(UpgradeTest, AJournalOfVersion8IsServed) { ASSERT_NO_FATAL_FAILURE(serve(8)); }
 
 TEST_F(UpgradeTest, AllJobsOfVersion6AreServedOrRunToTheirEnd) {
   ASSERT_NO_FATAL_FAILURE(unpack(6));

@@ -138,7 +138,7 @@ TEST_F(JournalTest, AChangeThatMayNotBeChangesNothing) {
 }
 
 TEST_F(JournalTest, AJournalOfAnotherVersionIsRefused) {
-  for (const char* version : {"PRAGMA user_version = 9", "PRAGMA user_version = 5"}) {
+  for (const char* version : {"PRAGMA user_version = 10", "PRAGMA user_version = 5"}) {
     reader_.reset();
     journal_.reset();
     Database(path()).execute(version);

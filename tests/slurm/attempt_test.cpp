@@ -8,6 +8,7 @@
 #include <future>
 
 #include "programs/temporary_folder.h"
+#include "server/brick_network.h"
 #include "server/small_case.h"
 #include "slurm/attempt_exit.h"
 #include "slurm/attempt_folder.h"
@@ -15,6 +16,7 @@
 #include "slurm/executor_run.h"
 #include "slurm/slurm_executor.h"
 #include "slurm/small_file.h"
+#include "slurm/task.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -219,6 +221,31 @@ TEST_F(AttemptTest, ATaskWhoseJobsAreAllCancelledBeforeItBeginsIsCancelledInSlur
   EXPECT_EQ(second.wait().kind, Kind::cancelled);
   EXPECT_EQ(text_of("cancelled"), "--quiet 17\n");
   EXPECT_TRUE(fs::is_empty(options_.folder / "batches"));
+}
+
+// The order of each attempt refers to it; the task copies it to the node's disk with the order.
+TEST_F(AttemptTest, AttemptsShareTheFileOfALargeLattice) {
+  accept_jobs();
+  command("squeue", "echo \"17|N/A|PENDING|Priority||$(cat $HERE/name)\"");
+  slurm::SlurmExecutor executor(options_, 1e-8, workers());
+  const store::JobFolder other(temporary_.path() / "jobs/2");
+  fs::create_directories(other.root());
+  const auto order = order_of(brick_network(60, 50));
+  ExecutorRun first(executor, job_, order);
+  ExecutorRun second(executor, other, order);
+  EXPECT_THAT(first.wait_for_place("PENDING"), HasSubstr("PENDING"));
+  EXPECT_THAT(second.wait_for_place("PENDING"), HasSubstr("PENDING"));
+  const auto attempt = *slurm::read_attempt(job_);
+  const store::JobFolder files = slurm::AttemptFolder(options_.folder, attempt.id()).files();
+  EXPECT_EQ(fs::hard_link_count(files.lattice()), 3U) << "of two attempts and the shared name";
+  EXPECT_LT(fs::file_size(files.order()), 4096U);
+  EXPECT_EQ(
+      slurm::run_task({.folder = options_.folder, .batch = attempt.batch(), .worker_program = CELLCRUSHD_PROGRAM}), 0);
+  for (ExecutorRun* run : {&first, &second}) {
+    const auto exit = run->wait();
+    EXPECT_TRUE(exit.final && exit.final->has_summary()) << (exit.final ? exit.final->message() : exit.detail);
+  }
+  EXPECT_TRUE(fs::is_empty(options_.folder / "lattices"));
 }
 
 }  // namespace
