@@ -41,7 +41,8 @@ std::string file_of(sqlite3* handle) {
 // Our statements fit the tables, unless the schema is damaged.
 bool is_of_schema(std::string_view reason) {
   return reason.starts_with("no such table") || reason.starts_with("no such column") ||
-         reason.starts_with("no such index") || reason.find(" has no column named ") != std::string_view::npos;
+         reason.starts_with("no such index") || reason.starts_with("unknown function") ||
+         reason.find(" has no column named ") != std::string_view::npos;
 }
 
 [[noreturn]] void fail(sqlite3* handle, int code) {
