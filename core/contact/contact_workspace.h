@@ -109,6 +109,7 @@ struct ContactSums {
   PlateForce impact;
   PlateForce support;
   std::vector<RigidWallForce> rigid_walls;
+  SideForce sides;
   /// Pairs with balls of the next band, found in a face that this band searches.
   std::vector<NewContact> of_next_band;
 };
@@ -128,6 +129,9 @@ inline void put_contact_sums(const ContactSums& sums, State& state) {
   state.impact_force = sums.impact;
   state.support_force = sums.support;
   state.rigid_wall_force = sums.rigid_walls;
+  if (!state.side_force.empty()) {
+    state.side_force.front() = sums.sides;
+  }
 }
 
 }  // namespace cellcrush

@@ -12,6 +12,7 @@
 #include "beam/element_place.h"
 #include "motion/motion_works-inl.h"
 #include "motion/particle_motion-inl.h"
+#include "motion/periodic_sides.h"
 #include "motion/rigid_motion.h"
 #include "push/push.h"
 #include "simd/lane-inl.h"
@@ -142,6 +143,7 @@ MotionWorks works_of_half_step(const Scene& scene, const State& state) {
   for (const Pusher* pusher : pushers()) {
     works.add(pusher->half_step_works(scene, state));
   }
+  works.add(half_step_works_of_sides(scene, state));
   return works;
 }
 

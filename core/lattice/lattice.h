@@ -55,6 +55,9 @@ struct LatticeKind {
   /// Joints and walls. Every joint and wall is created once, joints in the order of their first use. The extent of the
   /// joints is the envelope.
   Layout (*lay_out)(const SceneSpec& spec) = nullptr;
+  /// Length after which a lattice whose sides repeat does so, along x and along y, mm; 0 where its columns or rows
+  /// are odd in number and would have to be even.
+  Vector2 (*period)(const RegularLattice& lattice) = nullptr;
   ClosedForms (*closed_forms)(const RegularLattice& lattice, LoadingSpec::Direction direction) = nullptr;
   /// For force-based elements, at the direction and speed of the spec. Null: that of stacked walls, or of hexagons.
   DefaultMesh (*mesh)(const SceneSpec& spec) = nullptr;

@@ -44,6 +44,10 @@ void reorder_joints(const std::vector<int>& order, Layout& layout) {
     wall.start = number[wall.start];
     wall.end = number[wall.end];
   }
+  for (auto& [low, high] : layout.images) {
+    low = number[low];
+    high = number[high];
+  }
 }
 
 }  // namespace

@@ -36,6 +36,8 @@ struct Layout {
   std::vector<Vector2> joints;
   std::vector<LayoutWall> walls;
   Bounds envelope;  ///< of the joints before any imperfection; filled in by the mesh
+  /// Joints at the low side of a period and their images at the high side (lattice/period.h).
+  std::vector<std::pair<int, int>> images;
 
   [[nodiscard]] std::size_t element_count() const {
     const auto add = [](std::size_t sum, const LayoutWall& wall) { return sum + wall.elements; };

@@ -12,6 +12,7 @@
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
 #include "lattice/network.h"
+#include "lattice/period.h"
 #include "lattice/remove_walls.h"
 #include "lattice/voronoi.h"
 
@@ -130,6 +131,10 @@ ListedWalls list_walls(const SceneSpec& spec) {
   ListedWalls listed = {spec, {}, {}};
   if (!has_made_walls(spec)) return listed;
   auto [layout, words] = lay_out_unchanged(spec);
+  if (const double period = period_of(spec); period > 0.0) {
+    close_period(spec.loading.direction == LoadingSpec::Direction::x ? 1 : 0, period, layout);
+    listed.spec.loading.sides.period_mm = period;
+  }
   change(spec.changes, layout, words, listed.problems);
   listed.words = "Walls: " + words + ".";
   listed.spec.lattice = network_of(layout, spec);

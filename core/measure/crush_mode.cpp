@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "contact/repeated_mesh.h"
 #include "contact/topology/face_loops.h"
 
 namespace cellcrush {
@@ -181,6 +182,26 @@ Vector2 mean_of(std::span<const int> loop, std::span<const Vector2> position) {
   return sum / static_cast<double>(loop.size());
 }
 
+/// The faces whose centres lie within a period from the low side on.
+Faces of_one_period(const Scene& scene, const Faces& all) {
+  const int axis = scene.period.axis;
+  constexpr double kRounded = 1e-6;  // of the period; centres can lie on the side
+  const auto place_of = [axis](const Vector2& place) { return place[axis]; };
+  const double begin = place_of(std::ranges::min(scene.position, {}, place_of)) - kRounded * scene.period.length;
+  Faces faces;
+  faces.offset.push_back(0);
+  for (std::size_t face = 0; face < all.count(); ++face) {
+    const double place = all.centre[face][axis];
+    if (place < begin || place >= begin + scene.period.length) continue;
+    std::ranges::copy(all.particles_of(face), std::back_inserter(faces.particles));
+    std::ranges::copy(all.elements_of(face), std::back_inserter(faces.elements));
+    faces.offset.push_back(static_cast<int>(faces.particles.size()));
+    faces.area.push_back(all.area[face]);
+    faces.centre.push_back(all.centre[face]);
+  }
+  return faces;
+}
+
 }  // namespace
 
 double collapsed_fraction_of(const CollapseField& field) {
@@ -239,7 +260,9 @@ std::vector<double> area_ratios(const Faces& faces, std::span<const Vector2> pos
 
 Cells find_cells(const Scene& scene) {
   Cells cells;
-  cells.faces = trace_faces(scene.position, scene.elements);
+  const Scene& mesh = scene.repeated != nullptr ? *scene.repeated : scene;
+  cells.faces = trace_faces(mesh.position, mesh.elements);
+  if (scene.repeated != nullptr) cells.faces = of_one_period(scene, cells.faces);
   const int axis = scene.plates.axis;
   Vector2 low = scene.position.front();
   Vector2 high = low;
@@ -247,7 +270,7 @@ Cells find_cells(const Scene& scene) {
     low = low.cwiseMin(position);
     high = high.cwiseMax(position);
   }
-  const auto along = [&](int particle) { return scene.position[particle][axis]; };
+  const auto along = [&](int particle) { return mesh.position[particle][axis]; };
   double extents = 0.0;
   for (std::size_t face = 0; face < cells.faces.count(); ++face) {
     const auto [begin, end] = std::ranges::minmax_element(cells.faces.particles_of(face), {}, along);
@@ -261,6 +284,12 @@ Cells find_cells(const Scene& scene) {
   cells.field.width = (high - low)[1 - axis];
   cells.field.pitch = cells.faces.count() > 0 ? extents / static_cast<double>(cells.faces.count()) : 0.0;
   return cells;
+}
+
+std::span<const Vector2> places_of_cells(const Scene& scene, const State& state, std::vector<Vector2>& room) {
+  if (scene.repeated == nullptr) return state.position;
+  room = repeated_positions(scene, state);
+  return room;
 }
 
 CollapseField find_collapse(const Cells& cells, std::span<const Vector2> position) {

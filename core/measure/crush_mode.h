@@ -5,6 +5,7 @@
 
 #include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
+#include "cellcrush/state.h"
 
 namespace cellcrush {
 
@@ -82,8 +83,12 @@ struct Cells {
   CollapseField field;  ///< of the undeformed lattice, in which no cell has collapsed
 };
 
-/// Traces the cells. REQUIRES: a scene with plates.
+/// Traces the cells. Where the sides repeat, those of one period: their particles have the numbers of Scene::repeated.
+/// REQUIRES: a scene with plates.
 Cells find_cells(const Scene& scene);
+
+/// Where the particles of the cells are now.
+std::span<const Vector2> places_of_cells(const Scene& scene, const State& state, std::vector<Vector2>& room);
 
 /// The cells that have collapsed at other positions of the particles, those of a state or of a stored frame.
 CollapseField find_collapse(const Cells& cells, std::span<const Vector2> position);

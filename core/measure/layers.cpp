@@ -264,7 +264,8 @@ DensestLayer find_densest_layer(const Scene& scene, const State& state, const La
   const auto reach = static_cast<std::size_t>(std::max(1.0, size.reach * per_depth));
   DensestLayer densest;
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    const double fraction = layers[k].metal * per_depth / width_of(layers, k, reach);
+    const double fraction =
+        layers[k].metal * per_depth / (state.sides.empty() ? width_of(layers, k, reach) : state.sides.front().width);
     if (layers[k].metal > 0.0 && fraction > densest.solid_fraction) {
       densest = {fraction, layers[k].moment / layers[k].metal};
     }

@@ -28,24 +28,28 @@ std::vector<bool> find_joints(const Scene& scene) {
 }  // namespace
 
 LocalStrain::LocalStrain(const Scene& scene, const Faces& faces) : wall_count_(scene.wall_count()) {
+  const Scene& mesh = scene.repeated != nullptr ? *scene.repeated : scene;
+  const auto original_of = [&scene](int particle) { return particle % static_cast<int>(scene.particle_count()); };
   const std::vector<bool> is_joint = find_joints(scene);
   const std::vector<int> wall_of = mesh_of(scene).element_wall;
   offset_.push_back(0);
   wall_offset_.push_back(0);
   for (std::size_t face = 0; face < faces.count(); ++face) {
     std::vector<int> corners;
-    std::ranges::copy_if(faces.particles_of(face), std::back_inserter(corners), [&](int p) { return is_joint[p]; });
+    std::ranges::copy_if(faces.particles_of(face), std::back_inserter(corners),
+                         [&](int p) { return is_joint[original_of(p)]; });
     Vector2 centre = Vector2::Zero();
-    for (const int corner : corners) centre += scene.position[corner] / static_cast<double>(corners.size());
+    for (const int corner : corners) centre += mesh.position[corner] / static_cast<double>(corners.size());
     Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
     for (const int corner : corners) {
-      const Vector2 from_centre = scene.position[corner] - centre;
+      const Vector2 from_centre = mesh.position[corner] - centre;
       squares += from_centre * from_centre.transpose();
     }
     if (squares.determinant() > kOnALine * squares.trace() * squares.trace()) {
       const Vector2 column = squares.inverse().col(scene.plates.axis);
-      for (const int corner : corners) joints_.push_back({corner, (scene.position[corner] - centre).dot(column)});
-      for (const int element : faces.elements_of(face)) walls_.push_back(wall_of[element]);
+      for (const int corner : corners) joints_.push_back({corner, (mesh.position[corner] - centre).dot(column)});
+      for (const int element : faces.elements_of(face))
+        walls_.push_back(wall_of[element % static_cast<int>(scene.element_count())]);
       std::sort(walls_.begin() + wall_offset_.back(), walls_.end());
       walls_.erase(std::unique(walls_.begin() + wall_offset_.back(), walls_.end()), walls_.end());
     }

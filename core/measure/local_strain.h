@@ -17,7 +17,7 @@ class LocalStrain {
  public:
   LocalStrain() = default;
 
-  /// `faces` of the elements of the scene. REQUIRES: a scene with plates.
+  /// `faces` of the elements of the scene, or of one period (find_cells). REQUIRES: a scene with plates.
   LocalStrain(const Scene& scene, const Faces& faces);
 
   /// Overwrites the strains of all walls (Scene::wall_count), by their numbers (MeshView::element_wall): the mean of

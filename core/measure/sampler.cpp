@@ -204,7 +204,8 @@ void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& s
   if (cells_.faces.count() == 0) {
     return;
   }
-  const CollapseField field = find_collapse(cells_, state.position);
+  std::vector<Vector2> room;
+  const CollapseField field = find_collapse(cells_, places_of_cells(scene, state, room));
   sample.collapsed_fraction = collapsed_fraction_of(field);
   if (sample.collapsed_fraction >= next_check_ && next_check_ <= kModeTo) {
     sample.crush_mode = find_crush_mode(field);
@@ -249,7 +250,8 @@ Sample Sampler::take(const Scene& scene, const State& state) {
     sample.strain = state.impact_travel / scene.length;
     measure_stress(scene, state, sample);
     measure_efficiency(sample);
-    sample.lateral_strain = lateral_strain_of(side_pairs_, scene, state);
+    sample.lateral_strain = state.sides.empty() ? lateral_strain_of(side_pairs_, scene, state)
+                                                : state.sides.front().width / scene.period.length - 1.0;
     measure_collapse(scene, state, sample);
   }
   measure_closing(scene, state, sample);
@@ -284,7 +286,8 @@ void Sampler::make_frame(const Scene& scene, const State& state, int index, Fiel
         scene.single_fibres ? yielded.of(state.single_fibres, place) : yielded.of(state.fibres, place));
   });
   evaluate_fibre_strains(scene, state, frame.fibre_strain);
-  local_strain_.evaluate(state.position, frame.local_strain);
+  std::vector<Vector2> room;
+  local_strain_.evaluate(places_of_cells(scene, state, room), frame.local_strain);
 }
 
 }  // namespace cellcrush

@@ -185,6 +185,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, std::span<const Sample
 }
 
 std::string deepest_place(const Scene& scene, const State& state) {
+  if (scene.repeated != nullptr) return "";  // the lists have the numbers of its copies
   int ball = -1;
   int segment = -1;
   double most = 0.0;

@@ -79,7 +79,12 @@ State place_particles(const Scene& scene) {
     state.fastest_step.resize(1);
   }
   state.contacts.resize(scene.bands.size());
-  state.parted.assign(scene.start_overlaps.pairs.size(), 0);
+  const Scene& touching = scene.repeated != nullptr ? *scene.repeated : scene;
+  state.parted.assign(touching.start_overlaps.pairs.size(), 0);
+  if (scene.period.repeats()) {
+    state.sides = {{scene.period.length, 0.0, 0.0}};
+    state.side_force.resize(1);
+  }
   state.rigid_centre = scene.rigid.centre;
   state.rigid_velocity.assign(scene.rigid.count(), Vector2::Zero());
   state.rigid_rotation.assign(scene.rigid.count(), 0.0);

@@ -27,6 +27,12 @@ double rub(const Scene& scene, State& state, const Face& face, int particle, dou
   return friction;
 }
 
+/// 1 / tonne of what a ball moves: of a joint that has an image, both.
+double inverse_mass_of(const Scene& scene, int particle) {
+  return scene.repeated == nullptr ? scene.inverse_mass[particle]
+                                   : scene.repeated->inverse_mass[scene.repeated->first_ball + particle];
+}
+
 }  // namespace
 
 FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int particle, double radius) {
@@ -35,8 +41,8 @@ FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int p
   FaceForce sum;
   if (depth > 0.0) {
     const double rate = face.speed - face.normal.dot(state.velocity[particle]);
-    const NormalForce force =
-        evaluate_normal_force(face.stiffness, scene.contact.damping_ratio, scene.inverse_mass[particle], depth, rate);
+    const NormalForce force = evaluate_normal_force(face.stiffness, scene.contact.damping_ratio,
+                                                    inverse_mass_of(scene, particle), depth, rate);
     sum = {force.elastic, force.viscous, 0.0, 0.5 * force.elastic * depth};
     if (face.grows && state.radius_growth[particle] > 0.0) {
       push_elements_apart(scene, state, particle, force.elastic);

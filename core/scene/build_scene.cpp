@@ -4,6 +4,7 @@
 #include "cellcrush/lattice_view.h"
 #include "cellcrush/lattice_words.h"
 #include "cellcrush/simulation.h"
+#include "contact/repeated_mesh.h"
 #include "contact/topology/bands.h"
 #include "contact/topology/face_loops.h"
 #include "contact/topology/initial_overlap.h"
@@ -38,6 +39,14 @@ void put_plates(const MeshMeasures& mesh, Scene& scene) {
 /// REQUIRES: walls that cross before loading have been refused; the overlaps of the others are known.
 void prepare_search(const SceneSpec& spec, const std::function<void()>& between_stages, Scene& scene) {
   scene.bands = {whole_band(scene)};
+  if (scene.period.repeats()) {
+    const std::shared_ptr<Scene> repeated = repeat_mesh(scene);
+    repeated->limited_reaches = find_limited_reaches(*repeated);
+    scene.faces.premise = repeated->faces.premise = ContactFaces::Premise::sides_repeat;
+    scene.start_overlaps = original_overlaps(scene, repeated->start_overlaps);
+    scene.repeated = repeated;
+    return;
+  }
   if (!scene.contact.present) {
     return;
   }

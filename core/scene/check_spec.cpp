@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "contact/repeated_mesh.h"
 #include "contact/topology/initial_overlap.h"
 #include "lattice/lattice.h"
+#include "lattice/period.h"
 #include "lattice/voronoi.h"
 #include "push/half_planes.h"
 #include "scene/grips.h"
@@ -187,12 +189,23 @@ void check_plates(const LoadingSpec& loading, FieldChecker& check) {
                  " (end_strain)");
 }
 
-void check_sides(const LoadingSpec::Sides& sides, FieldChecker& check) {
+void check_sides(const SceneSpec& spec, FieldChecker& check) {
+  const LoadingSpec::Sides& sides = spec.loading.sides;
   if (check.within_limits("loading.sides.friction", sides.friction) && sides.friction > 0.0 &&
       sides.kind != LoadingSpec::Sides::Kind::rigid) {
     check.add("loading.sides.friction", to_text(sides.friction), "is that of side walls, but there are none.",
               "Set loading.sides.kind to RIGID, or remove it.");
   }
+  const bool is_periodic = sides.kind == LoadingSpec::Sides::Kind::periodic;
+  if (sides.fixed_width && !is_periodic) {
+    check.add("loading.sides.fixed_width", "true", "is of sides that repeat, but these do not.",
+              "Set loading.sides.kind to PERIODIC, or remove it.");
+  }
+  if (sides.period_mm && !is_periodic && check.within_limits("loading.sides.period_mm", sides.period_mm)) {
+    check.add("loading.sides.period_mm", to_text(*sides.period_mm), "is of sides that repeat, but these do not.",
+              "Set loading.sides.kind to PERIODIC, or remove it.");
+  }
+  if (is_periodic && check.is_empty()) check_period(spec, check);
 }
 
 /// A run has plates or an end time. Of what has neither, a frame lacks the time, and all else the plates.
@@ -211,7 +224,7 @@ void check_loading(const SceneSpec& spec, FieldChecker& check) {
   check.within_limits("loading.gravity_x_m_per_s2", spec.loads.gravity_x_m_per_s2);
   check.within_limits("loading.gravity_y_m_per_s2", spec.loads.gravity_y_m_per_s2);
   check_half_planes(spec.loads, check);
-  check_sides(loading.sides, check);
+  check_sides(spec, check);
   check_grips(spec, check);
 }
 
@@ -306,6 +319,15 @@ Problems check_spec(const SceneSpec& spec) {
 Problems check_crossings(const SceneSpec& spec, const Scene& scene, StartOverlaps& touching) {
   constexpr std::size_t kMostCrossings = 20;  // enough to see what is wrong
   InitialOverlaps overlaps = find_initial_overlaps(scene, kMostCrossings);
+  if (scene.period.repeats()) {
+    const std::shared_ptr<Scene> repeated = repeat_mesh(scene);
+    overlaps = find_initial_overlaps(*repeated, kMostCrossings);
+    overlaps.touching = overlaps_of_balls(*repeated, overlaps.touching);
+    for (InitialCrossing& crossing : overlaps.crossings) {
+      crossing.first %= static_cast<int>(scene.element_count());
+      crossing.second %= static_cast<int>(scene.element_count());
+    }
+  }
   touching = std::move(overlaps.touching);
   const bool is_regular = regular_lattice_of(spec) != nullptr;
   if (overlaps.too_dense && overlaps.crossings.empty()) {

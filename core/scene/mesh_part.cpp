@@ -8,6 +8,7 @@
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
 #include "lattice/network.h"
+#include "lattice/period.h"
 #include "push/half_planes.h"
 #include "scene/approach_speed.h"
 #include "scene/check_spec.h"
@@ -62,11 +63,13 @@ Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   const auto* network = std::get_if<NetworkWalls>(&spec.lattice);
   const LatticeKind* kind = kind_of(spec);
   Layout layout = network != nullptr ? lay_out_network(*network, links) : kind->lay_out(spec);
+  const int axis = crush_axis_of(spec);
+  const double period = period_of(spec);
+  if (period > 0.0) close_period(1 - axis, period, layout);
   divide_walls(*spec.elements_per_wall, layout);
   const Vector2 envelope = envelope_of(layout.joints);
-  const int axis = crush_axis_of(spec);
   scene.length = envelope[axis];
-  scene.width = envelope[1 - axis];
+  scene.width = period > 0.0 ? period : envelope[1 - axis];
   if (kind != nullptr) {
     const ClosedForms forms = kind->closed_forms(*regular_lattice_of(spec), spec.loading.direction);
     scene.collapse_stress = forms.collapse_stress.value_or(0.0) * *spec.material.yield_stress_mpa;
@@ -75,8 +78,38 @@ Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   layout.envelope = bounds_of(places);
   perturb(spec.imperfection, layout.joints);
   bow(spec.imperfection, layout.walls);
-  number_columns(places, layout);
+  if (period > 0.0) {
+    align_images(1 - axis, period, layout);
+  } else {
+    number_columns(places, layout);
+  }
   return layout;
+}
+
+/// The sides that repeat. Images have no balls of their own: what would press on one presses on its joint.
+void attach_period(const SceneSpec& part, const Layout& layout, Scene& scene) {
+  if (layout.images.empty()) return;
+  scene.period.axis = 1 - crush_axis_of(part);
+  scene.period.length = period_of(part);
+  scene.period.is_fixed = part.loading.sides.fixed_width;
+  for (const auto& [low, high] : layout.images) {
+    scene.period.low.push_back(low);
+    scene.period.high.push_back(high);
+    scene.radius[low] = std::max(scene.radius[low], scene.radius[high]);
+    scene.radius[high] = 0.0;
+  }
+  scene.smallest_radius = 0.0;
+}
+
+/// Of a particle, or of a joint and its image together, tonne.
+double lightest_mass_of(const Scene& scene) {
+  std::vector<double> mass = scene.mass;
+  for (std::size_t p = 0; p < scene.period.low.size(); ++p) {
+    const int low = scene.period.low[p];
+    const int high = scene.period.high[p];
+    mass[low] = mass[high] = scene.mass[low] + scene.mass[high];
+  }
+  return std::ranges::min(mass);
 }
 
 }  // namespace
@@ -156,6 +189,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
   attach_grips(part, layout.envelope, *scene);
   scene->mass_scaling = {part.numerics.mass_scaling, part.numerics.rotary_scaling};
   lump_masses(*scene);
+  attach_period(part, layout, *scene);
   attach_side_walls(part.loading, *scene);
   lump_rigid_bodies(*scene);
   link_elements(*scene);
@@ -171,6 +205,15 @@ double extent_of(const Scene& scene, int axis) {
   const auto [low, high] =
       std::ranges::minmax(scene.position, {}, [axis](const Vector2& place) { return place[axis]; });
   return high[axis] - low[axis];
+}
+
+/// Rigid links, which move as bodies of their own.
+Problems find_rigid_in_period(const Scene& scene) {
+  if (!scene.period.repeats() || scene.rigid.count() == 0) return {};
+  return {{"numerics.rigid_link_slenderness", "",
+           "makes rigid links of " + std::to_string(scene.rigid_element_count()) +
+               " short walls, which do not go with periodic sides.",
+           "Set it to 0, or join the ends of short walls."}};
 }
 
 }  // namespace
@@ -190,7 +233,7 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   measures.relative_density = solid_mass > 0.0 ? scene.total_mass / solid_mass : 0.0;
   measures.steps = steps_of(scene);
   measures.slowest_wall = slowest_wall_of(scene);
-  measures.lightest_mass = std::ranges::min(scene.mass);
+  measures.lightest_mass = lightest_mass_of(scene);
   measures.shortest_element = std::ranges::min(scene.walls.undeformed_length);
   measures.thinnest_wall = std::ranges::min(scene.elements, {}, &Element::thickness).thickness;
   measures.approach_speed = approach_speed_of(scene);
@@ -213,13 +256,14 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
 
 MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures = measure_sound_mesh(part, scene);
-  if (measures.contact) {
+  if (measures.contact && (!scene.period.repeats() || scene.rigid.count() == 0)) {
     measures.misplaced = check_crossings(part, scene, measures.start_overlaps);
   }
   const auto* frame = std::get_if<FrameWalls>(&part.lattice);
   const Problems sunk = find_walls_in_half_planes(scene, frame == nullptr ? 0 : frame->nodes.size());
   const Problems loose = find_grip_problems(scene);
-  for (const Problems* more : {&sunk, &loose}) {
+  const Problems rigid = find_rigid_in_period(scene);
+  for (const Problems* more : {&sunk, &loose, &rigid}) {
     measures.misplaced.insert(measures.misplaced.end(), more->begin(), more->end());
   }
   return measures;

@@ -6,6 +6,7 @@
 #include "beam/internal_forces.h"
 #include "energy/ledger.h"
 #include "motion/initial_state.h"
+#include "motion/periodic_sides.h"
 #include "push/push.h"
 #include "step/advance_wavefront.h"
 #include "step/execute_stages.h"
@@ -44,6 +45,7 @@ State make_initial_state(const Scene& scene) {
   execute_stages(std::span(kStages).subspan(1), step, StageScope(nullptr));  // the forces, without motion
   put_contact_sums(record.contacts, state);
   stagger_velocities(scene, state);
+  stagger_sides(scene, state);
   for (const Pusher* pusher : pushers()) {
     if (pusher->stagger != nullptr) {
       pusher->stagger(scene, state);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact/repeated_mesh.h"
 #include "measure/inertia.h"
 #include "measure/warnings.h"
 #include "scene/check_spec.h"
@@ -138,6 +139,14 @@ std::string remedy_for_speed(const Scene& scene, double speed) {
 }
 
 RunStatus check_contacts(const Scene& scene, const State& state) {
+  if (outgrows_copies(scene, state)) {
+    return {
+        RunStatus::Kind::contact_lost,
+        "Walls have moved so far across the crush, by several periods of the sides against each other, that contacts "
+        "with the copies of the lattice could be missed, by " +
+            moment_of(state.step, state.time) + ".",
+        "Give more columns or, crushed along X, rows."};
+  }
   if (state.fastest_step.empty()) {
     return {};
   }

@@ -9,6 +9,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
+#include "contact/repeated_mesh.h"
 #include "scene/shortening.h"
 #include "step/advance_step.h"
 
@@ -89,7 +90,13 @@ Share share_of_element(const Scene& scene) {
   Share out;
   const auto bytes = [&](const auto& array) { return static_cast<double>(array.size() * sizeof(array[0])) / elements; };
   visit_arrays(scene, [&](const auto& array) { out.scene += bytes(array); });
-  visit_arrays(make_initial_state(scene), [&](const auto& array) { out.state += bytes(array); });
+  State state = make_initial_state(scene);
+  visit_arrays(state, [&](const auto& array) { out.state += bytes(array); });
+  if (scene.repeated != nullptr) {  // scratch of a step
+    State repeated;
+    begin_repeated_contacts(scene, state, repeated);
+    visit_arrays(repeated, [&](const auto& array) { out.scene += bytes(array); });
+  }
   return out;
 }
 

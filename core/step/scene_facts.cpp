@@ -56,6 +56,7 @@ std::string search_text(const Scene& scene) {
     case Premise::several_parts: return "by buckets in space, because the lattice has separate parts.";
     case Premise::not_closed: return "by buckets in space, because some walls do not close a face.";
     case Premise::not_planar: return "by buckets in space, because walls cross without a joint.";
+    case Premise::sides_repeat: return "by buckets in space, because the sides repeat.";
     case Premise::no_contact:
     case Premise::not_asked: break;
   }
@@ -78,6 +79,15 @@ std::string grips_text(const Scene& scene) {
          (points == 1 ? " point" : " points") +
          " of the mesh as one each, without turning, in tension as in compression; a wall across the line of a grip is "
          "free from its first point before it.";
+}
+
+std::string period_text(const Scene& scene) {
+  const Period& period = scene.period;
+  const std::size_t pairs = period.low.size();
+  return "Sides: repeat after " + to_text(period.length) + " mm, at " + std::to_string(pairs) +
+         (pairs == 1 ? " joint" : " joints") + ", walls touch across them; " +
+         (period.is_fixed ? "the width is held, so that no Poisson's ratio shows."
+                          : "the width is free, with no mean stress across the crush and the inertia of the strip.");
 }
 
 /// Walls that are rigid because they are short.
@@ -141,6 +151,9 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   }
   if (!scene.grips.empty()) {
     lines.push_back(grips_text(scene));
+  }
+  if (scene.period.repeats()) {
+    lines.push_back(period_text(scene));
   }
   if (scene.pins.count() > 0) {
     const std::size_t ends = scene.pins.joint.size() - scene.pins.count();

@@ -7,8 +7,10 @@
 #include "contact/contact_forces.h"
 #include "contact/contact_search.h"
 #include "contact/contact_tiles.h"
+#include "contact/repeated_mesh.h"
 #include "motion/integrate_motion.h"
 #include "motion/loads.h"
+#include "motion/periodic_sides.h"
 #include "motion/rigid_motion.h"
 #include "push/push.h"
 
@@ -32,6 +34,7 @@ void move_all(StepInProgress& step) {
   for (std::size_t band = 0; band < step.scene.bands.size(); ++band) {
     move_band(step, band);
   }
+  move_sides(step.scene, state);
   ++state.step;
   state.time = static_cast<double>(state.step) * step.scene.schedule.time_step;
   watch_approach(step.scene, state);
@@ -53,6 +56,11 @@ void respond_piece_of_walls(StepInProgress& step, std::size_t piece) {
 void sum_joints(StepInProgress& step) { sum_joint_forces(step.scene, step.state, step.workspace.workers); }
 
 void find_all_contacts(StepInProgress& step) {
+  if (step.scene.repeated != nullptr) {
+    begin_repeated_contacts(step.scene, step.state, step.workspace.repeated);
+    find_contacts(*step.scene.repeated, step.workspace.repeated, step.workspace.workers);
+    return;
+  }
   find_contacts(step.scene, step.state, step.workspace.workers);
   rebuild_contact_tiles(step.scene, step.state, 1);
 }
@@ -64,6 +72,12 @@ void find_band_contacts(StepInProgress& step, std::size_t band) {
 
 /// On the balls of a band and the segments that they touch.
 void evaluate_band_contacts(StepInProgress& step, std::size_t band) {
+  if (step.scene.repeated != nullptr) {
+    evaluate_contact_forces(*step.scene.repeated, step.workspace.repeated, band, step.workspace.contact,
+                            step.workspace.workers, step.record.contacts);
+    end_repeated_contacts(step.scene, step.workspace.repeated, step.state, step.record.contacts.sides);
+    return;
+  }
   evaluate_contact_forces(step.scene, step.state, band, step.workspace.contact, step.workspace.workers,
                           step.record.contacts);
 }
@@ -82,6 +96,7 @@ void evaluate_band_plates(StepInProgress& step, std::size_t band) {
 void evaluate_all_loads(StepInProgress& step) {
   evaluate_loads(step.scene, step.state);
   share_pin_forces(step.scene, step.state);
+  tie_sides(step.scene, step.record.contacts.sides, step.state);
 }
 
 constexpr SplitStage kSplitWalls = {.begin = deform_all_walls,

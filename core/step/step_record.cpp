@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "motion/periodic_sides.h"
+
 namespace cellcrush {
 
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record) {
@@ -23,6 +25,7 @@ void accumulate(const Scene& scene, const StepRecord& record, State& state) {
   for (const Pusher* pusher : pushers()) {
     pusher->accumulate(scene, record.plates, state);
   }
+  works_of_sides(state).accumulate(state.ledger);
   for (const double work : record.plastic_work) {
     state.ledger.plastic += work;
   }

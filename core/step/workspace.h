@@ -6,6 +6,7 @@
 
 #include "beam/internal_forces.h"
 #include "cellcrush/scene.h"
+#include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
 #include "parallel/workers.h"
 #include "step/step_record.h"
@@ -19,6 +20,7 @@ struct StageWorkspace {
   Workers workers;
   WallsWorkspace walls;
   ContactWorkspace contact;
+  State repeated;  ///< of Scene::repeated, where sides repeat
 };
 
 /// Threads and scratch for steps, kept from step to step so that no step starts threads or allocates. They belong to no

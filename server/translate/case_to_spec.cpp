@@ -71,7 +71,8 @@ static_assert(ends_alike(v1::Section::DepthRule_MAX, v1::Section::LOBATTO, Secti
 static_assert(ends_alike(v1::Section::AreaRule_MAX, v1::Section::CONSTANT_AREA, SectionSpec::AreaRule::constant_area));
 static_assert(ends_alike(v1::Contact::Search_MAX, v1::Contact::BUCKETS, ContactSpec::Search::buckets));
 static_assert(ends_alike(v1::Loading::Direction_MAX, v1::Loading::Y, LoadingSpec::Direction::y));
-static_assert(ends_alike(v1::Loading::Sides::Kind_MAX, v1::Loading::Sides::RIGID, LoadingSpec::Sides::Kind::rigid));
+static_assert(ends_alike(v1::Loading::Sides::Kind_MAX, v1::Loading::Sides::PERIODIC,
+                         LoadingSpec::Sides::Kind::periodic));
 static_assert(ends_alike(v1::Loading::Grip::Edge_MAX, v1::Loading::Grip::TOP, LoadsSpec::Grip::Edge::top));
 static_assert(ends_alike(v1::Loading::Grip::FixedTo_MAX, v1::Loading::Grip::SUPPORT_PLATE,
                          LoadsSpec::Grip::FixedTo::support_plate));
@@ -193,6 +194,8 @@ void read_loading(const v1::Loading& in, SceneSpec& spec, Problems& problems) {
   spec.loads.rigid_walls = read_rigid_walls(in, problems);
   read_choice(in.sides().kind(), "loading.sides.kind", out.sides.kind, problems);
   if (in.sides().has_friction()) out.sides.friction = in.sides().friction();
+  if (in.sides().has_fixed_width()) out.sides.fixed_width = in.sides().fixed_width();
+  if (in.sides().has_period_mm()) out.sides.period_mm = in.sides().period_mm();
   read_grips(in, spec.loads, problems);
 }
 

@@ -214,6 +214,11 @@ std::string grip_text(const v1::Loading::Grip& grip) {
   return text + ")";
 }
 
+void note_free_sides(v1::CaseWords& words) {
+  words.set_theory_note(words.theory_note() + (words.theory_note().empty() ? "" : " ") +
+                        "The theory is that of free sides.");
+}
+
 void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   if (loading.gravity_x_m_per_s2() != 0.0 || loading.gravity_y_m_per_s2() != 0.0) {
     add_fact(
@@ -228,8 +233,12 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
     add_fact(
         words, "side walls",
         loading.sides().friction() > 0.0 ? fmt::format("rigid, friction {}", loading.sides().friction()) : "rigid");
-    words.set_theory_note(words.theory_note() + (words.theory_note().empty() ? "" : " ") +
-                          "The theory is that of free sides.");
+    note_free_sides(words);
+  }
+  if (loading.sides().kind() == v1::Loading::Sides::PERIODIC) {
+    const bool fixed = loading.sides().fixed_width();
+    add_fact(words, "sides", fixed ? "periodic, of fixed width" : "periodic");
+    if (fixed) note_free_sides(words);
   }
   add_list(words, "grips", loading.grips(), grip_text);
   std::string text;

@@ -214,7 +214,11 @@ void write_loads(const SceneSpec& spec, v1::Case& out) {
   }
   if (spec.loading.sides.kind != LoadingSpec::Sides::Kind::free) {
     loading.mutable_sides()->set_kind(wire_of<v1::Loading::Sides::Kind>(spec.loading.sides.kind));
-    loading.mutable_sides()->set_friction(spec.loading.sides.friction);
+    if (spec.loading.sides.kind == LoadingSpec::Sides::Kind::rigid)
+      loading.mutable_sides()->set_friction(spec.loading.sides.friction);
+    if (spec.loading.sides.kind == LoadingSpec::Sides::Kind::periodic)
+      loading.mutable_sides()->set_fixed_width(spec.loading.sides.fixed_width);
+    if (spec.loading.sides.period_mm) loading.mutable_sides()->set_period_mm(*spec.loading.sides.period_mm);
   }
   for (const LoadsSpec::Grip& grip : spec.loads.grips) write_grip(grip, *loading.add_grips());
   move_to_frame(out);

@@ -330,7 +330,7 @@ TEST(Translate, SidesAndGripsComeThroughBothWays) {
                                                                 points { time_s: 1 value: 2 } } }
     grips { id: "foot" edge: LEFT } })");
   const SceneSpec spec = translate::to_spec(given).spec;
-  EXPECT_EQ(spec.loading.sides, (LoadingSpec::Sides{LoadingSpec::Sides::Kind::rigid, 0.2}));
+  EXPECT_EQ(spec.loading.sides, (LoadingSpec::Sides{LoadingSpec::Sides::Kind::rigid, 0.2, false, {}}));
   using Grip = LoadsSpec::Grip;
   const Grip jaw = {Grip::Edge::right, 3.0, Grip::FixedTo::ground, {{0.0, 0.0}, {1.0, 2.0}}, {}};
   EXPECT_EQ(spec.loads.grips, (std::vector{jaw, Grip{}}));
@@ -341,6 +341,17 @@ TEST(Translate, SidesAndGripsComeThroughBothWays) {
   EXPECT_EQ(once.loading().grips(0).edge(), v1::Loading::Grip::RIGHT);
   EXPECT_EQ(once.loading().grips(1).fixed_to(), v1::Loading::Grip::GROUND);
   EXPECT_EQ(once.loading().sides().friction(), 0.2);
+}
+
+TEST(Translate, PeriodicSidesComeThroughBothWays) {
+  const v1::Case given = testing::with_text(testing::small_case(),
+                                            "loading { sides { kind: PERIODIC fixed_width: true period_mm: 12.5 } }");
+  const SceneSpec spec = translate::to_spec(given).spec;
+  EXPECT_EQ(spec.loading.sides, (LoadingSpec::Sides{LoadingSpec::Sides::Kind::periodic, 0.0, true, 12.5}));
+  const v1::Loading::Sides once = translate::to_case(spec).loading().sides();
+  EXPECT_EQ(once.kind(), v1::Loading::Sides::PERIODIC);
+  EXPECT_TRUE(once.fixed_width());
+  EXPECT_EQ(once.period_mm(), 12.5);
 }
 
 TEST(Translate, AGripWithoutEdgeOrWithANameTwiceAndARigidWallNamedAsASideAreProblems) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "contact/search/candidate_lists.h"
 #include "contact/search/pair_search.h"
@@ -41,14 +42,17 @@ bool list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
   bool is_planar = true;
   const double longest = *std::max_element(state.length.begin(), state.length.end());
   const double skin = scene.contact.skin;
-  const BucketGrid grid(state.position, 0.5 * longest + scene.greatest_radius() + skin);
+  const auto count = scene.ball_count > 0 ? static_cast<std::size_t>(scene.ball_count) : scene.particle_count();
+  const auto balls = std::span(state.position).subspan(static_cast<std::size_t>(scene.first_ball), count);
+  const BucketGrid grid(balls, 0.5 * longest + scene.greatest_radius() + skin);
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
     const Element& element = scene.elements[e];
     const Vector2& start = state.position[element.start];
     const Vector2& end = state.position[element.end];
     const double half_thickness = half_thickness_now(scene, state, static_cast<int>(e));
     const Vector2 margin = Vector2::Constant(half_thickness + scene.greatest_radius() + skin);
-    grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int ball) {
+    grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int found) {
+      const int ball = scene.first_ball + found;
       const double range = radius_now(scene, state, ball) + half_thickness + skin;
       const Vector2 from_start = state.position[ball] - start;
       const Vector2& axis = state.axis[e];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -178,6 +179,18 @@ struct Support {
   Hold rotation;
 };
 
+/// Sides that repeat across the crush (E9i): a joint at the high side is the image of one at the low side, a period
+/// further on. P pairs; none where the sides do not repeat.
+struct Period {
+  int axis = 0;           ///< across the crush, 0: x, 1: y
+  double length = 0.0;    ///< mm, before loading
+  bool is_fixed = false;  ///< whether the images keep their distance
+  std::vector<int> low;   ///< P, joints
+  std::vector<int> high;  ///< P, their images: they have no balls of their own
+
+  [[nodiscard]] bool repeats() const { return !low.empty(); }
+};
+
 /// Particles that are held or moved as one by their supports, without turning (E15a).
 struct Grip {
   enum class FixedTo { ground, impact_plate, support_plate };
@@ -327,6 +340,12 @@ struct Scene {
   std::vector<TimeFunction> motions;  ///< mm or rad, imposed displacements of held particles
   std::vector<Grip> grips;
   std::vector<int> gripped;  ///< particles, grip by grip
+  Period period;
+  /// The mesh between its copies at either side, for contacts across the sides (contact/repeated_mesh.h); null unless
+  /// they repeat.
+  std::shared_ptr<const Scene> repeated;
+  int first_ball = 0;  ///< of the particles that touch elements
+  int ball_count = 0;  ///< 0: all particles
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
   Vector2 gravity = Vector2::Zero();      ///< mm/s^2
@@ -419,16 +438,17 @@ template <class Visitor>
 void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [position, mass, inertia, inverse_mass, inverse_inertia, radius, largest_radius, smallest_radius,
                elements, walls, bands, rigid, list_order, pins, incidence_offset, incidence, joint_count,
-               wall_end_offset, wall_ends, supports, motions, grips, gripped, loads, element_loads, gravity,
-               initial_velocity, initial_spin, depth, materials, law, section, single_fibres, slow_loading,
-               constant_area, contact, limited_reaches, start_overlaps, faces, plates, rigid_walls, mass_scaling,
-               mass_damping, schedule, length, width, total_mass, solid_area, stable_step, collapse_stress, fidelity,
-               watched] = scene;
+               wall_end_offset, wall_ends, supports, motions, grips, gripped, period, repeated, first_ball, ball_count,
+               loads, element_loads, gravity, initial_velocity, initial_spin, depth, materials, law, section,
+               single_fibres, slow_loading, constant_area, contact, limited_reaches, start_overlaps, faces, plates,
+               rigid_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, solid_area, stable_step,
+               collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;
   const auto& [listed_joint, listed_wall] = list_order;
   const auto& [pin_offset, pin_joint] = pins;
+  const auto& [period_axis, period_length, period_is_fixed, low_joint, high_joint] = period;
   const auto& [reach_offset, segment, reach] = limited_reaches;
   const auto& [overlap_offset, overlap_pairs] = start_overlaps;
   const auto& [premise, side, thick_ends, faces_of_bands, border] = faces;
@@ -440,11 +460,15 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   list(rigid_offset, centre, rigid_mass, rigid_inertia);
   list(listed_joint, listed_wall);
   list(pin_offset, pin_joint);
+  list(low_joint, high_joint);
   list(reach_offset, segment, reach);
   list(overlap_offset, overlap_pairs);
   list(side, thick_ends, border);
   for (const FacesOfBand& of_band : faces_of_bands) {
     visit_arrays(of_band, visit);
+  }
+  if (repeated != nullptr) {
+    visit_arrays(*repeated, visit);
   }
 }
 

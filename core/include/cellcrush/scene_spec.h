@@ -302,9 +302,11 @@ struct LoadingSpec {
   Direction direction = Direction::x;
   /// What stands at the two sides of the lattice across the direction.
   struct Sides {
-    enum class Kind { free, rigid };
+    enum class Kind { free, rigid, periodic };
     Kind kind = Kind::free;
-    double friction = 0.0;  ///< of rigid ones
+    double friction = 0.0;            ///< of rigid ones
+    bool fixed_width = false;         ///< of periodic ones: they keep their distance
+    std::optional<double> period_mm;  ///< of periodic ones of a network; other lattices know theirs
     bool operator==(const Sides&) const = default;
   };
   Sides sides;

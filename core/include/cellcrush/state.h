@@ -62,6 +62,22 @@ struct RigidWallMotion {
   double way = 0.0;     ///< mm, of the work of the forces before: half a step before and half a step after them
 };
 
+/// Distance of sides that repeat (E9i).
+struct SidesMotion {
+  double width = 0.0;  ///< mm
+  double speed = 0.0;  ///< mm/s, half a step before `time`
+  double way = 0.0;    ///< mm, of the work of the forces before: half a step before and half a step after them
+};
+
+/// Force of contacts across such sides that widens them, N.
+struct SideForce {
+  double elastic = 0.0;
+  double viscous = 0.0;
+  double friction = 0.0;
+
+  [[nodiscard]] double total() const { return elastic + viscous + friction; }
+};
+
 /// Speed of an impact plate that is controlled: changes evenly from one setting to the next.
 struct PlateDrive {
   double since = 0.0;  ///< s
@@ -155,6 +171,8 @@ struct State {
   ContactTotals contact_totals;
   std::vector<FastestStep> fastest_step;  ///< one where contacts of a frame are watched; otherwise empty
   std::vector<PlateDrive> plate_drive;    ///< one where the speed of the plate is controlled; otherwise empty
+  std::vector<SidesMotion> sides;         ///< one where the sides repeat; otherwise empty
+  std::vector<SideForce> side_force;      ///< one where the sides repeat; otherwise empty
 
   Ledger ledger;
 
@@ -178,8 +196,8 @@ void visit_fields(S& state, Visitor&& visit) {
          length, inverse_length, shortening, thickening, thickening_slope, radius_growth, fibres, single_fibres,
          wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
          parted, contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
-         rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, ledger, derived_steps,
-         derived_tiles] = state;
+         rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, sides, side_force, ledger,
+         derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding, end_force, owed] =
@@ -200,7 +218,7 @@ void visit_fields(S& state, Visitor&& visit) {
     visit_touch_fields(lists, visit);
   }
   list(contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
-       rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, ledger);
+       rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, sides, side_force, ledger);
 }
 
 /// The same for the arrays alone, the derived ones too.

@@ -84,6 +84,12 @@ Layout lay_out_rings(const SceneSpec& spec) {
   return layout;
 }
 
+/// Neighbours are mirror images: an even number of rings repeats.
+Vector2 period_of_rings(const RegularLattice& lattice) {
+  const auto even = [](int cells) { return cells % 2 == 0 ? cells : 0; };
+  return *lattice.side_mm * Vector2(even(*lattice.columns), even(*lattice.rows));
+}
+
 ClosedForms forms_of_rings(const RegularLattice& lattice, LoadingSpec::Direction) {
   const double side = *lattice.side_mm;
   const double thickness = *lattice.wall_thickness_mm;
@@ -113,6 +119,7 @@ const LatticeKind& anti_tetrachiral_lattice() {
       .own_numbers = {{kRadius, [](const RegularLattice& its) { return 0.2 * its.side_mm.value_or(0.0); }, 0.49}},
       .check = check_rings,
       .lay_out = lay_out_rings,
+      .period = period_of_rings,
       .closed_forms = forms_of_rings,
       .mesh =
           [](const SceneSpec& spec) {

@@ -80,6 +80,12 @@ struct WallStiffness {
   }
 };
 
+Vector2 period_of_arrowheads(const RegularLattice& arrowheads) {
+  const double half_width = half_width_of(arrowheads);
+  const double rise = tangent_of(own_number(arrowheads, kLongAngle)) - tangent_of(own_number(arrowheads, kShortAngle));
+  return half_width * Vector2(2.0 * *arrowheads.columns, rise * *arrowheads.rows);
+}
+
 ClosedForms forms_of_arrowheads(const RegularLattice& arrowheads, LoadingSpec::Direction direction) {
   const double thickness = *arrowheads.wall_thickness_mm;
   const double b = half_width_of(arrowheads);
@@ -122,6 +128,7 @@ const LatticeKind& arrowhead_lattice() {
                       {kShortAngle, [](const RegularLattice&) { return 30.0; }}},
       .check = check_arrowheads,
       .lay_out = lay_out_arrowheads,
+      .period = period_of_arrowheads,
       .closed_forms = forms_of_arrowheads,
       .theory_note =
           [](const RegularLattice&) { return note_of_turning_walls("0.6 along x and, as they close, 3.9 along y"); },

@@ -32,6 +32,10 @@ Layout lay_out_diamonds(const SceneSpec& spec) {
   return builder.take();
 }
 
+Vector2 period_of_diamonds(const RegularLattice& diamonds) {
+  return std::numbers::sqrt2 * *diamonds.side_mm * Vector2(*diamonds.columns, *diamonds.rows);
+}
+
 ClosedForms forms_of_diamonds(const RegularLattice& diamonds, LoadingSpec::Direction) {
   const double ratio = *diamonds.wall_thickness_mm / *diamonds.side_mm;
   const double squared = ratio * ratio;
@@ -49,6 +53,7 @@ const LatticeKind& diamond_lattice() {
       .plural = "diamonds",
       .walls_per_cell = 4.0,
       .lay_out = lay_out_diamonds,
+      .period = period_of_diamonds,
       .closed_forms = forms_of_diamonds,
       .theory_note = [](const RegularLattice&) { return note_of_turning_walls("0.8"); },
   };

@@ -6,6 +6,7 @@
 #include "geometry/unit_direction.h"
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
+#include "lattice/period.h"
 
 // Hexagons with walls of height h along y and walls of length l at the cell angle theta to x; below 0 they are
 // re-entrant. Rows run along x, from the bottom up, and have `columns` and `columns - 1` cells in turn.
@@ -28,7 +29,7 @@ constexpr const char* kHeight = "height_mm";
 JointGrid grid_of_hexagons(const RegularLattice& hexagons) {
   const Vector2 slanted = *hexagons.side_mm * unit_direction(own_number(hexagons, kAngle));
   const double rest = own_number(hexagons, kHeight) - 2.0 * slanted.y();  // exactly 0 in regular hexagons
-  return {{2 * *hexagons.columns, 3 * *hexagons.rows + 1}, [slanted, rest](const GridPoint& point) -> Vector2 {
+  return {{2 * *hexagons.columns + 1, 3 * *hexagons.rows + 1}, [slanted, rest](const GridPoint& point) -> Vector2 {
             const int walls_below = point.y() / 3;
             return {slanted.x() * point.x(), slanted.y() * point.y() + rest * walls_below};
           }};
@@ -75,12 +76,14 @@ Layout lay_out_hexagons(const SceneSpec& spec) {
   WallBuilder builder(grid_of_hexagons(hexagons), *spec.elements_per_wall);
   const double slanted = *hexagons.wall_thickness_mm;
   const double upright = own_number(hexagons, kVertical);
+  const bool repeats = repeats_along(spec, 0);
   for (int row = 0; row < *hexagons.rows; ++row) {
     const bool stiff = std::ranges::count(inclusions.rows, row + 1) > 0;
     const double factor = stiff ? inclusions.thickness_factor : 1.0;
     const bool rigid = stiff && inclusions.model == Inclusions::Model::rigid;
-    const int shift = row % 2;  // odd rows are one cell shorter and are shifted by half a pitch
-    for (int column = 0; column < *hexagons.columns - shift; ++column) {
+    // Odd rows are shifted by half a pitch. They are one cell shorter, or else lead across the sides.
+    const int shift = row % 2;
+    for (int column = 0; column < *hexagons.columns - (repeats ? 0 : shift); ++column) {
       const int x = 2 * column + shift;
       const int y = 3 * row;
       // Corners counter-clockwise from the lowest; walls 1-2 and 4-5 run along y.
@@ -92,6 +95,11 @@ Layout lay_out_hexagons(const SceneSpec& spec) {
     }
   }
   return builder.take();
+}
+
+Vector2 period_of_hexagons(const RegularLattice& hexagons) {
+  const Vector2 period = grid_of_hexagons(hexagons).place({2 * *hexagons.columns, 3 * *hexagons.rows});
+  return {period.x(), *hexagons.rows % 2 == 0 ? period.y() : 0.0};
 }
 
 ClosedForms forms_of_hexagons(const RegularLattice& hexagons, LoadingSpec::Direction direction) {
@@ -146,6 +154,7 @@ const LatticeKind& hexagon_lattice() {
                       {kHeight, [](const RegularLattice& its) { return its.side_mm.value_or(0.0); }}},
       .check = check_hexagons,
       .lay_out = lay_out_hexagons,
+      .period = period_of_hexagons,
       .closed_forms = forms_of_hexagons,
       .mesh = mesh_of_hexagons,
       .theory_note = note_of_hexagons,

@@ -42,11 +42,18 @@ int corner_towards(const Vector2& direction) {
   return 4 + column;
 }
 
+/// The hexagons at whose joints the small ones stand.
+RegularLattice plain_of(const RegularLattice& hexagons) {
+  RegularLattice plain = hexagons;
+  plain.kind = "hexagon";
+  plain.own.clear();
+  return plain;
+}
+
 Layout lay_out_hierarchical_hexagons(const SceneSpec& spec) {
+  const RegularLattice hexagons = plain_of(*regular_lattice_of(spec));
   SceneSpec plain = spec;
-  RegularLattice& hexagons = std::get<RegularLattice>(plain.lattice);
-  hexagons.kind = "hexagon";
-  hexagons.own.clear();
+  plain.lattice = hexagons;
   const Layout large = hexagon_lattice().lay_out(plain);
   const std::array<Vector2, 6> corner = corners_of(own_number(*regular_lattice_of(spec), kSmallSide));
   Layout layout;
@@ -104,6 +111,10 @@ double energy_of_joint(const Eigen::Matrix2d& stress, double gamma, double thick
   return energy - slope.dot(curvature.ldlt().solve(slope));
 }
 
+Vector2 period_of_hierarchical_hexagons(const RegularLattice& hexagons) {
+  return hexagon_lattice().period(plain_of(hexagons));
+}
+
 ClosedForms forms_of_hierarchical_hexagons(const RegularLattice& hexagons, LoadingSpec::Direction) {
   const double ratio = *hexagons.wall_thickness_mm / *hexagons.side_mm;
   const double gamma = own_number(hexagons, kSmallSide) / *hexagons.side_mm;
@@ -125,6 +136,7 @@ const LatticeKind& hierarchical_hexagon_lattice() {
       .walls_per_cell = 15.0,
       .own_numbers = {{kSmallSide, [](const RegularLattice& its) { return 0.3 * its.side_mm.value_or(0.0); }, 0.49}},
       .lay_out = lay_out_hierarchical_hexagons,
+      .period = period_of_hierarchical_hexagons,
       .closed_forms = forms_of_hierarchical_hexagons,
       .theory_note =
           [](const RegularLattice&) {

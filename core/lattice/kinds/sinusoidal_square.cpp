@@ -45,6 +45,10 @@ Layout lay_out_sinusoidal_squares(const SceneSpec& spec) {
   return builder.take();
 }
 
+Vector2 period_of_sinusoidal_squares(const RegularLattice& squares) {
+  return *squares.side_mm * Vector2(*squares.columns, *squares.rows);
+}
+
 ClosedForms forms_of_sinusoidal_squares(const RegularLattice& squares, LoadingSpec::Direction) {
   constexpr int kPoints = 64;  // of a periodic integrand, which the mean of its values integrates fast
   const double ratio = *squares.wall_thickness_mm / *squares.side_mm;
@@ -77,6 +81,7 @@ const LatticeKind& sinusoidal_square_lattice() {
       .own_numbers = {{kAmplitude, [](const RegularLattice& its) { return 0.1 * its.side_mm.value_or(0.0); }, 0.25}},
       .check = check_sinusoidal_squares,
       .lay_out = lay_out_sinusoidal_squares,
+      .period = period_of_sinusoidal_squares,
       .closed_forms = forms_of_sinusoidal_squares,
       .mesh =
           [](const SceneSpec&) {

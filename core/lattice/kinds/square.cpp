@@ -23,6 +23,10 @@ Layout lay_out_squares(const SceneSpec& spec) {
 }
 
 /// Walls along the load are pressed, and yield axially at sigma_y h/L.
+Vector2 period_of_squares(const RegularLattice& squares) {
+  return *squares.side_mm * Vector2(*squares.columns, *squares.rows);
+}
+
 ClosedForms forms_of_squares(const RegularLattice& squares, LoadingSpec::Direction) {
   const double ratio = *squares.wall_thickness_mm / *squares.side_mm;
   return {.density = 2.0 * ratio, .modulus = ratio, .poissons_ratio = 0.0, .collapse_stress = ratio};
@@ -37,6 +41,7 @@ const LatticeKind& square_lattice() {
       .walls_per_cell = 2.0,
       .has_walls_along_crush = true,
       .lay_out = lay_out_squares,
+      .period = period_of_squares,
       .closed_forms = forms_of_squares,
       .theory_note =
           [](const RegularLattice&) {

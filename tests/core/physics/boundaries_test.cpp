@@ -97,7 +97,7 @@ struct Rhombi {
 };
 
 SceneSpec between_sides(SceneSpec spec, double friction = 0.0) {
-  spec.loading.sides = {Sides::Kind::rigid, friction};
+  spec.loading.sides = {Sides::Kind::rigid, friction, false, {}};
   return spec;
 }
 

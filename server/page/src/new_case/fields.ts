@@ -33,7 +33,8 @@ export function groupsOf(kind: LatticeKind): Group[] {
     { title: "Material", isOpen: true, paths: under("material", kMaterial) },
     { title: "Crush", isOpen: !isListed(kind), paths: [...under("loading", kCrush), "plates.friction"] },
     { title: "Further loads and ends", isOpen: false, paths: [...under("loading", further), "loading.sides.kind",
-      "loading.sides.friction"] },
+      "loading.sides.friction", "loading.sides.fixed_width",
+      ...(kind.name === "network" ? ["loading.sides.period_mm"] : [])] },
     { title: "Imperfection", isOpen: false, paths: isListed(kind) ? []
       : under("lattice.imperfection", ["amplitude_mm", "seed", "bow_mm"]) },
     { title: "Defects and rotation", isOpen: false, paths: isListed(kind) ? []
