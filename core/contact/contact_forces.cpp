@@ -34,6 +34,9 @@ void evaluate_pairs(const Scene& scene, State& state, std::size_t band, ContactW
     const std::size_t end = begin_of_ball(touching, part_end);
     ContactPart& part = workspace.parts[p];
     evaluate_touches(scene, state, lists, workspace.touches, first, end, part.released);
+    if (scene.contact.bends) {
+      bend_segments(scene, state, touching, workspace.touches, first, end);
+    }
     find_active_contacts(scene, state, lists, workspace.touches, first, end, part.active);
   });
   lists.released.clear();
@@ -66,6 +69,9 @@ void evaluate_contact_forces(const Scene& scene, State& state, std::size_t band,
   }
   evaluate_pairs(scene, state, band, workspace, workers);
   apply_normal_forces(scene, state, lists.touching, workspace, sums.walls);
+  if (scene.contact.bends) {
+    apply_bending_forces(scene, state, lists.touching, workspace);
+  }
   sums.walls.count += static_cast<std::int64_t>(workspace.active.size());
   if (scene.contact.friction > 0.0) {
     apply_friction(scene, state, lists.touching, workspace);

@@ -56,6 +56,9 @@ void clear_contact_forces(State& state, int first, int end) {
   } else {
     clear_marked_tiles(state, first, end);
   }
+  if (!state.contact_moment.empty()) {
+    std::fill(state.contact_moment.begin() + first, state.contact_moment.begin() + end, 0.0);
+  }
   if (!state.friction_force.empty()) {
     std::fill(state.friction_force.begin() + first, state.friction_force.begin() + end, Vector2::Zero());
   }

@@ -43,17 +43,18 @@ inline PairRange pairs_of_ball(const TouchMemory& touching, int ball, int index)
 
 /// Geometry and motion of the pairs of ContactLists::touching in this step; T of them, in the same order.
 struct Touches {
-  LaneVector<int> start;       ///< T, particle at which the segment starts
-  LaneVector<int> end;         ///< T, particle at which the segment ends
-  LaneVector<int> known;       ///< T, index among the pairs that touched in the step before; kNew: it did not
-  LaneVector<double> growth;   ///< T, mm, what the reach has grown by at the foot (E8d)
-  LaneVector<double> offset;   ///< T, mm, of the ball to the left of the segment
-  LaneVector<double> share;    ///< T, s of the foot along the segment: 0 at its start, 1 at its end
-  LaneVector<double> depth;    ///< T, D, mm (E8); if not above 0, the pair is released
-  LaneVector<Vector2> normal;  ///< T, unit normal from the segment to the ball
-  LaneVector<double> viscous;  ///< T, c dD/dt, N, before it is limited so that the contact does not pull
-  LaneVector<double> slip;     ///< T, mm, slip of the ball along the segment in the step, by their mid-lines
-  LaneVector<int> node;        ///< T, node of the segment nearer to the ball
+  LaneVector<int> start;          ///< T, particle at which the segment starts
+  LaneVector<int> end;            ///< T, particle at which the segment ends
+  LaneVector<int> known;          ///< T, index among the pairs that touched in the step before; kNew: it did not
+  LaneVector<double> growth;      ///< T, mm, what the reach has grown by at the foot (E8d)
+  LaneVector<double> offset;      ///< T, mm, of the ball to the left of the segment
+  LaneVector<double> share;       ///< T, s of the foot along the segment: 0 at its start, 1 at its end
+  LaneVector<double> depth;       ///< T, D, mm (E8); if not above 0, the pair is released
+  LaneVector<double> deflection;  ///< T, mm, of the segment at the foot towards the ball (E8e); set where they bend
+  LaneVector<Vector2> normal;     ///< T, unit normal from the segment to the ball
+  LaneVector<double> viscous;     ///< T, c dD/dt, N, before it is limited so that the contact does not pull
+  LaneVector<double> slip;        ///< T, mm, slip of the ball along the segment in the step, by their mid-lines
+  LaneVector<int> node;           ///< T, node of the segment nearer to the ball
   /// T, mm, D_n, overlap of the ball with the ball at that node (E8b); above 0: they touch; 0 if they coincide.
   LaneVector<double> node_depth;
   LaneVector<Vector2> node_normal;  ///< T, unit normal from that node to the ball
@@ -62,7 +63,8 @@ struct Touches {
 
   void resize(std::size_t count) {
     const auto resize_all = [count](auto&... arrays) { (resize_with_room(arrays, count), ...); };
-    resize_all(start, end, known, growth, offset, share, depth, normal, viscous, slip, node, node_depth, node_normal);
+    resize_all(start, end, known, growth, offset, share, depth, deflection, normal, viscous, slip, node, node_depth,
+               node_normal);
   }
 };
 

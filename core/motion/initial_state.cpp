@@ -67,6 +67,9 @@ State place_particles(const Scene& scene) {
   state.internal_force.assign(n, Vector2::Zero());
   state.internal_moment.assign(n, 0.0);
   state.contact_force.assign(n, ContactForce());
+  if (scene.contact.bends) {
+    state.contact_moment.assign(n, 0.0);
+  }
   if (scene.contact.friction > 0.0) {
     state.friction_force.assign(n, Vector2::Zero());
   }

@@ -72,6 +72,9 @@ HWY_INLINE void add_works(const ParticleArrays<S>& arrays, const StepFactors& st
     works.contact -= dot(forces.elastic, displacement);
     works.contact_damping -= dot(forces.viscous, displacement);
   }
+  if constexpr (kContact && Kinds::kFrame) {
+    works.contact = fnma(forces.contact_moment, turn, works.contact);
+  }
   if constexpr (Kinds::kFriction) {
     works.friction -= dot(forces.friction, displacement);
   }

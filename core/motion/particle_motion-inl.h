@@ -41,14 +41,14 @@ template <bool friction, bool mass_damping, bool frame>
 struct ForceKinds {
   static constexpr bool kFriction = friction;
   static constexpr bool kMassDamping = mass_damping;
-  static constexpr bool kFrame = frame;  ///< loads or supports; one particle at a time
+  static constexpr bool kFrame = frame;  ///< loads, supports or bending segments; one particle at a time
 };
 
 /// Calls use(kinds) with the ForceKinds of a scene.
 template <class Use>
 HWY_INLINE auto with_force_kinds(const Scene& scene, const State& state, const Use& use) {
   const bool rubs = !state.friction_force.empty();
-  if (scene.is_loaded() || !scene.supports.empty()) {
+  if (scene.is_loaded() || !scene.supports.empty() || scene.contact.bends) {
     return rubs ? use(ForceKinds<true, true, true>()) : use(ForceKinds<false, true, true>());
   }
   if (scene.mass_damping > 0.0) {
@@ -75,6 +75,7 @@ struct ParticleArrays {
   const Vector2* load_force = scene.is_loaded() ? state.load_force.data() : nullptr;
   const double* load_moment = state.load_moment.data();
   const ContactForce* contact_force = state.contact_force.data();
+  const double* contact_moment = state.contact_moment.empty() ? nullptr : state.contact_moment.data();
   const Vector2* friction_force = state.friction_force.data();
   const std::uint64_t* contact_tiles = state.contact_tiles.empty() ? nullptr : state.contact_tiles.data();
   Pointer<ReactionImpulse> reaction_impulse = state.reaction_impulse.data();  ///< one for each of Scene::supports
@@ -96,8 +97,9 @@ struct ParticleForces {
   Points<D> friction;
   Points<D> load;
   Lane<D> load_moment;
+  Lane<D> contact_moment;
 
-  HWY_INLINE ParticleForces() : load{0, 0}, load_moment(0) {}
+  HWY_INLINE ParticleForces() : load{0, 0}, load_moment(0), contact_moment(0) {}
 };
 
 template <class D>
@@ -120,6 +122,12 @@ HWY_INLINE ParticleForces<D> forces_on(const ParticleArrays<S>& arrays, std::siz
   if constexpr (kContact) {
     load_contact_forces(arrays.contact_force + i, forces);
     forces.total = forces.total + (forces.elastic + forces.viscous);
+  }
+  if constexpr (kContact && Kinds::kFrame) {
+    if (arrays.contact_moment != nullptr) {
+      forces.contact_moment = Lane<D>::load(arrays.contact_moment + i);
+      forces.moment += forces.contact_moment;
+    }
   }
   if constexpr (Kinds::kFriction) {
     forces.friction = Points<D>::load(arrays.friction_force + i);

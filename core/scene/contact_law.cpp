@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "cellcrush/tuning.h"
 
@@ -41,7 +42,8 @@ ContactLaw contact_law_of(const SceneSpec& spec, const MeshMeasures& mesh) {
           kSkinFraction * mesh.shortest_element,
           kFaceSkinFraction * mesh.shortest_element,
           mesh.thinnest_wall,
-          mesh.contact && !is_driven_by_plates_alone(spec) ? kMostTravel * mesh.thinnest_wall : 0.0};
+          mesh.contact && !is_driven_by_plates_alone(spec) ? kMostTravel * mesh.thinnest_wall : 0.0,
+          mesh.contact && std::holds_alternative<FrameWalls>(spec.lattice)};
 }
 
 double contact_step_of(const ContactLaw& law, double mass) {

@@ -89,7 +89,7 @@ LatticeBand whole_band(const Scene& scene) {
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const std::vector<FaceLoop>& loops) {
   const bool may_be_cut = scene.element_count() >= kLeastElementsOfBands && scene.rigid.count() == 0 &&
                           scene.supports.empty() && !scene.is_loaded() && scene.contact.friction == 0.0 &&
-                          scene.rigid_walls.empty() && scene.start_overlaps.empty();
+                          scene.rigid_walls.empty() && scene.start_overlaps.empty() && !scene.contact.bends;
   const int all_chunks = scene.walls.chunk_count();
   // Whether the caches hold the bands of two steps, for bands of so many chunks.
   const auto are_small = [&](std::size_t chunks) {

@@ -76,7 +76,8 @@ struct RubbedPair {
     const double half_thickness =
         0.5 * element.thickness + std::lerp(growth_of_ball(state, element.start), growth_of_ball(state, element.end),
                                             HWY_NAMESPACE::share_of_end(share));
-    const double distance = touching.reach[touch] + touches.growth[touch] - touches.depth[touch];
+    const double deflection = scene.contact.bends ? touches.deflection[touch] : 0.0;
+    const double distance = touching.reach[touch] + touches.growth[touch] + deflection - touches.depth[touch];
     const double of_ball = distance * radius / (radius + half_thickness);
     ball = {elements_at(scene, touching.ball[touch]), of_ball};
     segment = {

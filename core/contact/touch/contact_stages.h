@@ -42,6 +42,16 @@ void link_pairs_of_ball(const Scene& scene, TouchMemory& touching, int ball, int
 void evaluate_touches(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t first,
                       std::size_t end, std::vector<int>& released);
 
+/// Bend of a segment, rad: half of what its start has turned more than its end since the start (E8e).
+inline double bend_of(const State& state, const Element& segment) {
+  return 0.5 * (state.rotation[segment.start] - state.rotation[segment.end]);
+}
+
+/// Overwrites the deflections of the segments of the pairs from `first` to `end`, and adds them to the depths (E8e).
+/// REQUIRES: ContactLaw::bends.
+void bend_segments(const Scene& scene, const State& state, const TouchMemory& touching, Touches& touches,
+                   std::size_t first, std::size_t end);
+
 /// Overwrites `active` by the touches from `first` to `end` that exert forces, by ball, segments ascending. Of touching
 /// segments that share a node, only the deepest does (E8b). REQUIRES: the range has all touches of its balls.
 void find_active_contacts(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
@@ -51,6 +61,11 @@ void find_active_contacts(const Scene& scene, const State& state, const ContactL
 /// E8b). Keeps each normal force for friction.
 void apply_normal_forces(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
                          ContactTotals& totals);
+
+/// Adds the moments and forces by which the energy of the active contacts depends on the deflections of their segments
+/// to contact_moment and contact_force (E8e). REQUIRES: ContactLaw::bends.
+void apply_bending_forces(const Scene& scene, State& state, const TouchMemory& touching,
+                          const ContactWorkspace& workspace);
 
 /// Overwrites the friction of all touches by that of the active contacts (Eq. 44-47, E9b, E9d), and adds the forces
 /// and couples to friction_force. REQUIRES: ContactWorkspace::active has the normal forces of this step.

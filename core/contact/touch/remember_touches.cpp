@@ -66,13 +66,16 @@ void classify_found(const LatticeBand& band, ContactLists& lists, ContactWorkspa
 
 /// Calls visit(field, field of the other) for the data that a pair keeps while it touches.
 template <class Visit>
-void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit) {
+void visit_kept(const Scene& scene, TouchMemory& touching, const TouchMemory& before, Visit&& visit) {
   visit(touching.ball, before.ball);
   visit(touching.segment, before.segment);
   visit(touching.reach, before.reach);
   visit(touching.place, before.place);
   visit(touching.linked, before.linked);
   visit(touching.side, before.side);
+  if (scene.contact.bends) {
+    visit(touching.bend, before.bend);
+  }
 }
 
 /// Writes the pairs that touch from now on, one after the other.
@@ -105,6 +108,9 @@ struct Writer {
     after.place[count] = pair.index;
     after.linked[count] = 0;
     after.side[count] = 0;
+    if (scene.contact.bends) {
+      after.bend[count] = bend_of(state, scene.elements[pair.segment]);
+    }
     known[count] = Touches::kNew;
     ++count;
   }
@@ -113,7 +119,7 @@ struct Writer {
 
   void copy_run(int end) {
     const int run = end - next;
-    visit_kept(after, before,
+    visit_kept(scene, after, before,
                [&](auto& field, const auto& old) { std::copy_n(old.begin() + next, run, field.begin() + count); });
     std::iota(known.begin() + count, known.begin() + count + run, next);
     count += run;
@@ -140,7 +146,8 @@ void remember_touches(const Scene& scene, const State& state, const LatticeBand&
   classify_found(band, lists, workspace, of_next_band);
   std::swap(lists.touching, workspace.before);
   const std::size_t count = workspace.before.count() - lists.released.size() + workspace.new_contacts.size();
-  visit_kept(lists.touching, workspace.before, [&](auto& field, const auto&) { resize_with_room(field, count); });
+  visit_kept(scene, lists.touching, workspace.before,
+             [&](auto& field, const auto&) { resize_with_room(field, count); });
   workspace.touches.resize(count);
   workspace.changes.clear();
   Writer writer = {scene, state, lists.released, workspace, lists.touching};

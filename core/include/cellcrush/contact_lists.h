@@ -22,6 +22,8 @@ struct TouchMemory {
   std::vector<int> linked;
   /// T, side of the segment on which the ball is or from which it came: +1 left, -1 right; 0: released.
   std::vector<int> side;
+  /// T, rad, bend of the segment when the pair began to touch (E8e). Empty unless segments bend.
+  std::vector<double> bend;
   /// T, side from which the segment pushed the ball, with friction, in the newest step; 0: it did not. Empty without
   /// friction.
   std::vector<int> pushed;
@@ -105,9 +107,9 @@ void visit_search_fields(L& lists, Visitor&& visit) {
 
 template <class L, class Visitor>
 void visit_touch_fields(L& lists, Visitor&& visit) {
-  auto& [ball, segment, reach, place, linked, side, pushed, friction] = lists.touching;
+  auto& [ball, segment, reach, place, linked, side, bend, pushed, friction] = lists.touching;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
-  list(ball, segment, reach, place, linked, side, pushed, friction);
+  list(ball, segment, reach, place, linked, side, bend, pushed, friction);
   list(lists.released, lists.candidate_next_check_travel);
 }
 

@@ -253,6 +253,7 @@ struct ContactLaw {
   double thinnest = 0.0;       ///< h_min, mm, thickness of the thinnest wall
   /// mm, by which walls may approach in a step; a run in which they do so by more is ended. 0: not checked.
   double most_travel = 0.0;
+  bool bends = false;  ///< segments bend between their nodes (E8e), as those of frames do
 };
 
 /// Pairs of ball and segment whose reach is limited, or will be as walls grow thicker, because a short path along the

@@ -160,6 +160,7 @@ struct State {
   // Written by evaluate_contact_forces and evaluate_plate_forces, which add to forces that integrate_motion has
   // cleared.
   LaneVector<ContactForce> contact_force;  ///< N, of walls and plates
+  std::vector<double> contact_moment;      ///< N, N mm, of walls (E8e); empty unless segments bend
   std::vector<Vector2> friction_force;     ///< N, of walls and plates; empty without friction
   std::vector<double> impact_friction;     ///< N, of the impact plate across the crush; empty without friction
   std::vector<double> support_friction;    ///< N, of the support plate across the crush; empty without friction
@@ -195,9 +196,9 @@ void visit_fields(S& state, Visitor&& visit) {
          reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
          length, inverse_length, shortening, thickening, thickening_slope, radius_growth, fibres, single_fibres,
          wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
-         parted, contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
-         rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, sides, side_force, ledger,
-         derived_steps, derived_tiles] = state;
+         parted, contact_force, contact_moment, friction_force, impact_friction, support_friction, impact_force,
+         support_force, rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, sides,
+         side_force, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding, end_force, owed] =
@@ -217,7 +218,7 @@ void visit_fields(S& state, Visitor&& visit) {
   for (auto& lists : contacts) {
     visit_touch_fields(lists, visit);
   }
-  list(contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
+  list(contact_force, contact_moment, friction_force, impact_friction, support_friction, impact_force, support_force,
        rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, sides, side_force, ledger);
 }
 
