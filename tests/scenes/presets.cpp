@@ -70,6 +70,46 @@ SceneSpec inclusions(std::vector<int> rows) {
   return spec;
 }
 
+// Ruan, Lu, Wang and Yu (2003).
+SceneSpec ruan() {
+  SceneSpec spec = example_2("Hexagons of Ruan, Lu, Wang and Yu", hexagons(16, 16, 2.7, 0.2));
+  spec.depth_mm = 1.0;
+  spec.imperfection = {0.027, 1};
+  spec.loading.speed_m_per_s = 3.5;
+  return spec;
+}
+
+// Zheng, Yu and Li (2005).
+SceneSpec zheng() {
+  SceneSpec spec = example_2("Voronoi honeycomb of Zheng, Yu and Li", {});
+  VoronoiWalls honeycomb;
+  honeycomb.columns = 20;
+  honeycomb.rows = 22;
+  honeycomb.side_mm = 2.9;
+  honeycomb.irregularity = 0.5;
+  honeycomb.seed = 1;
+  honeycomb.relative_density = 0.1;
+  spec.lattice = honeycomb;
+  spec.depth_mm = 1.0;
+  return spec;
+}
+
+// Ajdari, Nayeb-Hashemi and Vaziri (2011).
+SceneSpec ajdari() {
+  SceneSpec spec = example_2("Graded hexagons of Ajdari, Nayeb-Hashemi and Vaziri", hexagons(20, 21, 4.0, 0.2));
+  spec.changes.grading.thickness_polynomial = {1.5, -1.0};
+  return spec;
+}
+
+// Gibson, Ashby, Schajer and Robertson (1982).
+SceneSpec gibson() {
+  SceneSpec spec = example_2("Re-entrant hexagons of Gibson, Ashby, Schajer and Robertson", hexagons(12, 12, 4.0, 0.2));
+  cells_of(spec).own = {{"angle_degrees", -30.0}, {"height_mm", 8.0}};
+  spec.loading.direction = LoadingSpec::Direction::y;
+  spec.loading.speed_m_per_s = 2.0;
+  return spec;
+}
+
 }  // namespace
 
 std::span<const NamedSpec> presets() {
@@ -85,6 +125,10 @@ std::span<const NamedSpec> presets() {
       {"inclusions-0", inclusions({})},
       {"inclusions-2", inclusions({8, 14})},
       {"inclusions-6", inclusions({3, 6, 9, 13, 16, 19})},
+      {"ruan-2003", ruan()},
+      {"zheng-2005", zheng()},
+      {"ajdari-2011-graded", ajdari()},
+      {"gibson-1982-reentrant", gibson()},
   };
   return kPresets;
 }

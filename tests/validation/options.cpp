@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -114,7 +115,23 @@ const std::vector<Option>& all_options() {
       choice("plane", &S::material, &MaterialSpec::plane, {{"stress", Plane::stress}, {"strain", Plane::strain}}),
       count("axial_points", "sections along an element", in(&S::section, &SectionSpec::axial_points)),
       count("depth_points", "fibres through the depth", in(&S::section, &SectionSpec::depth_points)),
-      count("seed", "of the imperfection", in(&S::imperfection, &Imperfection::seed)),
+      {"seed", "of the imperfection, and of the nuclei of a Voronoi honeycomb",
+       [](Options& options, const std::string& text) {
+         options.spec.imperfection.seed = static_cast<std::uint64_t>(count_of("seed", text));
+         if (auto* voronoi = std::get_if<VoronoiWalls>(&options.spec.lattice))
+           voronoi->seed = options.spec.imperfection.seed;
+       }},
+      {"irregularity", "of a Voronoi honeycomb",
+       [](Options& options, const std::string& text) {
+         auto* voronoi = std::get_if<VoronoiWalls>(&options.spec.lattice);
+         if (voronoi == nullptr) throw std::invalid_argument("irregularity: only a Voronoi honeycomb has one.");
+         voronoi->irregularity = number_of("irregularity", text);
+       }},
+      {"thickness_at_impact", "share of the mean thickness, from which it changes linearly along x",
+       [](Options& options, const std::string& text) {
+         const double first = number_of("thickness_at_impact", text);
+         options.spec.changes.grading.thickness_polynomial = {first, 2.0 - 2.0 * first};
+       }},
       number("amplitude", "of the imperfection, mm", in(&S::imperfection, &Imperfection::amplitude_mm)),
       number("bow", "of the walls, mm", in(&S::imperfection, &Imperfection::bow_mm)),
       number("time_step", "s; 0: chosen", in(&S::numerics, &NumericsSpec::time_step_s)),

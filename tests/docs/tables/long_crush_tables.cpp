@@ -120,6 +120,37 @@ std::string mode_table() {
   return table.text();
 }
 
+/// "3.5 end_strain=0.6 seed=1" without the word of the seed.
+std::string without_seed(const std::string& options) { return options.substr(0, options.find(" seed=")); }
+
+/// Presets of other papers: means over the seeds, and the work of the impact plate.
+std::string published_table() {
+  std::vector<std::pair<std::string, std::vector<bench::CsvRow>>> groups;  // by preset and changes
+  for (const bench::CsvRow& row : bench::read_csv(kRecords + "published.csv")) {
+    const std::string name = "`" + row.at("preset") + "` " + without_seed(row.at("options"));
+    if (groups.empty() || groups.back().first != name) groups.push_back({name, {}});
+    groups.back().second.push_back(row);
+  }
+  PageTable table(
+      {"Preset and changes", "#Seeds", "#Impact, MPa", "#Support, MPa", "#Gibson-Ashby, MPa", "#Work, J", "Modes"});
+  for (const auto& [name, rows] : groups) {
+    const auto of = [&rows = rows](const char* column) {
+      std::vector<double> values;
+      for (const bench::CsvRow& row : rows) {
+        if (const double value = bench::number_in(row, column); std::isfinite(value)) values.push_back(value);
+      }
+      return statistics_of(values);
+    };
+    std::string modes;
+    for (const bench::CsvRow& row : rows) modes += (modes.empty() ? "" : ", ") + row.at("crush_mode");
+    const double collapse = of("theory_gibson_ashby").mean;
+    table.add_row({name, std::to_string(rows.size()), mean_text(of("plateau_stress_impact"), 3),
+                   mean_text(of("plateau_stress_support"), 3), collapse > 0.0 ? fixed(collapse, 3) : "",
+                   fixed(1e-3 * of("absorbed_energy").mean, 2), modes});
+  }
+  return table.text();
+}
+
 std::vector<bench::CsvRow> slow_half() { return bench::read_csv(kRecords + "slow_half.csv"); }
 
 std::string name_of(const bench::CsvRow& row) { return std::filesystem::path(row.at("curve")).stem(); }
@@ -180,6 +211,7 @@ PageTables long_crush_tables() {
           {"quadratic fits", fit_table()},
           {"crush modes", mode_table()},
           {"slow crushes", slow_table()},
+          {"other papers", published_table()},
           {"example 3", inclusion_table()},
           {"origin of example 2", origin_of(kValidation + "example_2.csv")},
           {"origin of slow crushes", origin_of(kRecords + "slow_half.csv")}};
