@@ -69,12 +69,13 @@ void check_compact(const v1::Lattice::Network& network, Problems& problems) {
          network.compact().has_steps_per_mm() ? "is out of range." : "is missing.",
          "Give a number from 1 to " + std::to_string(std::lround(rules.maximum())) + ", such as 1000000."});
   }
-  const int sizes[] = {network.joints_mm_size(), network.walls_size(), network.thicknesses_mm_size(),
-                       network.rises_mm_size()};
+  const bool is_given[] = {!network.joints_mm().empty(), !network.walls().empty(), !network.thicknesses_mm().empty(),
+                           !network.rises_mm().empty()};
   for (int i = 0; i < 4; ++i) {
-    if (sizes[i] == 0) continue;
-    problems.push_back({kNetwork + kLists[i].first, std::to_string(sizes[i]) + " numbers",
-                        "are given beside " + kNetwork + "compact, which replaces them.", "Remove one of the two."});
+    if (!is_given[i]) continue;
+    problems.push_back({kNetwork + "compact", "",
+                        "replaces " + kNetwork + kLists[i].first + ", which is given beside it.",
+                        "Remove one of the two."});
   }
 }
 

@@ -29,6 +29,7 @@ class JournalUpkeepTest : public JournalTest {
     const auto job = create();
     v1::Mesh mesh;
     mesh.mutable_position_mm()->Resize(8 * kMebibyte / sizeof(float), 0.5F);
+    mesh.set_length_mm(static_cast<double>(job));  // otherwise all have the same one
     journal_->set_mesh(job, mesh);
     return job;
   }
