@@ -24,6 +24,21 @@ SceneSpec with_hardening() {
   return spec;
 }
 
+/// A Voronoi honeycomb of about as many elements as Type I: its faces have from three walls to more than ten, and the
+/// nodes of a wall lie anywhere in memory.
+SceneSpec uneven_cells() {
+  SceneSpec spec = scenes::preset("type-i");
+  VoronoiWalls cells;
+  cells.columns = 74;
+  cells.rows = 22;
+  cells.side_mm = 4.0;
+  cells.irregularity = 0.5;
+  cells.seed = 1;
+  cells.wall_thickness_mm = 0.3464;
+  spec.lattice = cells;
+  return spec;
+}
+
 /// A part of Type I that has about as many elements, at the step that is chosen for it.
 SceneSpec with_elements(int elements, int columns, int rows) {
   SceneSpec spec = papers_type_i();
@@ -62,6 +77,7 @@ std::vector<Crush> crushes() {
           {"type-i-default", scenes::preset("type-i"), {0.20, 0.45, 0.80}},
           {"squares", papers("type-ii-as-counted"), {0.20}},
           {"triangles", papers("type-iii-as-counted"), {0.20}},
+          {"voronoi", uneven_cells(), {0.20, 0.45}},
           {"friction", with_friction(), {0.45}},
           {"hardening", with_hardening(), {0.45}},
           {"four-elements", with_elements(4, 52, 15), {0.20}},
