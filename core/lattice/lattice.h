@@ -91,8 +91,8 @@ bool is_fast_crush(const SceneSpec& spec);
 /// The mesh of a spec of a kind.
 DefaultMesh mesh_of(const LatticeKind& kind, const SceneSpec& spec);
 
-/// The mesh of walls that bend. In a fast crush, walls of one element cannot fold: those of the crushed layer overlap, by
-/// half of its volume at 100 m/s, and the run ends.
+/// The mesh of walls that bend. In a fast crush, walls of one element cannot fold: those of the crushed layer overlap,
+/// by half of its volume at 100 m/s, and the run ends.
 DefaultMesh mesh_of_bent_walls(const SceneSpec& spec, std::string of_what);
 
 /// The mesh of walls along the crush, which buckle in short waves.

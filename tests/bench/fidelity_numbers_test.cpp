@@ -151,11 +151,11 @@ struct Beyond {
   std::vector<std::string> names;
 };
 
-// STANDARD of hexagons along x is the coarsest mesh that runs at all speeds, and is within the bounds; that of triangles
-// is the coarsest within them. 18 x 9 squares are beyond them at the support of 100 m/s, because their walls do not
-// harden (core/what-is-computed.md). Of 18 x 21 hexagons along y STANDARD keeps the bounds at 25 m/s. Above, half as many
-// elements have another support plateau. Of the whole presets scatter hides all differences but that of the support of
-// squares at 75 m/s, which is too low.
+// STANDARD of hexagons along x is the coarsest mesh that runs at all speeds, and is within the bounds; that of
+// triangles is the coarsest within them. 18 x 9 squares are beyond them at the support of 100 m/s, because their walls
+// do not harden (core/what-is-computed.md). Of 18 x 21 hexagons along y STANDARD keeps the bounds at 25 m/s. Above,
+// half as many elements have another support plateau. Of the whole presets scatter hides all differences but that of
+// the support of squares at 75 m/s, which is too low.
 TEST(FidelityNumbers, MeshesBeyondTheBoundsAreKnown) {
   const Study study = read_study("mesh_study");
   const int of_hexagons = standard_of("type-i", LoadingSpec::Direction::x, 100.0);

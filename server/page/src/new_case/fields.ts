@@ -196,7 +196,8 @@ function parse(field: DescField, text: string): unknown {
 function typedFor(field: DescField, text: string): TypedNumber | undefined {
   if (field.fieldKind === "list") {
     const faulty = entriesOf(text).find((entry) => readReal(entry).problem);
-    return faulty === undefined ? undefined : { problem: `has an entry, “${faulty}”, that ${readReal(faulty).problem}` };
+    if (faulty === undefined) return undefined;
+    return { problem: `has an entry, “${faulty}”, that ${readReal(faulty).problem}` };
   }
   switch (field.fieldKind === "scalar" ? field.scalar : undefined) {
     case ScalarType.DOUBLE: return readReal(text);
