@@ -14,6 +14,7 @@ WRONG = {  # by type
     FieldDescriptor.TYPE_ENUM: (None, "sideways", 2.5, 99, {"x": 1}),
     FieldDescriptor.TYPE_DOUBLE: (None, "fast", True, 10**400, {"x": 1}),
     FieldDescriptor.TYPE_INT32: (None, "many", True, 2.5, 2**31, {"x": 1}),
+    FieldDescriptor.TYPE_SINT32: (None, "many", True, 2.5, 2**31, {"x": 1}),
     FieldDescriptor.TYPE_UINT64: (None, "many", True, 2.5, -1, 2**64, {"x": 1})}
 
 
