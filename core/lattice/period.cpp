@@ -9,7 +9,6 @@
 #include "geometry/bucket_grid.h"
 #include "lattice/lattice.h"
 #include "lattice/network.h"
-#include "lattice/voronoi.h"
 
 namespace cellcrush {
 namespace {

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "contact/repeated_mesh.h"
 #include "contact/topology/initial_overlap.h"
 #include "lattice/lattice.h"
 #include "lattice/period.h"
@@ -17,6 +16,7 @@
 #include "push/half_planes.h"
 #include "scene/grips.h"
 #include "scene/mesh_part.h"
+#include "scene/repeat_mesh.h"
 #include "scene/rigid_links.h"
 #include "scene/unit_sets.h"
 
