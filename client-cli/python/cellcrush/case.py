@@ -21,8 +21,9 @@ CaseLike = Union[Case, Mapping[str, Any], str, "os.PathLike[str]"]
 
 _PRESET = "preset:"
 _FORMS = "Give a file, preset:NAME, text or a dict."
-_WHOLE = {FieldDescriptor.TYPE_INT32: (-2**31, 2**31 - 1), FieldDescriptor.TYPE_INT64: (-2**63, 2**63 - 1),
-          FieldDescriptor.TYPE_UINT32: (0, 2**32 - 1), FieldDescriptor.TYPE_UINT64: (0, 2**64 - 1)}
+_WHOLE = {FieldDescriptor.TYPE_INT32: (-2**31, 2**31 - 1), FieldDescriptor.TYPE_SINT32: (-2**31, 2**31 - 1),
+          FieldDescriptor.TYPE_INT64: (-2**63, 2**63 - 1), FieldDescriptor.TYPE_UINT32: (0, 2**32 - 1),
+          FieldDescriptor.TYPE_UINT64: (0, 2**64 - 1)}
 _SHOWN = 60  # characters of a value in an error
 _MAX_SEEDS = 100000
 

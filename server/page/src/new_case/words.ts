@@ -32,7 +32,8 @@ const kLabels: Record<string, string> = {
   thickness_polynomial: "Thickness by a polynomial", size_polynomial: "Size by a polynomial",
   "lattice.outline.corners_mm": "Corners of the outline",
   "lattice.outline.edge_wall_thickness_mm": "Thickness of walls along the outline",
-  amplitude_mm: "Offset of joints, at most", bow_mm: "Bow of walls, at most", plane: "Plane stress or strain", direction: "Direction",
+  amplitude_mm: "Offset of joints, at most", bow_mm: "Bow of walls, at most",
+  plane: "Plane stress or strain", direction: "Direction",
   sample_count: "Samples", frame_count: "Frames", vertical_wall_thickness_mm: "Thickness of the walls along y",
   gravity_x_m_per_s2: "Gravity along x", gravity_y_m_per_s2: "Gravity along y",
 };
