@@ -131,6 +131,13 @@ ListedWalls list_walls(const SceneSpec& spec) {
   ListedWalls listed = {spec, {}, {}};
   if (!has_made_walls(spec)) return listed;
   auto [layout, words] = lay_out_unchanged(spec);
+  if (std::ranges::any_of(layout.walls, [](const LayoutWall& wall) { return wall.bow != 0.0; })) {
+    const std::string path = path_of_lattice(spec);
+    listed.problems.push_back({path.substr(0, path.size() - 1), "",
+                               "has curved walls, which defects, grading, rotation or outline would straighten.",
+                               "Remove these, or take another lattice."});
+    return listed;
+  }
   if (const double period = period_of(spec); period > 0.0) {
     close_period(spec.loading.direction == LoadingSpec::Direction::x ? 1 : 0, period, layout);
     listed.spec.loading.sides.period_mm = period;

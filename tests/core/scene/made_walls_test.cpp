@@ -314,6 +314,12 @@ TEST(MadeWalls, NameTheFieldsThatAreWrong) {
                 spec.inclusions = {{2}, 2.0};
               }),
               ElementsAre("lattice.inclusions.model"));
+  EXPECT_THAT(fields_of([](SceneSpec& spec) {
+                spec.changes.defects.missing_walls = 0.1;
+                std::get<RegularLattice>(spec.lattice).kind = "sinusoidal_square";
+                spec.elements_per_wall = 4;
+              }),
+              ElementsAre("lattice.sinusoidal_square"));
 }
 
 }  // namespace
