@@ -28,8 +28,9 @@ class BucketGrid {
     const int x_last = std::min(cell(high, 0), columns_ - 1);
     const int y_first = std::max(cell(low, 1), 0);
     const int y_last = std::min(cell(high, 1), rows_ - 1);
+    if (x_first > x_last) return;
     for (int y = y_first; y <= y_last; ++y) {
-      for (int k = offset_[bucket(x_first, y)]; x_first <= x_last && k < offset_[bucket(x_last, y) + 1]; ++k) {
+      for (int k = offset_[bucket(x_first, y)]; k < offset_[bucket(x_last, y) + 1]; ++k) {
         visit(sorted_[k]);
       }
     }
