@@ -23,7 +23,7 @@ struct Unclosed {
 
 /// Pairs the joints at the low side with their images, `length` mm further on along an axis, to a millionth of it
 /// (Layout::images). Walls that are images of others are removed, with the joints that they leave: each wall stands
-/// once. The return value tells of a layout that had some.
+/// once. Returns what keeps a layout from that, -1 where nothing does.
 Unclosed close_period(int axis, double length, Layout& layout);
 
 /// Puts the images where the joints at the low side say, which imperfections have moved.

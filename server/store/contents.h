@@ -11,7 +11,7 @@ namespace cellcrush::store {
 
 /// Makes the BLOBs in which the journal stores cases, sweeps and meshes (journal_format.md#contents). What is large in
 /// them and may be the same in many rows goes into the table `contents`, once. A row lost there, or damaged, is written
-/// anew. Lives within a transaction. Throws ServiceError.
+/// again. Lives within a transaction. Throws ServiceError.
 class ContentWriter {
  public:
   explicit ContentWriter(Database& database) : database_(database) {}
