@@ -83,7 +83,7 @@ v1::CreateSweepRequest build_request(ConvergeOptions& options, Connection& conne
   for (const int elements : options.meshes) meshes.mutable_list()->add_values(elements);
   if (options.seeds > 1) {
     v1::SweepAxis& seeds = *sweep.add_axes();
-    seeds.set_field(std::string(kSeedField));
+    seeds.set_field(kSeedField);
     seeds.set_seed_count(options.seeds);
   }
   return request;

@@ -9,25 +9,6 @@ namespace cellcrush {
 
 namespace {
 
-std::optional<double> known(bool has, double value) { return has ? std::optional(value) : std::nullopt; }
-
-using Value = std::optional<double>;
-using Of = const v1::Summary&;
-
-Value plateau_stress_impact(Of s) { return known(s.has_plateau_stress_impact_mpa(), s.plateau_stress_impact_mpa()); }
-Value plateau_stress_support(Of s) { return known(s.has_plateau_stress_support_mpa(), s.plateau_stress_support_mpa()); }
-Value plateau_to_densification(Of s) {
-  return known(s.has_plateau_stress_to_densification_mpa(), s.plateau_stress_to_densification_mpa());
-}
-Value densification_strain(Of s) { return known(s.has_densification_strain(), s.densification_strain()); }
-Value valid_to_strain(Of s) { return known(s.has_valid_to_strain(), s.valid_to_strain()); }
-Value absorbed_energy(Of s) { return known(s.step_count() > 0, s.absorbed_energy_mj()); }
-Value gibson_ashby(Of s) { return known(s.theory().shock_mpa() > 0.0, s.theory().gibson_ashby_mpa()); }
-Value shock_stress(Of s) { return known(s.theory().shock_mpa() > 0.0, s.theory().shock_mpa()); }
-Value front_shock(Of s) { return known(s.has_front(), s.front().shock_mpa()); }
-Value front_strain(Of s) { return known(s.has_front(), s.front().strain_behind()); }
-Value energy_error(Of s) { return known(s.step_count() > 0, s.energy_error_relative()); }
-
 // Sets a number of a summary by its path.
 void set_result(v1::Summary& summary, std::string_view path, double value) {
   google::protobuf::Message* message = &summary;
@@ -61,34 +42,46 @@ v1::Job mean_job(const v1::SweepTable::SeedMeans& means, const v1::Summary& any)
 
 }  // namespace
 
+std::string ResultColumn::field() const {
+  constexpr std::string_view kTheory = "theory.";
+  std::string name(std::string_view(path).starts_with(kTheory) ? path + kTheory.size() : path);
+  std::ranges::replace(name, '.', '_');
+  return name;
+}
+
+std::optional<double> find_result(const v1::Summary& summary, std::string_view path) {
+  const google::protobuf::Message* message = &summary;
+  const std::size_t dot = path.find('.');
+  const auto* field = summary.GetDescriptor()->FindFieldByName(std::string(path.substr(0, dot)));
+  if (dot != std::string_view::npos) {
+    if (!summary.GetReflection()->HasField(summary, field)) return std::nullopt;
+    message = &summary.GetReflection()->GetMessage(summary, field);
+    field = message->GetDescriptor()->FindFieldByName(std::string(path.substr(dot + 1)));
+  }
+  const bool must_be_set = field->has_presence() || message->GetDescriptor() == v1::Theory::descriptor();
+  if (must_be_set && !message->GetReflection()->HasField(*message, field)) return std::nullopt;
+  return message->GetReflection()->GetDouble(*message, field);
+}
+
 const std::vector<ResultColumn>& result_columns() {
   static const std::vector<ResultColumn> kColumns = {
-      {{"plateau", "impact", "plate"},
-       "MPa",
-       "plateau_stress_impact_mpa",
-       "plateau_stress_impact_mpa",
-       "-",
-       plateau_stress_impact},
-      {{"plateau", "support", "plate"},
-       "MPa",
-       "plateau_stress_support_mpa",
-       "plateau_stress_support_mpa",
-       "-",
-       plateau_stress_support},
-      {{"plateau", "up to", "densif."},
-       "MPa",
-       "plateau_stress_to_densification_mpa",
-       "plateau_stress_to_densification_mpa",
-       "-",
-       plateau_to_densification},
-      {{"densif.", "strain", ""}, "", "densification_strain", "densification_strain", "-", densification_strain},
-      {{"absorbed", "energy", ""}, "mJ", "absorbed_energy_mj", "absorbed_energy_mj", "-", absorbed_energy},
-      {{"quasi-", "static", "theory"}, "MPa", "gibson_ashby_mpa", "theory.gibson_ashby_mpa", "-", gibson_ashby},
-      {{"shock", "theory", "Eq. 51"}, "MPa", "shock_mpa", "theory.shock_mpa", "-", shock_stress},
-      {{"shock", "theory", "Eq. 52"}, "MPa", "front_shock_mpa", "front.shock_mpa", "no front", front_shock},
-      {{"strain", "behind", "front"}, "", "front_strain_behind", "front.strain_behind", "no front", front_strain},
-      {{"energy", "ledger", "error"}, "%", "energy_error_relative", "energy_error_relative", "-", energy_error},
-      {{"valid", "to", "strain"}, "", "valid_to_strain", "valid_to_strain", "-", valid_to_strain},
+      {{"plateau", "impact", "plate"}, "MPa", "plateau_stress_impact_mpa"},
+      {{"plateau", "support", "plate"}, "MPa", "plateau_stress_support_mpa"},
+      {{"plateau", "up to", "densif."}, "MPa", "plateau_stress_to_densification_mpa"},
+      {{"densif.", "strain", ""}, "", "densification_strain"},
+      {{"absorbed", "energy", ""}, "mJ", "absorbed_energy_mj"},
+      {{"quasi-", "static", "theory"}, "MPa", "theory.gibson_ashby_mpa"},
+      {{"shock", "theory", "Eq. 51"}, "MPa", "theory.shock_mpa"},
+      {{"shock", "theory", "Eq. 52"}, "MPa", "front.shock_mpa", "no front"},
+      {{"strain", "behind", "front"}, "", "front.strain_behind", "no front"},
+      {{"energy", "ledger", "error"}, "%", "energy_error_relative"},
+      {{"valid", "to", "strain"}, "", "valid_to_strain"},
+      {{"solid", "fraction", "at densif."}, "", "solid_fraction_at_densification"},
+      {{"mean", "crush", "force"}, "N", "crush_forces.mean_n"},
+      {{"peak", "crush", "force"}, "N", "crush_forces.peak_n"},
+      {{"crush", "force", "efficiency"}, "", "crush_forces.efficiency"},
+      {{"specific", "energy", "absorbed"}, "J/g", "crush_forces.specific_energy_j_per_g"},
+      {{"Poisson's", "ratio", ""}, "", "poissons_ratio"},
   };
   return kColumns;
 }
@@ -131,7 +124,10 @@ const v1::SweepTable::Mean* find_mean(const v1::SweepTable::SeedMeans& means, st
 }
 
 std::optional<double> result_of(const v1::SweepTable& results, int row, const ResultColumn& column) {
-  if (results.means().empty()) return column.value(results.rows(row).result().summary());
+  if (results.means().empty()) {
+    const v1::Summary& summary = results.rows(row).result().summary();
+    return summary.step_count() > 0 ? find_result(summary, column.path) : std::nullopt;
+  }
   const auto* mean = find_mean(results.means(row), column.path);
   return mean == nullptr ? std::nullopt : std::optional(mean->mean());
 }

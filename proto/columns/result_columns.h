@@ -11,17 +11,22 @@
 namespace cellcrush {
 
 /// The field over which means are taken.
-inline constexpr std::string_view kSeedField = "lattice.imperfection.seed";
+inline constexpr const char* kSeedField = "lattice.imperfection.seed";
 
 /// A result of a job, as a column of a sweep's table.
 struct ResultColumn {
-  std::array<const char*, 3> heading;                          ///< its lines, such as "plateau", "impact", "plate"
-  const char* unit;                                            ///< of the summary, as in unit_by_size()
-  const char* field;                                           ///< name with its unit, for CSV
-  const char* path;                                            ///< in Summary
-  const char* absent;                                          ///< instead of a value, beside a plateau
-  std::optional<double> (*value)(const v1::Summary& summary);  ///< in the summary's unit
+  std::array<const char*, 3> heading;  ///< its lines, such as "plateau", "impact", "plate"
+  const char* unit;                    ///< of the summary, as in unit_by_size()
+  const char* path;                    ///< in Summary
+  const char* absent = "-";            ///< instead of a value, beside a plateau
+
+  /// Name with its unit, for CSV: "shock_mpa" of "theory.shock_mpa", "front_shock_mpa" of "front.shock_mpa".
+  [[nodiscard]] std::string field() const;
 };
+
+/// A number of a summary by its path, such as "front.shock_mpa". Nothing if the run does not have it: a field of theory
+/// is 0 where the theory does not apply.
+std::optional<double> find_result(const v1::Summary& summary, std::string_view path);
 
 /// The columns of a sweep's table, in their order.
 const std::vector<ResultColumn>& result_columns();

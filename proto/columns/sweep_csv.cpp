@@ -20,10 +20,10 @@ void add_heading(CsvText& text, const v1::SweepTable& table, bool has_means) {
     if (!has_means) text.add(name);
   }
   for (const ResultColumn& column : result_columns()) {
-    text.add(column.field);
+    text.add(column.field());
     if (!has_means) continue;
-    text.add(std::string(column.field) + "_ci95");
-    text.add(std::string(column.field) + "_count");
+    text.add(column.field() + "_ci95");
+    text.add(column.field() + "_count");
   }
   text.add("crush_mode");
   if (has_means) text.add("crush_mode_count");

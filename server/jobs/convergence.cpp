@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "cellcrush/convergence.h"
+#include "columns/result_columns.h"
 #include "columns/swept_fields.h"
 #include "error.h"
-#include "jobs/seed_means.h"
 #include "translate/case_words.h"
 
 namespace cellcrush::jobs {

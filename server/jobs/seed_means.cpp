@@ -1,46 +1,14 @@
 #include "jobs/seed_means.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
-#include <string>
 #include <utility>
 
 #include "cellcrush/convergence.h"
+#include "columns/result_columns.h"
 #include "columns/swept_fields.h"
 
 namespace cellcrush::jobs {
-namespace {
-
-/// The results of a sweep's table, in the order of its columns.
-constexpr std::array kResults = {"plateau_stress_impact_mpa",
-                                 "plateau_stress_support_mpa",
-                                 "plateau_stress_to_densification_mpa",
-                                 "densification_strain",
-                                 "absorbed_energy_mj",
-                                 "theory.gibson_ashby_mpa",
-                                 "theory.shock_mpa",
-                                 "front.shock_mpa",
-                                 "front.strain_behind",
-                                 "energy_error_relative",
-                                 "valid_to_strain",
-                                 "solid_fraction_at_densification"};
-
-}  // namespace
-
-std::optional<double> find_result(const v1::Summary& summary, std::string_view path) {
-  const google::protobuf::Message* message = &summary;
-  const std::size_t dot = path.find('.');
-  const auto* field = summary.GetDescriptor()->FindFieldByName(std::string(path.substr(0, dot)));
-  if (dot != std::string_view::npos) {
-    if (!summary.GetReflection()->HasField(summary, field)) return std::nullopt;
-    message = &summary.GetReflection()->GetMessage(summary, field);
-    field = message->GetDescriptor()->FindFieldByName(std::string(path.substr(dot + 1)));
-  }
-  const bool must_be_set = field->has_presence() || message->GetDescriptor() == v1::Theory::descriptor();
-  if (must_be_set && !message->GetReflection()->HasField(*message, field)) return std::nullopt;
-  return message->GetReflection()->GetDouble(*message, field);
-}
 
 SeedMeans::SeedMeans(const v1::Sweep& sweep) {
   const auto fields = swept_fields(sweep);
@@ -55,7 +23,7 @@ void SeedMeans::add(const v1::SweepTable::Row& row) {
   if (is_new) {
     auto& point = points_.emplace_back();
     point.counts.mutable_values()->Add(others.begin(), others.end());
-    point.results.resize(kResults.size());
+    point.results.resize(result_columns().size());
   }
   auto& [counts, results, modes] = points_[place->second];
   const v1::Summary& summary = row.result().summary();
@@ -64,20 +32,20 @@ void SeedMeans::add(const v1::SweepTable::Row& row) {
   if (row.result().state() != v1::Job::SUCCEEDED) return;
   counts.set_succeeded_count(counts.succeeded_count() + 1);
   if (!summary.warnings().empty()) counts.set_warned_count(counts.warned_count() + 1);
-  for (std::size_t i = 0; i < kResults.size(); ++i) {
-    if (const auto value = find_result(summary, kResults[i])) results[i].push_back(*value);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (const auto value = find_result(summary, result_columns()[i].path)) results[i].push_back(*value);
   }
   if (summary.crush_mode() != v1::Summary::CRUSH_MODE_UNSPECIFIED) ++modes[summary.crush_mode()];
 }
 
 v1::SweepTable::SeedMeans SeedMeans::means(std::size_t point) const {
   auto out = points_[point].counts;
-  for (std::size_t i = 0; i < kResults.size(); ++i) {
+  for (std::size_t i = 0; i < points_[point].results.size(); ++i) {
     const auto& values = points_[point].results[i];
     if (values.empty()) continue;
     const SeedStatistics of = statistics_of(values);
     auto& result = *out.add_results();
-    result.set_field(kResults[i]);
+    result.set_field(result_columns()[i].path);
     result.set_job_count(of.count);
     result.set_mean(of.mean);
     if (of.count < 2) continue;

@@ -3,18 +3,11 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "cellcrush/v1/sweep.pb.h"
 
 namespace cellcrush::jobs {
-
-inline constexpr const char* kSeedField = "lattice.imperfection.seed";
-
-/// A number of a summary by its path, such as "front.shock_mpa". Nothing if the run does not have it: a field of theory
-/// is 0 where the theory does not apply.
-std::optional<double> find_result(const v1::Summary& summary, std::string_view path);
 
 /// Results of a sweep that varies the seed, averaged over it. Holds the numbers of each job, not its row.
 class SeedMeans {

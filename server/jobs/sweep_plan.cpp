@@ -15,9 +15,9 @@
 #include <string_view>
 #include <utility>
 
+#include "columns/result_columns.h"
 #include "error_table.h"
 #include "jobs/case_field.h"
-#include "jobs/seed_means.h"
 #include "jobs/sweep_points.h"
 #include "store/large_lattice.h"
 #include "translate/case_checker.h"

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <set>
 
+#include "columns/result_columns.h"
 #include "columns/swept_fields.h"
 #include "error.h"
 #include "jobs/case_field.h"
-#include "jobs/seed_means.h"
 
 namespace cellcrush::jobs {
 namespace {

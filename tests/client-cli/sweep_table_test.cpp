@@ -90,16 +90,21 @@ TEST(SweepTable, WithFewerThanThreeResultsThereIsNoFitAndFailuresSayWhy) {
 
 TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {
   v1::SweepTable table = make_table(1);
-  table.mutable_rows(0)->mutable_result()->mutable_summary()->set_valid_to_strain(0.86);
+  v1::Summary& summary = *table.mutable_rows(0)->mutable_result()->mutable_summary();
+  summary.set_valid_to_strain(0.86);
+  summary.set_poissons_ratio(-0.25);
+  *summary.mutable_crush_forces() = from_text<v1::CrushForces>("mean_n: 80 peak_n: 200 efficiency: 0.4");
   const auto lines = lines_of(sweep_table_csv(table));
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[0],
             "loading.speed_m_per_s,job,state,plateau_stress_impact_mpa,plateau_stress_support_mpa,"
             "plateau_stress_to_densification_mpa,densification_strain,absorbed_energy_mj,gibson_ashby_mpa,shock_mpa,"
-            "front_shock_mpa,front_strain_behind,energy_error_relative,valid_to_strain,crush_mode");
+            "front_shock_mpa,front_strain_behind,energy_error_relative,valid_to_strain,solid_fraction_at_densification,"
+            "crush_forces_mean_n,crush_forces_peak_n,crush_forces_efficiency,crush_forces_specific_energy_j_per_g,"
+            "poissons_ratio,crush_mode");
   EXPECT_EQ(lines[1].find("50,jobs/1,SUCCEEDED,1.005,0.44,,,12345,0.301,"), 0U) << lines[1];
-  EXPECT_THAT(lines[1], HasSubstr(",0.0121,0.86,V"));
-  EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,,,,,");
+  EXPECT_THAT(lines[1], HasSubstr(",0.0121,0.86,,80,200,0.4,0,-0.25,V"));
+  EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,,,,,,,,,,,");
 }
 
 TEST(SweepTable, ShowsMeansOverTheSeedsWithTheirIntervalsUnlessEachJobIsWanted) {

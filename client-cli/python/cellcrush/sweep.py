@@ -19,11 +19,13 @@ if TYPE_CHECKING:
 # The columns of results, named as in the table of the command line.
 _RESULTS = ("plateau_stress_impact_mpa", "plateau_stress_support_mpa", "plateau_stress_to_densification_mpa",
             "densification_strain", "absorbed_energy_mj", "theory.gibson_ashby_mpa", "theory.shock_mpa",
-            "front.shock_mpa", "front.strain_behind", "energy_error_relative", "valid_to_strain")
+            "front.shock_mpa", "front.strain_behind", "energy_error_relative", "valid_to_strain",
+            "solid_fraction_at_densification", "crush_forces.mean_n", "crush_forces.peak_n", "crush_forces.efficiency",
+            "crush_forces.specific_energy_j_per_g", "poissons_ratio")
 
 
 def _column(path: str) -> str:
-    return path.replace("theory.", "").replace("front.", "front_")
+    return path.replace("theory.", "").replace(".", "_")
 
 
 class SweepWatch:

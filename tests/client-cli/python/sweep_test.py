@@ -254,7 +254,7 @@ class Means(unittest.TestCase):
             theirs = pandas.read_csv(direct.open(f"{pages}/{sweep.name}.csv"))
             ours = sweep.table(mean_over="seed")
         results = [name.removesuffix("_ci95") for name in theirs if name.endswith("_ci95")]
-        self.assertEqual((len(results), list(ours["densification_strain_count"])), (11, [2, 3]))
+        self.assertEqual((len(results), list(ours["densification_strain_count"])), (17, [2, 3]))
         for name in results:
             np.testing.assert_allclose(ours[name], theirs[name], rtol=1e-6, err_msg=name)
             np.testing.assert_array_equal(ours.get(f"{name}_count", theirs[f"{name}_count"]), theirs[f"{name}_count"])
