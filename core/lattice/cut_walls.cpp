@@ -51,7 +51,7 @@ class PolygonCutter {
   }
 
   /// Walls along the polygon, from one cut end or corner to the next.
-  void add_edge_walls(double thickness, int elements) {
+  void add_edge_walls(double thickness) {
     if (std::ranges::all_of(on_edge_, [](const auto& ends) { return ends.empty(); })) return;
     std::vector<int> corner_joints;
     for (const Vector2& corner : corners_) {
@@ -67,7 +67,6 @@ class PolygonCutter {
         added.start = on_edge_[edge][i].second;
         added.end = on_edge_[edge][i + 1].second;
         added.thickness = thickness;
-        added.elements = elements;
       }
     }
   }
@@ -241,7 +240,7 @@ Islands cut_at(const Polygon& polygon, double edge_wall_thickness, Layout& layou
       origin.push_back(part[wall.start]);
     }
   }
-  if (edge_wall_thickness > 0.0) cutter.add_edge_walls(edge_wall_thickness, given.front().elements);
+  if (edge_wall_thickness > 0.0) cutter.add_edge_walls(edge_wall_thickness);
   origin.resize(layout.walls.size(), part[given.front().start]);
   const Islands islands = leave_out_islands(origin, layout);
   merge_short_walls(kShortestWall * mean, layout);

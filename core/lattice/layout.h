@@ -87,8 +87,7 @@ inline JointGrid even_grid(const GridPoint& last, const Vector2& spacing) {
 /// Collects the walls of a lattice whose joints are points of a grid.
 class WallBuilder {
  public:
-  WallBuilder(const JointGrid& grid, int elements)
-      : grid_(grid), joint_at_(grid.last), wall_at_(2 * grid.last), elements_(elements) {}
+  explicit WallBuilder(const JointGrid& grid) : grid_(grid), joint_at_(grid.last), wall_at_(2 * grid.last) {}
 
   /// Adds a wall. Of a wall that two cells share, the greater thickness holds, and it is rigid if one of them is. It
   /// leads from where it did first.
@@ -96,7 +95,7 @@ class WallBuilder {
     int& number = wall_at_[from + to];  // twice the mid-point, at which there is no other wall
     if (number == Numbers::kNone) {
       number = static_cast<int>(layout_.walls.size());
-      layout_.walls.push_back({joint(from), joint(to), thickness, elements_});
+      layout_.walls.push_back({joint(from), joint(to), thickness});
     }
     LayoutWall& wall = layout_.walls[number];
     wall.thickness = std::max(wall.thickness, thickness);
@@ -136,7 +135,6 @@ class WallBuilder {
   JointGrid grid_;
   Numbers joint_at_;
   Numbers wall_at_;
-  int elements_;
   Layout layout_;
 };
 

@@ -31,7 +31,7 @@ std::string words_of(const Islands& islands) {
 /// The walls of the lattice before any change, and what they are, in a sentence.
 std::pair<Layout, std::string> lay_out_unchanged(const SceneSpec& spec) {
   if (const auto* lattice = std::get_if<VoronoiWalls>(&spec.lattice)) {
-    VoronoiLayout made = lay_out_voronoi(*lattice, *spec.elements_per_wall);
+    VoronoiLayout made = lay_out_voronoi(*lattice, repeated_axis_of(spec));
     std::string words = "Voronoi honeycomb of " + std::to_string(*lattice->columns * *lattice->rows) + " cells, " +
                         counted(static_cast<int>(made.layout.walls.size()), "wall") + " of " + to_text(made.thickness) +
                         " mm" + words_of(made.islands);
@@ -139,7 +139,15 @@ ListedWalls list_walls(const SceneSpec& spec) {
     return listed;
   }
   if (const double period = period_of(spec); period > 0.0) {
-    close_period(spec.loading.direction == LoadingSpec::Direction::x ? 1 : 0, period, layout);
+    const int axis = *repeated_axis_of(spec);
+    const Unclosed unclosed = close_period(axis, period, layout);
+    const bool is_voronoi = std::holds_alternative<VoronoiWalls>(spec.lattice);
+    if (is_voronoi && (unclosed.wide_joint >= 0 || layout.images.empty())) {
+      listed.problems.push_back({std::string("lattice.voronoi.") + (axis == 0 ? "columns" : "rows"), "",
+                                 "are too few: walls are longer than half of the period (loading.sides PERIODIC).",
+                                 "Give more."});
+      return listed;
+    }
     listed.spec.loading.sides.period_mm = period;
   }
   change(spec.changes, layout, words, listed.problems);

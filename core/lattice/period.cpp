@@ -9,6 +9,7 @@
 #include "geometry/bucket_grid.h"
 #include "lattice/lattice.h"
 #include "lattice/network.h"
+#include "lattice/voronoi.h"
 
 namespace cellcrush {
 namespace {
@@ -113,8 +114,14 @@ bool repeats_along(const SceneSpec& spec, int axis) {
   return spec.loading.sides.kind == LoadingSpec::Sides::Kind::periodic && axis == axis_across(spec);
 }
 
+std::optional<int> repeated_axis_of(const SceneSpec& spec) {
+  const int axis = axis_across(spec);
+  return repeats_along(spec, axis) ? std::optional(axis) : std::nullopt;
+}
+
 double period_of(const SceneSpec& spec) {
   if (!repeats_along(spec, axis_across(spec))) return 0.0;
+  if (const auto* voronoi = std::get_if<VoronoiWalls>(&spec.lattice)) return envelope_of(*voronoi)[axis_across(spec)];
   if (const LatticeKind* kind = kind_of(spec)) return kind->period(*regular_lattice_of(spec))[axis_across(spec)];
   return spec.loading.sides.period_mm.value_or(0.0);
 }
@@ -170,11 +177,9 @@ void check_period(const SceneSpec& spec, FieldChecker& check) {
     }
   } else if (is_network) {
     check_period_of_network(spec, check);
-  } else {
-    const bool is_frame = std::holds_alternative<FrameWalls>(spec.lattice);
-    check.add("loading.sides.kind", "PERIODIC",
-              std::string("is not available for ") + (is_frame ? "frames." : "Voronoi honeycombs."),
-              std::string("Set it to FREE or RIGID") + (is_frame ? ", or give the walls as lattice.network." : "."));
+  } else if (std::holds_alternative<FrameWalls>(spec.lattice)) {
+    check.add("loading.sides.kind", "PERIODIC", "is not available for frames.",
+              "Set it to FREE or RIGID, or give the walls as lattice.network.");
   }
   if (sides.period_mm && !is_network) {
     check.add(kPeriod, to_text(*sides.period_mm), "is for networks: other lattices repeat after their columns or rows.",

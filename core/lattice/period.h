@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "cellcrush/scene_spec.h"
 #include "lattice/layout.h"
 
@@ -10,8 +12,10 @@ class FieldChecker;
 /// Whether the sides of a spec repeat (loading.sides PERIODIC) along an axis, 0: x, 1: y.
 bool repeats_along(const SceneSpec& spec, int axis);
 
-/// Length after which such sides repeat, across the crush, mm: that of the kind of lattice, or as given for a network.
-/// 0 if they do not repeat. REQUIRES: a checked spec.
+/// That axis, across the crush; nothing if they do not repeat.
+std::optional<int> repeated_axis_of(const SceneSpec& spec);
+
+/// Length after which such sides repeat, across the crush, mm: that of the lattice, or as given for a network. 0 if they do not repeat. REQUIRES: a checked spec.
 double period_of(const SceneSpec& spec);
 
 /// What prevents that a layout is closed; -1: nothing does.

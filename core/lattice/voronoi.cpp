@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -135,7 +136,7 @@ void relax(int steps, Nuclei& nuclei) {
 }
 
 /// Walls that reach into the rectangle, and a little more. Joints are numbered row by row, walls by their joints.
-Layout walls_around(const VoronoiCells& cells, const Nuclei& nuclei, const Vector2& envelope, int elements) {
+Layout walls_around(const VoronoiCells& cells, const Nuclei& nuclei, const Vector2& envelope) {
   const Vector2 unit =
       envelope.cwiseQuotient(Vector2(static_cast<double>(nuclei.period.x), static_cast<double>(nuclei.period.y)));
   std::map<std::pair<double, double>, int> joints;  // by y and x
@@ -157,10 +158,46 @@ Layout walls_around(const VoronoiCells& cells, const Nuclei& nuclei, const Vecto
     LayoutWall& wall = layout.walls.emplace_back();
     wall.start = start;
     wall.end = end;
-    wall.elements = elements;
   }
   std::ranges::sort(layout.walls, {}, [](const LayoutWall& wall) { return std::pair(wall.start, wall.end); });
   return layout;
+}
+
+/// The set and two copies of it, further on along an axis.
+Nuclei thrice(const Nuclei& nuclei, int axis) {
+  Nuclei out = nuclei;
+  const GridPlace step = axis == 0 ? GridPlace{nuclei.period.x, 0} : GridPlace{0, nuclei.period.y};
+  out.period = {nuclei.period.x + 2 * step.x, nuclei.period.y + 2 * step.y};
+  for (const int copy : {1, 2}) {
+    for (const GridPlace& place : nuclei.places) {
+      out.places.push_back({place.x + copy * step.x, place.y + copy * step.y});
+    }
+  }
+  return out;
+}
+
+/// Of walls that repeat thrice along an axis, keeps those of one period in the middle. It begins in the widest gap
+/// between joints, so that round-off decides of no wall.
+void keep_one_period(int axis, double period, Layout& layout) {
+  std::vector<double> places;
+  for (const Vector2& joint : layout.joints) {
+    if (joint[axis] >= 0.5 * period && joint[axis] < 1.5 * period) places.push_back(joint[axis]);
+  }
+  std::ranges::sort(places);
+  double begin = period;
+  double widest = 0.0;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    if (places[i + 1] - places[i] <= widest) continue;
+    widest = places[i + 1] - places[i];
+    begin = 0.5 * (places[i] + places[i + 1]);
+  }
+  std::vector<char> is_kept;
+  for (const LayoutWall& wall : layout.walls) {
+    const double low = std::min(layout.joints[wall.start][axis], layout.joints[wall.end][axis]);
+    is_kept.push_back(low >= begin && low < begin + period ? 1 : 0);
+  }
+  keep_walls(is_kept, layout);
+  for (Vector2& joint : layout.joints) joint[axis] -= begin;
 }
 
 }  // namespace
@@ -173,14 +210,23 @@ double count_elements(const VoronoiWalls& lattice, int elements_per_wall) {
   return 3.0 * *lattice.columns * *lattice.rows * elements_per_wall;
 }
 
-VoronoiLayout lay_out_voronoi(const VoronoiWalls& lattice, int elements_per_wall) {
+VoronoiLayout lay_out_voronoi(const VoronoiWalls& lattice, std::optional<int> repeats_along) {
   Nuclei nuclei = place_nuclei(lattice);
   relax(lattice.relaxation_steps, nuclei);
   const Vector2 envelope = envelope_of(lattice);
+  Vector2 cut = envelope;
+  if (repeats_along) {
+    nuclei = thrice(nuclei, *repeats_along);
+    cut[*repeats_along] *= 3.0;
+  }
   VoronoiLayout out;
-  out.layout = walls_around(VoronoiCells(nuclei), nuclei, envelope, elements_per_wall);
+  out.layout = walls_around(VoronoiCells(nuclei), nuclei, cut);
   const double edge_thickness = lattice.edge_walls ? 1.0 : 0.0;  // that of all walls, once it is known
-  out.islands = cut_at(rectangle_between(Vector2::Zero(), envelope), edge_thickness, out.layout);
+  out.islands = cut_at(rectangle_between(Vector2::Zero(), cut), edge_thickness, out.layout);
+  if (repeats_along) {
+    keep_one_period(*repeats_along, envelope[*repeats_along], out.layout);
+    out.islands = {};
+  }
   double length = 0.0;
   for (const LayoutWall& wall : out.layout.walls) {
     length += out.layout.chord_of(wall);

@@ -60,7 +60,7 @@ Layout lay_out_rings(const SceneSpec& spec) {
   const int up = *lattice.rows + 1;
   Layout layout;
   const auto add_wall = [&](int start, int end, double its_rise) {
-    layout.walls.push_back({start, end, *lattice.wall_thickness_mm, *spec.elements_per_wall});
+    layout.walls.push_back({start, end, *lattice.wall_thickness_mm});
     layout.walls.back().rise = its_rise;
   };
   for (int y = 0; y < up; ++y) {

@@ -53,7 +53,7 @@ Layout lay_out_arrowheads(const SceneSpec& spec) {
   const JointGrid grid = {{2 * columns, rows}, [=](const GridPoint& point) -> Vector2 {
                             return {half_width * point.x(), period * point.y() + (point.x() % 2 == 0 ? 0.0 : notch)};
                           }};
-  WallBuilder builder(grid, *spec.elements_per_wall);
+  WallBuilder builder(grid);
   for (int y = 0; y < rows; ++y) {
     for (int tip = 1; tip < 2 * columns; tip += 2) {
       for (const int foot : {tip - 1, tip + 1}) {

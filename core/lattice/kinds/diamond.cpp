@@ -16,7 +16,7 @@ Layout lay_out_diamonds(const SceneSpec& spec) {
   const RegularLattice& diamonds = *regular_lattice_of(spec);
   const double half_diagonal = 0.5 * std::numbers::sqrt2 * *diamonds.side_mm;
   const JointGrid grid = even_grid({2 * *diamonds.columns, 2 * *diamonds.rows}, {half_diagonal, half_diagonal});
-  WallBuilder builder(grid, *spec.elements_per_wall);
+  WallBuilder builder(grid);
   for (int row = 0; row < *diamonds.rows; ++row) {
     for (int column = 0; column < *diamonds.columns; ++column) {
       const GridPoint low(2 * column + 1, 2 * row);

@@ -73,7 +73,7 @@ void check_hexagons(const SceneSpec& spec, double side, FieldChecker& check) {
 Layout lay_out_hexagons(const SceneSpec& spec) {
   const RegularLattice& hexagons = *regular_lattice_of(spec);
   const Inclusions& inclusions = spec.inclusions;
-  WallBuilder builder(grid_of_hexagons(hexagons), *spec.elements_per_wall);
+  WallBuilder builder(grid_of_hexagons(hexagons));
   const double slanted = *hexagons.wall_thickness_mm;
   const double upright = own_number(hexagons, kVertical);
   const bool repeats = repeats_along(spec, 0);

@@ -57,9 +57,7 @@ Layout lay_out_hierarchical_hexagons(const SceneSpec& spec) {
   const Layout large = hexagon_lattice().lay_out(plain);
   const std::array<Vector2, 6> corner = corners_of(own_number(*regular_lattice_of(spec), kSmallSide));
   Layout layout;
-  const auto add_wall = [&](int start, int end) {
-    layout.walls.push_back({start, end, *hexagons.wall_thickness_mm, *spec.elements_per_wall});
-  };
+  const auto add_wall = [&](int start, int end) { layout.walls.push_back({start, end, *hexagons.wall_thickness_mm}); };
   for (const Vector2& joint : large.joints) {
     const int first = static_cast<int>(layout.joints.size());
     for (int i = 0; i < 6; ++i) {

@@ -16,7 +16,7 @@ Layout lay_out_kagome(const SceneSpec& spec) {
   const bool repeats = repeats_along(spec, 0);
   const int walls = 2 * *kagome.columns - (repeats ? 0 : 1);  // of a line
   const JointGrid half_sides = even_grid({2 * walls, 2 * rows}, {0.5 * side, 0.5 * std::numbers::sqrt3 * side});
-  WallBuilder builder(half_sides, *spec.elements_per_wall);
+  WallBuilder builder(half_sides);
   const double thickness = *kagome.wall_thickness_mm;
   for (int line = 0; line <= rows; ++line) {
     const int y = 2 * line;

@@ -30,7 +30,7 @@ Layout lay_out_sinusoidal_squares(const SceneSpec& spec) {
   const double thickness = *squares.wall_thickness_mm;
   const double amplitude = own_number(squares, kAmplitude);
   const GridPoint last(2 * *squares.columns, 2 * *squares.rows);
-  WallBuilder builder(even_grid(last, {half_side, half_side}), *spec.elements_per_wall);
+  WallBuilder builder(even_grid(last, {half_side, half_side}));
   // The first half of a side lies to its left, upwards or to the right; the other half to its right.
   for (int y = 0; y <= last.y(); ++y) {
     for (int x = 0; x <= last.x(); ++x) {

@@ -8,7 +8,7 @@ namespace {
 Layout lay_out_squares(const SceneSpec& spec) {
   const RegularLattice& squares = *regular_lattice_of(spec);
   const JointGrid grid = even_grid({*squares.columns, *squares.rows}, {*squares.side_mm, *squares.side_mm});
-  WallBuilder builder(grid, *spec.elements_per_wall);
+  WallBuilder builder(grid);
   for (int y = 0; y <= *squares.rows; ++y) {
     for (int x = 0; x <= *squares.columns; ++x) {
       if (x < *squares.columns) {

@@ -14,7 +14,7 @@ Layout lay_out_triangles(const SceneSpec& spec) {
   const double side = *triangles.side_mm;
   const JointGrid half_sides_and_rows =
       even_grid({2 * *triangles.columns + 1, *triangles.rows}, {0.5 * side, 0.5 * std::numbers::sqrt3 * side});
-  WallBuilder builder(half_sides_and_rows, *spec.elements_per_wall);
+  WallBuilder builder(half_sides_and_rows);
   const double thickness = *triangles.wall_thickness_mm;
   const bool repeats = repeats_along(spec, 0);
   for (int y = 0; y <= *triangles.rows; ++y) {

@@ -58,7 +58,7 @@ double total_length(const Layout& layout) {
 
 /// Modulus of the lattice over that of the wall, between plates without friction.
 double modulus_of(const VoronoiWalls& lattice, int axis) {
-  const VoronoiLayout made = lay_out_voronoi(lattice, 1);
+  const VoronoiLayout made = lay_out_voronoi(lattice);
   reference::BeamNetwork network;
   for (const Vector2& joint : made.layout.joints) network.joints.push_back({joint.x(), joint.y()});
   for (const LayoutWall& wall : made.layout.walls) network.walls.push_back({wall.start, wall.end, wall.thickness});
@@ -66,7 +66,7 @@ double modulus_of(const VoronoiWalls& lattice, int axis) {
 }
 
 TEST(Voronoi, OfIrregularityZeroIsTheLatticeOfRegularHexagons) {
-  const VoronoiLayout made = lay_out_voronoi(voronoi(8, 6, 0.0), 1);
+  const VoronoiLayout made = lay_out_voronoi(voronoi(8, 6, 0.0));
   const std::vector<int> walls = walls_at_joints(made.layout);
   EXPECT_EQ(std::ranges::count(walls, 3), 2 * 8 * 6) << "two joints a cell, all of them in the rectangle";
   EXPECT_EQ(std::ranges::count(walls, 1) + 2 * 8 * 6, static_cast<int>(walls.size())) << "others lie on the edges";
@@ -117,7 +117,7 @@ TEST(Voronoi, NucleiKeepTheLeastDistanceAndReachIt) {
 TEST(Voronoi, JoinsThreeWallsAtAJointAndFillsItsRectangle) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const VoronoiWalls lattice = voronoi(14, 12, 1.0, seed);
-    const VoronoiLayout made = lay_out_voronoi(lattice, 1);
+    const VoronoiLayout made = lay_out_voronoi(lattice);
     const Layout& layout = made.layout;
     const Vector2 envelope = envelope_of(lattice);
     const std::vector<int> part = find_parts(layout.joints.size(), layout.walls);
@@ -137,9 +137,9 @@ TEST(Voronoi, JoinsThreeWallsAtAJointAndFillsItsRectangle) {
 
 TEST(Voronoi, WithEdgeWallsHasNoFreeEnds) {
   VoronoiWalls lattice = voronoi(10, 8, 0.7);
-  const double open = total_length(lay_out_voronoi(lattice, 1).layout);
+  const double open = total_length(lay_out_voronoi(lattice).layout);
   lattice.edge_walls = true;
-  const Layout layout = lay_out_voronoi(lattice, 1).layout;
+  const Layout layout = lay_out_voronoi(lattice).layout;
   const double tolerance = 0.5 * kVoronoiSide;  // islands at the corners are joined now
   EXPECT_NEAR(total_length(layout) - open, 2.0 * envelope_of(lattice).sum(), tolerance);
   EXPECT_GE(std::ranges::min(walls_at_joints(layout)), 2);
@@ -149,7 +149,7 @@ TEST(Voronoi, RelaxationMakesCellsAlike) {
   const auto spread_after = [](int steps) {
     VoronoiWalls lattice = voronoi(14, 12, 1.0);
     lattice.relaxation_steps = steps;
-    const Layout layout = lay_out_voronoi(lattice, 1).layout;
+    const Layout layout = lay_out_voronoi(lattice).layout;
     double square = 0.0;
     for (const LayoutWall& wall : layout.walls) square += std::pow(layout.chord_of(wall), 2.0);
     const double mean = total_length(layout) / static_cast<double>(layout.walls.size());
@@ -178,15 +178,15 @@ std::uint64_t hash_of(const Layout& layout) {
 // The numbers are those of the first machine. They hold on every one.
 TEST(Voronoi, OfASeedHasItsBits) {
   VoronoiWalls lattice = voronoi(20, 16, 0.5, 7);
-  EXPECT_EQ(hash_of(lay_out_voronoi(lattice, 1).layout), 10911521228593018484U);
+  EXPECT_EQ(hash_of(lay_out_voronoi(lattice).layout), 10911521228593018484U);
   lattice.relaxation_steps = 4;
   lattice.irregularity = 1.0;
   lattice.edge_walls = true;
   lattice.wall_thickness_mm.reset();
   lattice.relative_density = 0.08;
-  EXPECT_EQ(hash_of(lay_out_voronoi(lattice, 1).layout), 3663121144253792578U);
+  EXPECT_EQ(hash_of(lay_out_voronoi(lattice).layout), 3663121144253792578U);
   lattice.seed = 8;
-  EXPECT_NE(hash_of(lay_out_voronoi(lattice, 1).layout), 3663121144253792578U);
+  EXPECT_NE(hash_of(lay_out_voronoi(lattice).layout), 3663121144253792578U);
 }
 
 // A random honeycomb has no direction of its own.
