@@ -40,6 +40,8 @@ PlateCurves curves_of(const JobHistory& history) {
   PlateCurves curves;
   for (const v1::Sample& sample : history.samples) {
     if (!std::isfinite(sample.strain() + sample.stress_impact_mpa() + sample.stress_support_mpa())) continue;
+    // A mass between rigid walls rebounds.
+    if (!curves.strain.empty() && sample.strain() <= curves.strain.back()) continue;
     curves.strain.push_back(sample.strain());
     curves.impact.push_back(sample.stress_impact_mpa());
     curves.support.push_back(sample.stress_support_mpa());

@@ -117,17 +117,17 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
   const std::vector<LatticeStage> stages = lattice_stages(frames);
   const Page page(print, kWidth);
   const double bar_room = stages.empty() || page.has_title() ? 0.0 : kColourBarHeight + kChartGap;
-  const bool plates = history.job.words().plates();
+  const bool plates = has_strain(history.job.words());
   const double most = std::min(kStagesHeight, (plates ? kStagesShare : 0.5) * page.height);
   const StagePanels panels =
       stages.empty() ? StagePanels{.bottom = page.top} : lay_stages(stages, page.margin, page.top, page.inner(), most);
   const double chart_top = panels.bottom + bar_room;
   const double room = page.height - (chart_top - page.top) - kChartGap;  // of the charts
-  const bool has_ledger = plates && room >= kLeastCharts;
-  const double chart_height = std::min(page.chart_height(kChartHeight), (has_ledger ? kStressShare : 1.0) * room);
+  const bool has_second = plates && room >= kLeastCharts;
+  const double chart_height = std::min(page.chart_height(kChartHeight), (has_second ? kStressShare : 1.0) * room);
   const double energy_top = chart_top + chart_height + kChartGap;
   const double energy_height =
-      has_ledger ? std::min(page.chart_height(kEnergyHeight), (1.0 - kStressShare) * room) : 0.0;
+      has_second ? std::min(page.chart_height(kEnergyHeight), (1.0 - kStressShare) * room) : 0.0;
   return render_picture(
       format, page.width, energy_top + energy_height + page.margin,
       [&](cairo_t* context) {
@@ -139,8 +139,9 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
         }
         draw_chart(context, {page.margin, chart_top, page.inner(), chart_height},
                    plates ? build_job_chart(history) : build_node_chart(history));
-        if (has_ledger) {
-          draw_chart(context, {page.margin, energy_top, page.inner(), energy_height}, build_energy_chart(history));
+        if (has_second) {
+          draw_chart(context, {page.margin, energy_top, page.inner(), energy_height},
+                     history.job.words().plates() ? build_energy_chart(history) : build_node_chart(history));
         }
       },
       print);
@@ -167,7 +168,7 @@ std::string render_wide_picture(PictureFormat format, const JobHistory& history,
         }
         draw_stages(context, panels, stages);
         draw_chart(context, {chart_left, page.top, page.width - page.margin - chart_left, height},
-                   history.job.words().plates() ? build_job_chart(history) : build_node_chart(history));
+                   has_strain(history.job.words()) ? build_job_chart(history) : build_node_chart(history));
       },
       print);
 }

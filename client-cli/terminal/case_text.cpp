@@ -132,7 +132,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   table.add({"elements", count_text(check.element_count())});
   table.add({check.completed_case().lattice().has_frame() ? "mass of the beams" : "mass of the walls",
              number_text(check.mass_g(), 4), "g"});
-  if (check.words().plates()) add_crush_rows(table, check);
+  if (has_strain(check.words())) add_crush_rows(table, check);
   table.add({"stable step", number_text(check.stable_step_s(), 4), "s"});
   table.add({"time step", number_text(check.time_step_s(), 4), "s"});
   table.add({"steps", count_text(check.step_count())});
@@ -148,7 +148,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
     table.add({"theory: Poisson's ratio", number_text(theory.poissons_ratio()),
                fmt::format("elastic (across the crush {})", number_text(theory.poissons_ratio_across()))});
   }
-  if (check.words().plates() && check.theory().gibson_ashby_mpa() <= 0)
+  if (has_strain(check.words()) && check.theory().gibson_ashby_mpa() <= 0)
     table.add({"theory: quasi-static, shock", "none", "applies"});
   if (check.theory().gibson_ashby_mpa() > 0) {
     const ShownUnit stress = unit_by_size("MPa", check.theory().shock_mpa());

@@ -11,6 +11,9 @@ namespace cellcrush::client {
 /// fidelities.
 std::string fidelity_text(const v1::CheckCaseResponse& check, int width);
 
+/// Whether a crush has strain and stresses: between plates, or between two rigid walls in their place.
+inline bool has_strain(const v1::CaseWords& words) { return words.plates() || words.rigid_wall_plates(); }
+
 /// Summary of a case in one line: "hexagons, 74 x 21 cells, crushed along X at 100 m/s to strain 0.8".
 std::string scene_text(const v1::CaseWords& words);
 

@@ -30,7 +30,7 @@ std::string run_time_text(const v1::Job& job) {
 void add_progress_rows(Table& table, const v1::Job& job) {
   const v1::Progress& progress = job.progress();
   std::string text = percent_text(progress.fraction());
-  if (job.words().plates()) text += fmt::format(", strain {:.3f}", progress.strain());
+  if (has_strain(job.words())) text += fmt::format(", strain {:.3f}", progress.strain());
   table.add({"progress",
              text + fmt::format(", step {} of {}", count_text(progress.step()), count_text(progress.step_count()))});
   if (progress.stalled()) table.add({"", "the worker has stalled; it is replaced if it stays so"});

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "command_error.h"
+#include "terminal/case_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -31,7 +32,7 @@ std::string repeat(std::string_view piece, int times) {
 std::vector<std::string> progress_fields(const JobView& view) {
   const v1::Progress& progress = view.progress();
   std::vector<std::string> fields;
-  if (!view.job().words().plates()) {
+  if (!has_strain(view.job().words())) {
     fields = {fmt::format("step {} of {}", count_text(progress.step()), count_text(progress.step_count()))};
   } else {
     fields = {fmt::format("strain {:.3f}", progress.strain()), stress_at("impact", progress.stress_impact_mpa()),

@@ -8,6 +8,7 @@
 
 #include "results/energy_terms.h"
 #include "results/sweep_results.h"
+#include "terminal/case_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -212,9 +213,10 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
 
 std::string summary_text(const v1::Job& job, int width) {
   const v1::Summary& summary = job.summary();
-  const bool plates = job.words().plates();
+  const bool plates = has_strain(job.words());
   Table table({Align::left, Align::right, Align::right, Align::left});
   if (plates) {
+    if (job.words().rigid_wall_plates()) table.add({"impact plate", "", "", "the rigid wall that moves"});
     add_plateau_rows(table, summary);
     add_quasi_static_rows(table, summary);
     add_inertia_row(table, summary);
@@ -229,7 +231,8 @@ std::string summary_text(const v1::Job& job, int width) {
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});
   std::string text = table.text(2, width);
-  if (plates) text += end_text(summary, width) + mode_text(summary, width);
+  if (plates) text += end_text(summary, width);
+  if (job.words().plates()) text += mode_text(summary, width);
   const std::string& note = job.words().theory_note();
   if (!note.empty() && plates) text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
   for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning, width);

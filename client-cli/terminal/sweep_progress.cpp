@@ -10,6 +10,7 @@
 #include "columns/swept_fields.h"
 #include "command_error.h"
 #include "results/field_value.h"
+#include "terminal/case_text.h"
 #include "terminal/number_text.h"
 #include "terminal/sweep_text.h"
 #include "terminal/table.h"
@@ -89,7 +90,7 @@ std::vector<std::string> job_rows(const SweepView& view, const std::vector<const
     for (const std::string& field : fields) cells.push_back(short_value_text(job.case_(), field));
     const bool waits = entry->state() == v1::Job::PENDING;
     const auto plateau = plateau_of(job);
-    const bool strained = !waits && job.words().plates();
+    const bool strained = !waits && has_strain(job.words());
     cells.insert(cells.end(),
                  {v1::Job::State_Name(entry->state()), waits ? "" : percent_text(job.progress().fraction()),
                   plateau ? number_text(stress.factor * *plateau) : "",

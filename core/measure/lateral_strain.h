@@ -15,7 +15,7 @@ struct SidePairs {
   std::vector<int> high;  ///< P, particle
 };
 
-/// Rows about `pitch` mm deep. REQUIRES: a scene with plates, pitch > 0.
+/// Rows about `pitch` mm deep. REQUIRES: is_crushed(), pitch > 0.
 SidePairs find_side_pairs(const Scene& scene, double pitch);
 
 /// The lateral strain: mean over the pairs of how much farther they are apart across the crush than before loading,

@@ -8,7 +8,7 @@
 #include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "motion/grips.h"
+#include "motion/crush.h"
 #include "scene/solid_area.h"
 
 namespace cellcrush {
@@ -19,28 +19,29 @@ namespace cellcrush {
 /// many steps, whatever samples and checkpoints are taken, and not past the strain at which the lattice is closed.
 class PeakWatch {
  public:
-  /// Steps from look to look: about kLooks in a window at the greatest speed. REQUIRES: plates.
+  /// Steps from look to look: about kLooks in a window at the greatest speed. REQUIRES: is_crushed().
   [[nodiscard]] static std::int64_t interval(const Scene& scene) {
-    const double steps = Summary::kPeakWindow * scene.length / (scene.plates.speed * scene.schedule.time_step);
+    const double steps = Summary::kPeakWindow * scene.length / (crush_speed_of(scene) * scene.schedule.time_step);
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(steps / kLooks, 1e15)));
   }
 
   /// REQUIRES: calls at ascending times.
   void look(const Scene& scene, const State& state) {
     const double window = Summary::kPeakWindow * scene.length;
-    if (is_past_closing(scene, state.impact_travel / scene.length)) return;
+    const double travel = crush_travel_of(scene, state);
+    if (is_past_closing(scene, travel / scene.length)) return;
     // A plate that is slowed down by control, or that rises to its speed, takes more steps for a window.
-    if (state.impact_travel - looks_.back().travel < window / (2.0 * kLooks)) return;
+    if (travel - looks_.back().travel < window / (2.0 * kLooks)) return;
     const double impulse = impact_impulse_of(scene, state);
-    looks_.push_back({state.impact_travel, state.time, impulse});
-    const double begin = state.impact_travel - window;
+    looks_.push_back({travel, state.time, impulse});
+    const double begin = travel - window;
     if (begin < 0.0) return;
     while (looks_[1].travel <= begin) looks_.erase(looks_.begin());
     const double part = (begin - looks_[0].travel) / (looks_[1].travel - looks_[0].travel);
     const double since = std::lerp(looks_[0].time, looks_[1].time, part);
     const double before = std::lerp(looks_[0].impulse, looks_[1].impulse, part);
     const double stress = (impulse - before) / ((state.time - since) * scene.width * scene.depth);
-    if (stress > peak_.stress) peak_ = {stress, state.impact_travel / scene.length - 0.5 * Summary::kPeakWindow};
+    if (stress > peak_.stress) peak_ = {stress, travel / scene.length - 0.5 * Summary::kPeakWindow};
   }
 
   /// So far; a stress of 0 before the first window is complete.

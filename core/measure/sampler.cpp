@@ -16,6 +16,7 @@
 #include "measure/fibre_strain.h"
 #include "measure/layers.h"
 #include "measure/warnings.h"
+#include "motion/crush.h"
 #include "motion/grips.h"
 #include "scene/solid_area.h"
 
@@ -95,12 +96,12 @@ Sampler::Sampler(const Scene& scene)
       next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
+    local_strain_ = LocalStrain(scene, cells_.faces);
   } else {
     const double fraction = solid_fraction_between_walls(scene, scene.position, {});
     can_close_between_walls_ = fraction > 0.0 && fraction < kClosed;  // a column fills them from the first
   }
-  if (scene.plates.present) {
-    local_strain_ = LocalStrain(scene, cells_.faces);
+  if (is_crushed(scene)) {
     side_pairs_ =
         find_side_pairs(scene, cells_.faces.count() > 0 ? cells_.field.pitch : scene.length / kRowsWithoutCells);
   }
@@ -245,9 +246,9 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   Sample sample;
   sample.step = state.step;
   sample.time = state.time;
-  sample.travel = state.impact_travel;
-  if (scene.plates.present) {
-    sample.strain = state.impact_travel / scene.length;
+  sample.travel = crush_travel_of(scene, state);
+  if (is_crushed(scene)) {
+    sample.strain = crush_strain_of(scene, state);
     measure_stress(scene, state, sample);
     measure_efficiency(sample);
     sample.lateral_strain = state.sides.empty() ? lateral_strain_of(side_pairs_, scene, state)
@@ -273,7 +274,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
 void Sampler::make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame) const {
   frame.index = index;
   frame.time = state.time;
-  frame.strain = scene.length > 0.0 ? state.impact_travel / scene.length : 0.0;
+  frame.strain = crush_strain_of(scene, state);
   frame.position.resize(2 * scene.particle_count());
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
     frame.position[2 * i] = static_cast<float>(state.position[i].x());

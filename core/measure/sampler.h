@@ -15,7 +15,7 @@ namespace cellcrush {
 /// Takes samples of a run. Stresses and reactions are means over the interval between two samples, from the impulses of
 /// plates, rigid walls and supports: a penalty contact oscillates, so the force at one time says little. Collapse and
 /// front follow from the current positions and velocities. Only a lattice between plates has cells, columns and a
-/// front.
+/// front; one between two rigid walls has strain and stress (CrushingWalls).
 class Sampler {
  public:
   explicit Sampler(const Scene& scene);

@@ -8,6 +8,7 @@
 #include "measure/lasting_rise.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
+#include "motion/crush.h"
 #include "scene/solid_area.h"
 
 namespace cellcrush {
@@ -141,6 +142,15 @@ std::optional<double> find_poissons_ratio(std::span<const Sample> samples) {
   return last.strain > 0.0 ? std::optional(last.lateral_strain / last.strain) : std::nullopt;
 }
 
+/// The samples at which the strain is greater than ever before: a mass between rigid walls rebounds.
+std::vector<Sample> while_strain_grows(std::span<const Sample> samples) {
+  std::vector<Sample> growing;
+  for (const Sample& sample : samples) {
+    if (growing.empty() || sample.strain > growing.back().strain) growing.push_back(sample);
+  }
+  return growing;
+}
+
 /// The samples until the lattice is closed, or the frame at `closed_step`.
 std::span<const Sample> before_closing(const Scene& scene, std::span<const Sample> samples,
                                        std::optional<std::int64_t> closed_step) {
@@ -244,11 +254,13 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     closed_step = closed->step;
     summary.valid_to_time = static_cast<double>(closed->step) * scene.schedule.time_step;
   }
-  const std::span<const Sample> samples = before_closing(scene, all, closed_step);
-  summary.fibre_strain = find_fibre_strain(scene, samples);
-  if (!scene.plates.present || samples.empty()) {
+  const std::span<const Sample> valid = before_closing(scene, all, closed_step);
+  summary.fibre_strain = find_fibre_strain(scene, valid);
+  if (!is_crushed(scene) || valid.empty()) {
     return summary;
   }
+  const std::vector<Sample> grown = scene.crushing_walls ? while_strain_grows(valid) : std::vector<Sample>();
+  const std::span<const Sample> samples = scene.crushing_walls ? std::span(grown) : valid;
   const Curve impact(samples, &Sample::stress_impact);
   const Curve support(samples, &Sample::stress_support);
   summary.plateau_stress_impact = impact.mean(Summary::kPlateauLow, Summary::kPlateauHigh);
@@ -264,7 +276,7 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     summary.plateau_stress_to_densification = impact.mean(0.0, *summary.densification_strain);
     summary.solid_fraction_at_densification = solid_fraction_at(scene, *summary.densification_strain);
   }
-  summary.peak = find_peak(all, summary.densification_strain.value_or(1.0));
+  summary.peak = find_peak(scene.plates.present ? all : valid, summary.densification_strain.value_or(1.0));
   summary.crush_forces =
       find_crush_forces(scene, impact, summary.peak, summary.densification_strain.value_or(samples.back().strain));
   summary.poissons_ratio = find_poissons_ratio(samples);

@@ -1,18 +1,6 @@
 #include "motion/grips.h"
 
 namespace cellcrush {
-namespace {
-
-/// Along the crush, of all grips that are fixed to a plate.
-double impulse_of_fixed(const Scene& scene, const State& state, Grip::FixedTo plate) {
-  double sum = 0.0;
-  for (const Grip& grip : scene.grips) {
-    if (grip.fixed_to == plate) sum += impulse_of(scene, state, grip)[scene.plates.axis];
-  }
-  return sum;
-}
-
-}  // namespace
 
 Vector2 displacement_of(const Scene& scene, const State& state, const Grip& grip) {
   const int any = scene.particles_of(grip).front();
@@ -26,14 +14,6 @@ Vector2 impulse_of(const Scene& scene, const State& state, const Grip& grip) {
     sum += Vector2(impulse.x, impulse.y);
   }
   return sum;
-}
-
-double impact_impulse_of(const Scene& scene, const State& state) {
-  return state.impact_impulse + impulse_of_fixed(scene, state, Grip::FixedTo::impact_plate);
-}
-
-double support_impulse_of(const Scene& scene, const State& state) {
-  return state.support_impulse - impulse_of_fixed(scene, state, Grip::FixedTo::support_plate);
 }
 
 }  // namespace cellcrush

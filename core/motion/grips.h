@@ -11,10 +11,4 @@ Vector2 displacement_of(const Scene& scene, const State& state, const Grip& grip
 /// Of a grip on the lattice since the start, N s: the sum over its particles.
 Vector2 impulse_of(const Scene& scene, const State& state, const Grip& grip);
 
-/// Of the impact plate and the grips that are fixed to it on the lattice since the start, N s along the crush.
-double impact_impulse_of(const Scene& scene, const State& state);
-
-/// Of the support plate and the grips that are fixed to it, N s against the crush.
-double support_impulse_of(const Scene& scene, const State& state);
-
 }  // namespace cellcrush

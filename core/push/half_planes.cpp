@@ -134,7 +134,7 @@ void describe_half_planes(const Scene& scene, std::vector<std::string>& lines) {
     for (const RigidWall& wall : scene.rigid_walls) {
       if (wall.kind == kind) {
         ++count;
-        moving += wall.mass > 0.0 || wall.motion.points.size() > 1 ? 1 : 0;
+        moving += wall.moves() ? 1 : 0;
         friction = std::max(friction, wall.friction);
       }
     }

@@ -10,6 +10,7 @@
 #include "contact/topology/wall_paths.h"
 #include "lattice/lattice.h"
 #include "lattice/list_walls.h"
+#include "motion/crush.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/repeat_mesh.h"
@@ -107,6 +108,8 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
   scene->plates = plan.plates;
   if (scene->plates.present) {
     put_plates(measures, *scene);
+  } else {
+    put_crushing_walls(*scene);
   }
   scene->schedule = plan.schedule;
   scene->start_overlaps = measures.start_overlaps;

@@ -62,7 +62,7 @@ struct Simulation::Impl {
       next = std::min(next, (state.step / interval + 1) * interval);
     };
     if (scene->schedule.end_at_rest > 0.0) look_every(RestWatch::interval(scene->schedule));
-    if (scene->plates.present) look_every(PeakWatch::interval(*scene));
+    if (is_crushed(*scene)) look_every(PeakWatch::interval(*scene));
     if (!is_controlled(*scene)) return next - state.step;
     look_every(control_interval(scene->schedule));
     return std::min(next - state.step, steps_to_arrival(*scene, state));
@@ -75,7 +75,7 @@ struct Simulation::Impl {
       if (scene->schedule.end_at_rest > 0.0 && state.step % RestWatch::interval(scene->schedule) == 0) {
         rest.look(*scene, state);
       }
-      if (scene->plates.present && state.step % PeakWatch::interval(*scene) == 0) {
+      if (is_crushed(*scene) && state.step % PeakWatch::interval(*scene) == 0) {
         peak.look(*scene, state);
       }
       if (is_controlled(*scene) && state.step % control_interval(scene->schedule) == 0) {
@@ -187,9 +187,7 @@ bool Simulation::has_ended() const { return impl_->has_ended(); }
 RunStatus Simulation::status() const { return impl_->status; }
 std::int64_t Simulation::step() const { return impl_->state.step; }
 double Simulation::time() const { return impl_->state.time; }
-double Simulation::strain() const {
-  return impl_->scene->length > 0.0 ? impl_->state.impact_travel / impl_->scene->length : 0.0;
-}
+double Simulation::strain() const { return crush_strain_of(*impl_->scene, impl_->state); }
 
 void Simulation::visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const {
   const auto visit_array = [&visit](const auto& array) {

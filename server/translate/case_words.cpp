@@ -227,6 +227,7 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   }
   Problems ignored;
   const auto walls = read_rigid_walls(loading, ignored);
+  words.set_rigid_wall_plates(!words.plates() && has_crushing_walls(walls));
   add_list(words, "rigid walls", loading.rigid_walls(),
            [&, i = 0](const auto& wall) mutable { return rigid_wall_text(wall.id(), walls[i++]); });
   if (loading.sides().kind() == v1::Loading::Sides::RIGID) {

@@ -68,6 +68,7 @@ def stress_unit(ax: Any, largest: float) -> Tuple[str, float]:
 
 def _draw_curves(ax: Any, samples: Array) -> Tuple[str, float]:
     """Draws the stresses; returns their unit."""
+    samples = samples[np.diff(np.maximum.accumulate(samples["strain"]), prepend=-1.0) > 0.0]  # a mass rebounds
     strain = samples["strain"]
     is_shown = strain > min(_SMOOTHED, 0.1 * strain.max(initial=0.0))  # the first impact may leave the axes
     smooth = {name: _smoothed(strain, samples[name]) for name in ("stress_impact_mpa", "stress_support_mpa")}

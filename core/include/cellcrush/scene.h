@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -236,10 +237,21 @@ struct RigidWall {
 
   /// Positive direction of friction: the normal turned clockwise.
   [[nodiscard]] Vector2 tangent() const { return -normal_of(normal); }
+  [[nodiscard]] bool moves() const { return mass > 0.0 || motion.points.size() > 1; }
+  /// Whether the normals are opposite, within 2.5 degrees.
+  [[nodiscard]] bool is_opposite_to(const RigidWall& other) const { return normal.dot(other.normal) <= -0.999; }
   /// Travel along the normal from one time to another, mm.
   [[nodiscard]] double travel_between(double from, double to) const {
     return motion.value_at(to) - motion.value_at(from);
   }
+};
+
+/// Two rigid walls in place of the plates, which face each other and of which one alone moves: strain, stresses and all
+/// that follows from them are those of this pair (motion/crush.h). Indices into Scene::rigid_walls.
+struct CrushingWalls {
+  int impact = 0;         ///< the one that moves
+  int support = 0;        ///< the one that stands still
+  double distance = 0.0;  ///< of their faces where both touch the lattice before loading, mm
 };
 
 /// Penalty contact between walls (Eq. 41-43, E8, E9).
@@ -368,6 +380,7 @@ struct Scene {
   ContactFaces faces;              ///< for the contact search, where their premise holds
   Plates plates;
   std::vector<RigidWall> rigid_walls;
+  std::optional<CrushingWalls> crushing_walls;  ///< none between plates
   MassScaling mass_scaling;
   double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v
   Schedule schedule;
@@ -442,8 +455,8 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
                wall_end_offset, wall_ends, supports, motions, grips, gripped, period, repeated, first_ball, ball_count,
                loads, element_loads, gravity, initial_velocity, initial_spin, depth, materials, law, section,
                single_fibres, slow_loading, constant_area, contact, limited_reaches, start_overlaps, faces, plates,
-               rigid_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, solid_area, stable_step,
-               collapse_stress, fidelity, watched] = scene;
+               rigid_walls, crushing_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, solid_area,
+               stable_step, collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;

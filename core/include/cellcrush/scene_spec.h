@@ -185,6 +185,10 @@ struct LoadsSpec {
   bool operator==(const LoadsSpec&) const = default;
 };
 
+/// Whether two of the rigid walls take the part of the plates in a spec that has none: they face each other, and one
+/// alone moves, the impact plate of all measures. No other two may.
+bool has_crushing_walls(const std::vector<LoadsSpec::RigidWall>& walls);
+
 /// Rows of stiff cells, whose walls are thicker, in a lattice of hexagons.
 struct Inclusions {
   enum class Model {

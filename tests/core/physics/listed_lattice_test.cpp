@@ -1,12 +1,16 @@
-// A listed lattice between two plates: what a regular one measures, without being generated.
+// A listed lattice between two plates, or two rigid walls: what a regular one measures, without being generated.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "cellcrush/simulation.h"
+#include "motion/crush.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
+#include "scenes/rigid_walls.h"
 
 namespace cellcrush {
 namespace {
@@ -41,6 +45,91 @@ TEST(ListedLattice, EndsWhereItIsClosedAsTheRegularOneDoes) {
   EXPECT_EQ(frame.end, RunEnd::closed);
   EXPECT_EQ(frame.step_count, regular.step_count);
   EXPECT_NEAR(frame.valid_to_strain.value_or(0.0), *regular.valid_to_strain, 1e-9);
+}
+
+/// That crush, turned by an angle, with a rigid wall in place of each plate.
+SceneSpec crush_between_walls(double angle) {
+  constexpr double kGap = 1e-6;  // mm
+  SceneSpec spec = scenes::listed(short_crush());
+  const auto between_plates = scenes::build(spec);
+  const Vector2 along = scenes::direction(angle);
+  const Vector2 across = normal_of(along);
+  for (auto& node : std::get<FrameWalls>(spec.lattice).nodes) {
+    const Vector2 place = node.x_mm * along + node.y_mm * across;
+    node.x_mm = place.x();
+    node.y_mm = place.y();
+  }
+  const double end = *spec.loading.end_strain * between_plates->length / between_plates->plates.speed;
+  const Vector2 low = (between_plates->plates.impact_face - kGap) * along;
+  const Vector2 high = (between_plates->plates.support_face + kGap) * along;
+  spec.loads.rigid_walls = {
+      {high.x(), high.y(), -along.x(), -along.y()},
+      {low.x(), low.y(), along.x(), along.y(), 0.0, {{0.0, 0.0}, {end, between_plates->plates.speed * end}}}};
+  spec.loading.speed_m_per_s.reset();
+  spec.loading.end_strain.reset();
+  spec.loading.end_time_s = end;
+  return spec;
+}
+
+TEST(ListedLattice, BetweenRigidWallsMeasuresWhatItDoesBetweenPlates) {
+  const Summary plates = summary_of(scenes::listed(short_crush()));
+  for (const double angle : {0.0, 0.5}) {
+    const SceneSpec spec = crush_between_walls(angle);
+    const std::vector<Sample> samples = scenes::run_frame(spec);
+    const Summary walls = summarize(*scenes::build(spec), samples);
+    EXPECT_NEAR(samples.back().strain, 0.5, 1e-3);
+    EXPECT_NEAR(samples[samples.size() / 2].travel, 0.5 * samples.back().travel, 0.01 * samples.back().travel);
+    ASSERT_TRUE(walls.plateau_stress_impact && walls.plateau_stress_support && walls.crush_forces);
+    EXPECT_NEAR(*walls.plateau_stress_impact / *plates.plateau_stress_impact, 1.0, 0.02) << angle;
+    EXPECT_NEAR(*walls.plateau_stress_support / *plates.plateau_stress_support, 1.0, 0.05) << angle;
+    EXPECT_NEAR(walls.crush_forces->specific_energy / plates.crush_forces->specific_energy, 1.0, 0.02) << angle;
+    EXPECT_NEAR(walls.crush_forces->stroke / plates.crush_forces->stroke, 1.0, 0.01) << angle;
+    EXPECT_NEAR(walls.peak->stress / plates.peak->stress, 1.0, 0.05) << angle;
+    EXPECT_NEAR(*walls.poissons_ratio, *plates.poissons_ratio, 0.05) << angle << ", of other rows";
+    EXPECT_NEAR(walls.absorbed_energy / plates.absorbed_energy, 1.0, 0.02) << angle;
+  }
+}
+
+TEST(ListedLattice, HasTheMeasuresOfTheOnlyPairOfWallsOfWhichOneMoves) {
+  using Walls = std::vector<LoadsSpec::RigidWall>;
+  const LoadsSpec::TimeFunction moves = {{0.0, 0.0}, {1.0, 1.0}};
+  const LoadsSpec::RigidWall low = {0.0, -1.0, 0.0, 1.0, 0.0, moves};
+  const LoadsSpec::RigidWall high = {5.0, 9.0, 0.01, -3.0};
+  LoadsSpec::RigidWall mass = high;
+  mass.own = {{"mass_g", 2.0}};
+  LoadsSpec::RigidWall askew = high;
+  askew.normal_x = 1.0;
+  LoadsSpec::RigidWall behind = high;
+  behind.y_mm = -2.0;
+  const LoadsSpec::RigidWall still = {0.0, -1.0, 0.0, 1.0};
+  const LoadsSpec::RigidWall aside = {-4.0, 0.0, 1.0, 0.0, 0.0, moves};
+  for (const Walls& walls : {Walls{low, high}, Walls{high, low}, Walls{mass, still}, Walls{low, aside, high}}) {
+    EXPECT_TRUE(has_crushing_walls(walls));
+  }
+  for (const Walls& walls : {Walls{}, Walls{low}, Walls{low, mass}, Walls{still, high}, Walls{low, askew},
+                             Walls{low, behind}, Walls{low, high, high}, Walls{low, low, high}}) {
+    EXPECT_FALSE(has_crushing_walls(walls));
+  }
+  SceneSpec line = scenes::elastic_frame(scenes::bar(10.0, 1.0, 2));
+  line.loads.rigid_walls = {{-0.6, 0.0, 1.0, 0.0, 0.0, moves}, {10.6, 0.0, -1.0, 0.0}};
+  EXPECT_FALSE(is_crushed(*scenes::build(line))) << "a line has no cross-section";
+}
+
+// Until it rebounds, the mass gives its energy to the lattice.
+TEST(ListedLattice, StruckByAMassTakesItsEnergyUpToTheGreatestStrain) {
+  constexpr double kSpeed = 20.0;  // m/s
+  SceneSpec spec = scenes::struck_hexagons(1.0, kSpeed);
+  spec.loads.rigid_walls.push_back({0.0, -0.5001 * *scenes::cells_of(spec).wall_thickness_mm, 0.0, 1.0});
+  spec.output.sample_count = 500;
+  const std::vector<Sample> samples = scenes::run_frame(spec);
+  const Summary summary = summarize(*scenes::build(spec), samples);
+  const auto deepest = std::ranges::max_element(samples, {}, &Sample::strain);
+  EXPECT_GT(deepest->strain, 0.1);
+  EXPECT_LT(samples.back().strain, 0.95 * deepest->strain) << "it must rebound";
+  ASSERT_TRUE(summary.crush_forces);
+  EXPECT_NEAR(summary.crush_forces->stroke, deepest->travel, 1e-9);
+  const double energy = 0.5e-6 * std::pow(1e3 * kSpeed, 2.0);  // N mm
+  EXPECT_NEAR(summary.crush_forces->mean * summary.crush_forces->stroke / energy, 1.0, 0.01);
 }
 
 TEST(ListedLattice, WithoutCellsHasStressAndStrain) {

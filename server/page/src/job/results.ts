@@ -19,7 +19,7 @@ export function resultsList(s: Summary, note: string): HTMLElement {
       h("dd", {}, h("b", {}, value), beside && h("span", { class: "faint beside" }, beside))));
   const compared = note ? () => "" : besideTheory;
   const impact = s.plateauStressImpactMpa;
-  if (impact !== undefined || theory?.gibsonAshbyMpa) {
+  if (impact !== undefined || s.peakStressMpa !== undefined || theory?.gibsonAshbyMpa) {
     add("Plateau stress, impact plate", "plateau_stress_impact_mpa", quantity(impact, "MPa"),
         impact === undefined
           ? `the ${(s.validToStrain ?? 1) < 0.4 ? "lattice closed" : "run ended"} before strain 0.40`

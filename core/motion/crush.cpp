@@ -1,0 +1,120 @@
+#include "motion/crush.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "motion/grips.h"
+#include "push/half_planes.h"
+
+namespace cellcrush {
+namespace {
+
+/// Along the crush, of all grips that are fixed to a plate.
+double impulse_of_fixed(const Scene& scene, const State& state, Grip::FixedTo plate) {
+  double sum = 0.0;
+  for (const Grip& grip : scene.grips) {
+    if (grip.fixed_to == plate) sum += impulse_of(scene, state, grip)[scene.plates.axis];
+  }
+  return sum;
+}
+
+/// Of all particles along an axis, with `share` of their radii, mm.
+double extent_along(const Scene& scene, const Vector2& axis, double share) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    low = std::min(low, axis.dot(scene.position[i]) - share * scene.radius[i]);
+    high = std::max(high, axis.dot(scene.position[i]) + share * scene.radius[i]);
+  }
+  return high - low;
+}
+
+/// Distance of the faces of the walls, mm.
+double distance_of(const Scene& scene, const State& state) {
+  const RigidWall& impact = scene.rigid_walls[scene.crushing_walls->impact];
+  const RigidWall& support = scene.rigid_walls[scene.crushing_walls->support];
+  return impact.normal.dot(support.point - impact.point) - state.rigid_wall_motion[scene.crushing_walls->impact].travel;
+}
+
+double greatest_slope_of(const TimeFunction& function) {
+  double greatest = 0.0;
+  for (std::size_t i = 1; i < function.points.size(); ++i) {
+    const auto& [time, value] = function.points[i];
+    const auto& [before, start] = function.points[i - 1];
+    greatest = std::max(greatest, std::abs(value - start) / (time - before));
+  }
+  return greatest;
+}
+
+}  // namespace
+
+std::optional<CrushingWalls> find_crushing_walls(const Scene& scene) {
+  std::optional<CrushingWalls> found;
+  for (std::size_t i = 0; i < scene.rigid_walls.size(); ++i) {
+    const RigidWall& impact = scene.rigid_walls[i];
+    if (!impact.moves()) continue;
+    for (std::size_t j = 0; j < scene.rigid_walls.size(); ++j) {
+      const RigidWall& support = scene.rigid_walls[j];
+      const bool is_behind = impact.normal.dot(support.point - impact.point) <= 0.0;
+      if (support.moves() || is_behind || !impact.is_opposite_to(support)) continue;
+      if (found) return std::nullopt;
+      found = {static_cast<int>(i), static_cast<int>(j)};
+    }
+  }
+  return found;
+}
+
+bool has_crushing_walls(const std::vector<LoadsSpec::RigidWall>& walls) {
+  LoadsSpec loads;
+  loads.rigid_walls = walls;
+  Scene scene;
+  attach_half_planes(loads, scene);
+  return find_crushing_walls(scene).has_value();
+}
+
+void put_crushing_walls(Scene& scene) {
+  std::optional<CrushingWalls> walls = find_crushing_walls(scene);
+  if (!walls) return;
+  const RigidWall& impact = scene.rigid_walls[walls->impact];
+  const double length = extent_along(scene, impact.normal, 0.0);
+  const double width = extent_along(scene, impact.tangent(), 0.0);
+  if (std::min(length, width) < scene.largest_radius) return;  // a straight line
+  scene.length = length;
+  scene.width = width;
+  walls->distance = extent_along(scene, impact.normal, 1.0);
+  scene.crushing_walls = walls;
+}
+
+Vector2 crush_direction_of(const Scene& scene) {
+  if (scene.crushing_walls) return scene.rigid_walls[scene.crushing_walls->impact].normal;
+  return Vector2::Unit(scene.plates.axis);
+}
+
+double crush_speed_of(const Scene& scene) {
+  if (!scene.crushing_walls) return scene.plates.speed;
+  const RigidWall& impact = scene.rigid_walls[scene.crushing_walls->impact];
+  const double of_run = scene.length / (static_cast<double>(scene.schedule.step_count) * scene.schedule.time_step);
+  return std::max({impact.speed, greatest_slope_of(impact.motion), of_run});
+}
+
+double crush_travel_of(const Scene& scene, const State& state) {
+  if (!scene.crushing_walls) return state.impact_travel;
+  return std::max(0.0, scene.crushing_walls->distance - distance_of(scene, state));
+}
+
+double crush_strain_of(const Scene& scene, const State& state) {
+  return is_crushed(scene) ? crush_travel_of(scene, state) / scene.length : 0.0;
+}
+
+double impact_impulse_of(const Scene& scene, const State& state) {
+  if (scene.crushing_walls) return state.rigid_wall_impulse[scene.crushing_walls->impact].normal;
+  return state.impact_impulse + impulse_of_fixed(scene, state, Grip::FixedTo::impact_plate);
+}
+
+double support_impulse_of(const Scene& scene, const State& state) {
+  if (scene.crushing_walls) return state.rigid_wall_impulse[scene.crushing_walls->support].normal;
+  return state.support_impulse - impulse_of_fixed(scene, state, Grip::FixedTo::support_plate);
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+// Strain and forces of a crush: between plates, or between two rigid walls in their place (CrushingWalls).
+
+/// The two walls of a scene without plates; nothing if more or fewer pairs qualify.
+std::optional<CrushingWalls> find_crushing_walls(const Scene& scene);
+
+/// Sets the walls that crush a scene, with the extent of its particles along and across their normals as the envelope.
+/// A straight line of walls has none. REQUIRES: the radii of the particles.
+void put_crushing_walls(Scene& scene);
+
+/// Whether it is crushed in this sense.
+inline bool is_crushed(const Scene& scene) { return scene.plates.present || scene.crushing_walls.has_value(); }
+
+/// Unit vector in which the impact plate moves. REQUIRES: is_crushed().
+Vector2 crush_direction_of(const Scene& scene);
+
+/// Greatest speed of the impact plate, mm/s; of a mass, that of its start, or the mean of a crush to the end if that is
+/// more. REQUIRES: is_crushed().
+double crush_speed_of(const Scene& scene);
+
+/// By how much the plates have come together since they touch the lattice, mm. 0 unless is_crushed().
+double crush_travel_of(const Scene& scene, const State& state);
+
+/// That over the undeformed length.
+double crush_strain_of(const Scene& scene, const State& state);
+
+/// Of the impact plate, and the grips that are fixed to it, on the lattice since the start, N s along the crush.
+/// REQUIRES: is_crushed(), as below.
+double impact_impulse_of(const Scene& scene, const State& state);
+
+/// Of the support plate and the grips that are fixed to it, N s against the crush.
+double support_impulse_of(const Scene& scene, const State& state);
+
+}  // namespace cellcrush
