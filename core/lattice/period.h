@@ -15,7 +15,8 @@ bool repeats_along(const SceneSpec& spec, int axis);
 /// That axis, across the crush; nothing if they do not repeat.
 std::optional<int> repeated_axis_of(const SceneSpec& spec);
 
-/// Length after which such sides repeat, across the crush, mm: that of the lattice, or as given for a network. 0 if they do not repeat. REQUIRES: a checked spec.
+/// Length after which such sides repeat, across the crush, mm: that of the lattice, or as given for a network. 0 if
+/// they do not repeat. REQUIRES: a checked spec.
 double period_of(const SceneSpec& spec);
 
 /// What prevents that a layout is closed; -1: nothing does.

@@ -18,8 +18,8 @@ struct VoronoiLayout {
 /// Joints and walls between the cells of the nuclei (lattice/nuclei.h), after Lloyd's relaxation (Lloyd, 1982). The
 /// same lattice gives the same bits on every machine: nuclei are whole numbers, which cells meet is decided exactly
 /// (Boost.Polygon), and the place of a joint, the centre of the circle through three nuclei, is one quotient of exact
-/// integers. Along an axis on which it repeats it is not cut: each wall of a period stands once, and walls may lead from
-/// one into the next. REQUIRES: a checked lattice.
+/// integers. Along an axis on which it repeats it is not cut: each wall of a period stands once, and some lead from one
+/// into the next. REQUIRES: a checked lattice.
 VoronoiLayout lay_out_voronoi(const VoronoiWalls& lattice, std::optional<int> repeats_along = std::nullopt);
 
 /// Extent of the rectangle, mm.

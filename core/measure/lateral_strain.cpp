@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/crush.h"
+#include "push/crush.h"
 
 namespace cellcrush {
 namespace {

@@ -8,7 +8,7 @@
 #include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "motion/crush.h"
+#include "push/crush.h"
 #include "scene/solid_area.h"
 
 namespace cellcrush {

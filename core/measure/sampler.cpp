@@ -16,8 +16,8 @@
 #include "measure/fibre_strain.h"
 #include "measure/layers.h"
 #include "measure/warnings.h"
-#include "motion/crush.h"
 #include "motion/grips.h"
+#include "push/crush.h"
 #include "scene/solid_area.h"
 
 namespace cellcrush {

@@ -8,7 +8,7 @@
 #include "measure/lasting_rise.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
-#include "motion/crush.h"
+#include "push/crush.h"
 #include "scene/solid_area.h"
 
 namespace cellcrush {

@@ -10,7 +10,7 @@
 #include "contact/topology/wall_paths.h"
 #include "lattice/lattice.h"
 #include "lattice/list_walls.h"
-#include "motion/crush.h"
+#include "push/crush.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/repeat_mesh.h"

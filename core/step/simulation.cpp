@@ -10,6 +10,7 @@
 #include "cellcrush/state.h"
 #include "measure/peak_stress.h"
 #include "measure/sampler.h"
+#include "push/crush.h"
 #include "step/advance_step.h"
 #include "step/check_run.h"
 #include "step/plate_control.h"

@@ -247,7 +247,7 @@ struct RigidWall {
 };
 
 /// Two rigid walls in place of the plates, which face each other and of which one alone moves: strain, stresses and all
-/// that follows from them are those of this pair (motion/crush.h). Indices into Scene::rigid_walls.
+/// that follows from them are those of this pair (push/crush.h). Indices into Scene::rigid_walls.
 struct CrushingWalls {
   int impact = 0;         ///< the one that moves
   int support = 0;        ///< the one that stands still

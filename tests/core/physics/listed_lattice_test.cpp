@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cellcrush/simulation.h"
-#include "motion/crush.h"
+#include "push/crush.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "scenes/rigid_walls.h"

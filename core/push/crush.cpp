@@ -1,4 +1,4 @@
-#include "motion/crush.h"
+#include "push/crush.h"
 
 #include <algorithm>
 #include <cmath>
