@@ -1,7 +1,10 @@
 #include "lattice/lattice.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "cellcrush/lattice_words.h"
 #include "lattice/network.h"
@@ -26,6 +29,41 @@ std::string own_numbers_in_words(const RegularLattice& lattice, const LatticeKin
     text << (text.tellp() > 0 ? ", " : "") << name << ' ' << given->second << ' ' << number.name.substr(unit + 1);
   }
   return text.str();
+}
+
+/// The walls whose angles to the crush are known; empty if they are not looked at. The spec is not checked yet.
+std::vector<Vector2> walls_with_angles(const SceneSpec& spec) {
+  if (const LatticeKind* kind = kind_of(spec)) {
+    return kind->walls_of_cell == nullptr ? std::vector<Vector2>() : kind->walls_of_cell(*regular_lattice_of(spec));
+  }
+  std::vector<Vector2> walls;
+  const auto* network = std::get_if<NetworkWalls>(&spec.lattice);
+  for (std::size_t wall = 0; network != nullptr && wall < network->wall_count(); ++wall) {
+    const auto joint = [&](std::size_t end) { return static_cast<std::size_t>(network->walls[2 * wall + end]); };
+    if (std::max(joint(0), joint(1)) >= network->joint_count()) continue;
+    const auto place = [&](std::size_t end) {
+      return Vector2(network->joints_mm[2 * joint(end)], network->joints_mm[2 * joint(end) + 1]);
+    };
+    walls.push_back(place(1) - place(0));
+  }
+  return walls;
+}
+
+/// Whether more than a quarter of the length of the walls lies within 15 degrees of the crush.
+bool has_long_walls_along_crush(const SceneSpec& spec) {
+  constexpr double kAlong = 0.259;  // sine of 15 degrees
+  constexpr double kShare = 0.25;
+  const double turn = -spec.changes.rotation_degrees * std::numbers::pi / 180.0;
+  const Vector2 turned = {std::cos(turn), std::sin(turn)};
+  const Vector2 crush = spec.loading.direction == LoadingSpec::Direction::x ? turned : normal_of(turned);
+  double all = 0.0;
+  double along = 0.0;
+  for (const Vector2& wall : walls_with_angles(spec)) {
+    const double length = wall.norm();
+    all += length;
+    if (std::abs(cross(crush, wall)) < kAlong * length) along += length;
+  }
+  return along > kShare * all;
 }
 
 }  // namespace
@@ -70,7 +108,9 @@ DefaultMesh mesh_of(const LatticeKind& kind, const SceneSpec& spec) {
 }
 
 DefaultMesh mesh_of_bent_walls(const SceneSpec& spec, std::string of_what) {
-  return {is_fast_crush(spec) ? 2 : 1, 2, 8, std::move(of_what)};
+  if (!is_fast_crush(spec)) return {1, 2, 8, std::move(of_what)};
+  if (!has_long_walls_along_crush(spec)) return {2, 2, 8, std::move(of_what)};
+  return {2, 8, 16, of_what + " with walls along the crush, faster than 25 m/s"};
 }
 
 DefaultMesh mesh_of_stacked_walls(std::string_view plural) {

@@ -15,7 +15,7 @@ bool is_force_based(const SceneSpec& spec) { return spec.section.formulation == 
 /// That of the lattice. The elements of the paper keep the paper's mesh, and a frame has it if it gives none.
 DefaultMesh default_mesh_of(const SceneSpec& spec) {
   const LatticeKind* kind = kind_of(spec);
-  if (!is_force_based(spec)) return mesh_of_bent_walls(spec, "");
+  if (!is_force_based(spec)) return {is_fast_crush(spec) ? 2 : 1, 2, 8, {}};
   if (kind != nullptr) return mesh_of(*kind, spec);
   if (std::holds_alternative<VoronoiWalls>(spec.lattice)) return mesh_of_bent_walls(spec, "Voronoi honeycombs");
   if (!std::holds_alternative<NetworkWalls>(spec.lattice)) return mesh_of_bent_walls(spec, "");

@@ -126,13 +126,9 @@ ClosedForms forms_of_hexagons(const RegularLattice& hexagons, LoadingSpec::Direc
   return forms;
 }
 
-// STANDARD is the coarsest mesh whose plateau stresses lie within 4 % (impact) and 10 % (support) of a mesh twice as
-// fine, at 25 to 200 m/s. Along y some differences of 8 elements exceed the bounds (core/what-is-computed.md).
-DefaultMesh mesh_of_hexagons(const SceneSpec& spec) {
-  if (spec.loading.direction == LoadingSpec::Direction::y && is_fast_crush(spec)) {
-    return {2, 8, 16, "hexagons crushed along y faster than 25 m/s"};
-  }
-  return mesh_of_bent_walls(spec, "hexagons");
+std::vector<Vector2> walls_of_hexagon(const RegularLattice& hexagons) {
+  const Vector2 slanted = hexagons.side_mm.value_or(0.0) * unit_direction(own_number(hexagons, kAngle));
+  return {{0.0, own_number(hexagons, kHeight)}, slanted, {slanted.x(), -slanted.y()}};
 }
 
 std::string note_of_hexagons(const RegularLattice& hexagons) {
@@ -156,7 +152,7 @@ const LatticeKind& hexagon_lattice() {
       .lay_out = lay_out_hexagons,
       .period = period_of_hexagons,
       .closed_forms = forms_of_hexagons,
-      .mesh = mesh_of_hexagons,
+      .walls_of_cell = walls_of_hexagon,
       .theory_note = note_of_hexagons,
   };
   return kKind;

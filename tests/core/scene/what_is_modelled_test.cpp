@@ -136,7 +136,7 @@ TEST(Fidelity, DraftsOfFastCrushesReachTheirEnd) {
   EXPECT_EQ(end_of(spec), RunStatus::Kind::overcompaction);
 }
 
-TEST(Fidelity, FastCrushesOfHexagonsAlongYHaveAFinerMesh) {
+TEST(Fidelity, FastCrushesOfWallsAlongTheCrushHaveAFinerMesh) {
   SceneSpec spec = scenes::preset("type-i");
   const auto standard_at = [&spec](double speed) {
     spec.loading.speed_m_per_s = speed;
@@ -148,7 +148,20 @@ TEST(Fidelity, FastCrushesOfHexagonsAlongYHaveAFinerMesh) {
   EXPECT_EQ(describe_fidelity(spec), "Mesh: elements_per_wall is 2, STANDARD for hexagons.");
   EXPECT_EQ(standard_at(26.0), 8);
   EXPECT_EQ(describe_fidelity(spec),
-            "Mesh: elements_per_wall is 8, STANDARD for hexagons crushed along y faster than 25 m/s.");
+            "Mesh: elements_per_wall is 8, STANDARD for hexagons with walls along the crush, faster than 25 m/s.");
+  SceneSpec network = scenes::as_network(spec);
+  network.elements_per_wall.reset();
+  EXPECT_EQ(fill_in_fidelity(network).elements_per_wall, 8);
+  network.loading.direction = LoadingSpec::Direction::x;
+  EXPECT_EQ(fill_in_fidelity(network).elements_per_wall, 2);
+  SceneSpec turned = spec;
+  turned.changes.rotation_degrees = 80.0;
+  EXPECT_EQ(fill_in_fidelity(turned).elements_per_wall, 2);
+  turned.loading.direction = LoadingSpec::Direction::x;
+  EXPECT_EQ(fill_in_fidelity(turned).elements_per_wall, 8);
+  SceneSpec flat = spec;
+  scenes::cells_of(flat).own["height_mm"] = 0.4 * *scenes::cells_of(flat).side_mm;
+  EXPECT_EQ(fill_in_fidelity(flat).elements_per_wall, 2) << "most walls are slanted";
   spec.section.formulation = SectionSpec::Formulation::displacement_based;
   EXPECT_EQ(standard_at(26.0), 2);
 }
