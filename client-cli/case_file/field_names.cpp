@@ -51,7 +51,7 @@ std::string find_path_to(std::string_view field) {
 std::string find_meant(std::string_view field, const std::vector<std::string>& names) {
   if (std::string path = find_path_to(field); !path.empty()) return path;
   if (std::string nearest = find_nearest(field, names); !nearest.empty()) return nearest;
-  constexpr std::size_t kTelling = 6;  // letters; shorter names are near to many others
+  constexpr std::size_t kTelling = 5;  // letters; shorter names are near to many others
   if (field.size() < kTelling) return {};
   std::vector<std::string> all;
   for (const std::string& path : case_paths()) all.push_back(name_of(path));

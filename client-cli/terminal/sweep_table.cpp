@@ -130,10 +130,11 @@ void add_headings(Table& table, const v1::SweepTable& results, std::map<std::str
   } else {
     add({"jobs", "", "", ""});
   }
-  for (const ResultColumn& column : result_columns()) {
+  for (std::size_t i = 0; i < result_columns().size(); ++i) {
+    if (i == kColumnsBeforeMode) add({"crush", "mode", "", ""});
+    const ResultColumn& column = result_columns()[i];
     add({column.heading[0], column.heading[1], column.heading[2], units[column.unit].name});
   }
-  add({"crush", "mode", "", ""});
   for (auto& line : lines) table.add(std::move(line));
 }
 
@@ -202,8 +203,9 @@ std::string sweep_table_text(const v1::SweepTable& results, const std::string& t
   const bool has_means = !results.means().empty();
   std::vector<Align> alignment(fields, Align::right);
   alignment.insert(alignment.end(), has_means ? 1 : 2, has_means ? Align::right : Align::left);
-  alignment.insert(alignment.end(), result_columns().size(), Align::right);
+  alignment.insert(alignment.end(), kColumnsBeforeMode, Align::right);
   alignment.push_back(Align::left);
+  alignment.insert(alignment.end(), result_columns().size() - kColumnsBeforeMode, Align::right);
   Table table(alignment, fields + 1);
   auto units = units_of(results);
   add_headings(table, results, units);
@@ -218,7 +220,10 @@ std::string sweep_table_text(const v1::SweepTable& results, const std::string& t
     } else {
       cells.insert(cells.end(), {row.job(), v1::Job::State_Name(row.result().state())});
     }
-    for (const ResultColumn& column : result_columns()) {
+    for (std::size_t k = 0; k < result_columns().size(); ++k) {
+      const std::string& mode = summary.crush_mode_words();
+      if (k == kColumnsBeforeMode) cells.push_back(mode.empty() ? "-" : mode);
+      const ResultColumn& column = result_columns()[k];
       const double factor = units[column.unit].factor;
       // That of an error is of no use.
       const bool has_interval = has_means && column.unit != std::string_view("%");
@@ -229,8 +234,6 @@ std::string sweep_table_text(const v1::SweepTable& results, const std::string& t
       cells.push_back(value ? result_text(factor * *value, interval, digits) : absent);
       if (value && has_means) cells.back() += fewer_jobs_text(results.means(i), column);
     }
-    const std::string& mode = summary.crush_mode_words();
-    cells.push_back(mode.empty() ? "-" : mode);
     table.add(std::move(cells));
   }
   std::string constants;

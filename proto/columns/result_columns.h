@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,8 +29,10 @@ struct ResultColumn {
 /// is 0 where the theory does not apply.
 std::optional<double> find_result(const v1::Summary& summary, std::string_view path);
 
-/// The columns of a sweep's table, in their order.
+/// The columns of a sweep's table, in their order. The crush mode, which is no number, stands before the one of index
+/// kColumnsBeforeMode.
 const std::vector<ResultColumn>& result_columns();
+inline constexpr std::size_t kColumnsBeforeMode = 11;
 
 /// The table with one row per job; or, unless `each`, with one row for each of its means, if it has any: without the
 /// seed among its fields, and with a job that has succeeded if any has, whose summary holds the means. Row and mean

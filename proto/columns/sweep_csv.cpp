@@ -19,14 +19,15 @@ void add_heading(CsvText& text, const v1::SweepTable& table, bool has_means) {
   for (const char* name : {"job", "state"}) {
     if (!has_means) text.add(name);
   }
-  for (const ResultColumn& column : result_columns()) {
-    text.add(column.field());
+  for (std::size_t i = 0; i < result_columns().size(); ++i) {
+    if (i == kColumnsBeforeMode) text.add("crush_mode");
+    if (i == kColumnsBeforeMode && has_means) text.add("crush_mode_count");
+    const std::string field = result_columns()[i].field();
+    text.add(field);
     if (!has_means) continue;
-    text.add(column.field() + "_ci95");
-    text.add(column.field() + "_count");
+    text.add(field + "_ci95");
+    text.add(field + "_count");
   }
-  text.add("crush_mode");
-  if (has_means) text.add("crush_mode_count");
   text.end_row();
 }
 
@@ -35,6 +36,11 @@ void add_spread(CsvText& text, const Means& means, const ResultColumn& column) {
   const bool has_interval = mean != nullptr && mean->has_interval();
   text.add(has_interval ? std::optional(mean->interval()) : std::nullopt);
   text.add(std::int64_t{mean == nullptr ? 0 : mean->job_count()});
+}
+
+void add_crush_mode(CsvText& text, const v1::Summary& summary, const Means* means) {
+  text.add(crush_mode_code(summary.crush_mode()));
+  if (means != nullptr) text.add(std::int64_t{means->crush_modes().empty() ? 0 : means->crush_modes(0).job_count()});
 }
 
 }  // namespace
@@ -55,12 +61,11 @@ std::string sweep_table_csv(const v1::SweepTable& table, Decimal decimal) {
       text.add(row.job());
       text.add(v1::Job::State_Name(row.result().state()));
     }
-    for (const ResultColumn& column : result_columns()) {
-      text.add(result_of(table, i, column));
-      if (means != nullptr) add_spread(text, *means, column);
+    for (std::size_t k = 0; k < result_columns().size(); ++k) {
+      if (k == kColumnsBeforeMode) add_crush_mode(text, row.result().summary(), means);
+      text.add(result_of(table, i, result_columns()[k]));
+      if (means != nullptr) add_spread(text, *means, result_columns()[k]);
     }
-    text.add(crush_mode_code(row.result().summary().crush_mode()));
-    if (means != nullptr) text.add(std::int64_t{means->crush_modes().empty() ? 0 : means->crush_modes(0).job_count()});
     text.end_row();
   }
   return text.take();
