@@ -26,13 +26,25 @@ async function compare(ids) {
   await page.goto(`${daemon.url}/compare?jobs=${ids}`);
   await page.getByRole('columnheader', { name: `job ${ids[0]}` }).waitFor();
   await daemon.success(jobs[2]);
-  await page.waitForTimeout(500);
+}
+
+// The page shows what it has while it asks for the rest.
+async function eventually(check) {
+  for (let tries = 1; ; ++tries) {
+    try {
+      return await check();
+    } catch (error) {
+      if (tries === 100) throw error;
+      await page.waitForTimeout(100);
+    }
+  }
 }
 
 test('only the fields that differ are listed, or all', async () => {
   await compare([1, 2]);
   // The step is chosen by the speed.
-  assert.deepEqual(await rowsOf('Case'), ['plates.friction', 'loading.speed_m_per_s', 'numerics.time_step_s']);
+  const fields = ['plates.friction', 'loading.speed_m_per_s', 'numerics.time_step_s'];
+  await eventually(async () => assert.deepEqual(await rowsOf('Case'), fields));
   const steps = await page.locator('tr', { hasText: 'time_step_s' }).locator('td').allTextContents();
   for (const step of steps) assert.match(step, /^[\d.]{1,7}e-\d+$/, 'in six digits');
   const differing = await rowsOf('Result');
@@ -46,8 +58,10 @@ test('only the fields that differ are listed, or all', async () => {
 
 test('jobs of equal cases differ in nothing', async () => {
   await compare([1, 3]);
-  const names = [...await rowsOf('Case'), ...await rowsOf('Result')];
-  assert.deepEqual(names.filter((name) => name !== 'Solver seconds'), []);
+  await eventually(async () => {
+    const names = [...await rowsOf('Case'), ...await rowsOf('Result')];
+    assert.deepEqual(names.filter((name) => name !== 'Solver seconds'), []);
+  });
 });
 
 test('no script has failed', () => assert.deepEqual(errors, []));
