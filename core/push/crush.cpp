@@ -78,10 +78,9 @@ void put_crushing_walls(Scene& scene) {
   if (!walls) return;
   const RigidWall& impact = scene.rigid_walls[walls->impact];
   const double length = extent_along(scene, impact.normal, 0.0);
-  const double width = extent_along(scene, impact.tangent(), 0.0);
-  if (std::min(length, width) < scene.largest_radius) return;  // a straight line
+  if (length < scene.largest_radius) return;
   scene.length = length;
-  scene.width = width;
+  scene.width = std::max(extent_along(scene, impact.tangent(), 0.0), 2.0 * scene.largest_radius);
   walls->distance = extent_along(scene, impact.normal, 1.0);
   scene.crushing_walls = walls;
 }

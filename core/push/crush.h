@@ -11,7 +11,7 @@ namespace cellcrush {
 std::optional<CrushingWalls> find_crushing_walls(const Scene& scene);
 
 /// Sets the walls that crush a scene, with the extent of its particles along and across their normals as the envelope.
-/// A straight line of walls has none. REQUIRES: the radii of the particles.
+/// A straight column is as wide as it is thick. REQUIRES: the radii of the particles.
 void put_crushing_walls(Scene& scene);
 
 /// Whether it is crushed in this sense.

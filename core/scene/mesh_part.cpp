@@ -224,7 +224,8 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   // A regular lattice has those of its layout, before any imperfection.
   const int axis = crush_axis_of(part);
   measures.length = scene.length > 0.0 ? scene.length : extent_of(scene, axis);
-  measures.width = scene.length > 0.0 ? scene.width : extent_of(scene, 1 - axis);
+  // A straight column is as wide as it is thick.
+  measures.width = std::max(scene.length > 0.0 ? scene.width : extent_of(scene, 1 - axis), 2.0 * scene.largest_radius);
   const double envelope = measures.length * measures.width;
   const bool can_close = regular_lattice_of(part) != nullptr || scene.solid_area < kClosed * envelope;
   measures.solid_area = can_close ? scene.solid_area : 0.0;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cellcrush/simulation.h"
-#include "push/crush.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "scenes/rigid_walls.h"
@@ -110,9 +109,32 @@ TEST(ListedLattice, HasTheMeasuresOfTheOnlyPairOfWallsOfWhichOneMoves) {
                              Walls{low, behind}, Walls{low, high, high}, Walls{low, low, high}}) {
     EXPECT_FALSE(has_crushing_walls(walls));
   }
-  SceneSpec line = scenes::elastic_frame(scenes::bar(10.0, 1.0, 2));
-  line.loads.rigid_walls = {{-0.6, 0.0, 1.0, 0.0, 0.0, moves}, {10.6, 0.0, -1.0, 0.0}};
-  EXPECT_FALSE(is_crushed(*scenes::build(line))) << "a line has no cross-section";
+}
+
+// It has no extent across the crush.
+TEST(ListedLattice, OfOneColumnHasTheStressOfItsSection) {
+  constexpr double kYield = 76.0;  // MPa
+  FrameLattice column = scenes::bar(20.0, 1.0, 8);
+  column.supports = {{0, false, true, true}, {1, false, true, true}};
+  SceneSpec plates = scenes::plastic_frame(column, 69000.0, kYield, 2700.0);
+  plates.loading.end_time_s.reset();
+  plates.loading.speed_m_per_s = 0.5;
+  plates.loading.ramp_strain = 1e-3;
+  plates.loading.end_strain = 0.02;
+  SceneSpec walls = scenes::plastic_frame(column, 69000.0, kYield, 2700.0);
+  const double end = 0.02 * 20.0 / 500.0;
+  walls.loads.rigid_walls = {{-0.500001, 0.0, 1.0, 0.0, 0.0, {{0.0, 0.0}, {end, 0.4}}}, {20.500001, 0.0, -1.0, 0.0}};
+  walls.loading.end_time_s = end;
+  for (const SceneSpec& spec : {plates, walls}) {
+    const Summary summary = summary_of(spec);
+    EXPECT_EQ(scenes::build(spec)->width, 1.0);
+    ASSERT_TRUE(summary.peak && summary.crush_forces);
+    // It yields at a strain of 0.0011, within the window of the peak, and buckles later.
+    EXPECT_NEAR(summary.peak->stress, 0.94 * kYield, 0.05 * kYield);
+    EXPECT_NEAR(summary.crush_forces->peak, *spec.depth_mm * summary.peak->stress, 1e-9);
+    EXPECT_GT(summary.crush_forces->mean, 0.5 * summary.crush_forces->peak);
+    EXPECT_LT(summary.crush_forces->mean, summary.crush_forces->peak);
+  }
 }
 
 // Until it rebounds, the mass gives its energy to the lattice.
