@@ -18,7 +18,7 @@ struct Shortcut {
 };
 
 constexpr std::array kShortcuts = {
-    Shortcut{"without:faces", "contact search by face", "`contact.search BUCKETS`", "same bits"},
+    Shortcut{"without:faces", "contact search by face", "`contact.search BUCKETS`", "within the scatter of seeds"},
     Shortcut{"without:fibres-of-perfect-plasticity", "fibres without hardening", "a hardening modulus above 0",
              "same ledger"},
     Shortcut{"without:single-precision", "fibres in single precision", "`numerics.fibre_precision DOUBLE`",
