@@ -4,8 +4,9 @@ from __future__ import annotations
 from typing import Iterable
 
 _UNITS = {
-    "_kg_per_m3": "kg/m³", "_j_per_g": "J/g", "_m_per_s2": "m/s²", "_m_per_s": "m/s", "_per_s": "1/s", "_n_mm": "N mm",
-    "_g_mm2": "g mm²", "_mpa": "MPa", "_mm": "mm", "_mj": "mJ", "_rad": "rad", "_n": "N", "_g": "g", "_s": "s",
+    "_kg_per_m3": "kg/m³", "_j_per_g": "J/g", "_m_per_s2": "m/s²", "_m_per_s": "m/s", "_per_s": "1/s",
+    "_n_mm": "N mm", "_g_mm2": "g mm²", "_mpa": "MPa", "_mm": "mm", "_mj": "mJ", "_rad": "rad", "_n": "N",
+    "_g": "g", "_s": "s",
 }
 
 
