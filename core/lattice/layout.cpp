@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -13,13 +15,16 @@
 namespace cellcrush {
 namespace {
 
+/// Walls that pass one which waits for its block (fill_blocks).
+constexpr std::size_t kMostWait = 1024;
+
 bool is_longer_along_x(const std::vector<Vector2>& places) {
   const Vector2 extent = envelope_of(places);
   return extent.x() > extent.y();
 }
 
-std::vector<int> numbers_of(const std::vector<Vector2>& joints) {
-  std::vector<int> numbers(joints.size());
+std::vector<int> numbers_of(std::size_t count) {
+  std::vector<int> numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
 }
@@ -31,15 +36,21 @@ double length_of(const Layout& layout, const LayoutWall& wall) {
   return chord * half_angle / std::sin(half_angle);
 }
 
+/// The items of a list in the order given by their present numbers.
+template <class Item>
+std::vector<Item> in_order(const std::vector<int>& order, const std::vector<Item>& items) {
+  std::vector<Item> result;
+  result.reserve(items.size());
+  for (const int from : order) result.push_back(items[from]);
+  return result;
+}
+
 /// Puts the joints into the order given by their present numbers.
 void reorder_joints(const std::vector<int>& order, Layout& layout) {
   std::vector<int> number(order.size());
-  std::vector<Vector2> joints(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    number[order[i]] = static_cast<int>(i);
-    joints[i] = layout.joints[order[i]];
-  }
-  layout.joints = std::move(joints);
+  for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);
+  layout.joints = in_order(order, layout.joints);
+  layout.order = ListOrder{order, {}}.after(layout.order);
   for (LayoutWall& wall : layout.walls) {
     wall.start = number[wall.start];
     wall.end = number[wall.end];
@@ -48,6 +59,11 @@ void reorder_joints(const std::vector<int>& order, Layout& layout) {
     low = number[low];
     high = number[high];
   }
+}
+
+void reorder_walls(const std::vector<int>& order, Layout& layout) {
+  layout.walls = in_order(order, layout.walls);
+  layout.order = ListOrder{{}, order}.after(layout.order);
 }
 
 }  // namespace
@@ -101,26 +117,31 @@ void number_columns(const std::vector<Vector2>& places, Layout& layout) {
       !is_longer_along_x(places)) {
     return;
   }
-  std::vector<int> order = numbers_of(places);
+  std::vector<int> order = numbers_of(places.size());
   std::ranges::sort(order, {}, [&](int joint) { return std::tie(places[joint].x(), places[joint].y()); });
   reorder_joints(order, layout);
-  std::ranges::sort(layout.walls, {}, [](const LayoutWall& wall) { return std::minmax({wall.start, wall.end}); });
+  std::vector<int> walls = numbers_of(layout.walls.size());
+  std::ranges::sort(walls, {}, [&](int wall) {
+    return std::tuple_cat(std::minmax({layout.walls[wall].start, layout.walls[wall].end}), std::tuple(wall));
+  });
+  reorder_walls(walls, layout);
 }
 
 std::vector<int> put_rigid_bodies_first(Layout& layout) {
-  const auto first_rigid = std::stable_partition(layout.walls.begin(), layout.walls.end(),
-                                                 [](const LayoutWall& wall) { return !wall.rigid; });
-  const std::span<const LayoutWall> rigid_walls(first_rigid, layout.walls.end());
-  if (rigid_walls.empty()) {
+  if (std::ranges::none_of(layout.walls, &LayoutWall::rigid)) {
     return {};
   }
+  std::vector<int> walls = numbers_of(layout.walls.size());
+  const auto of_rigid = std::ranges::stable_partition(walls, [&](int wall) { return !layout.walls[wall].rigid; });
+  reorder_walls(walls, layout);
+  const std::span<const LayoutWall> rigid_walls = std::span(layout.walls).last(of_rigid.size());
   const auto deformable = static_cast<int>(layout.joints.size());
   const std::vector<int> part = find_parts(layout.joints.size(), rigid_walls);
   std::vector<int> body(layout.joints.size(), deformable);
   for (const LayoutWall& wall : rigid_walls) {
     body[wall.start] = body[wall.end] = part[wall.start];
   }
-  std::vector<int> order = numbers_of(layout.joints);
+  std::vector<int> order = numbers_of(layout.joints.size());
   std::ranges::stable_sort(order, {}, [&](int joint) { return body[joint]; });
   std::vector<int> offset = {0};
   for (std::size_t place = 1; place <= order.size() && body[order[place - 1]] != deformable; ++place) {
@@ -130,6 +151,30 @@ std::vector<int> put_rigid_bodies_first(Layout& layout) {
   }
   reorder_joints(order, layout);
   return offset;
+}
+
+void fill_blocks(Layout& layout) {
+  const std::size_t count = layout.walls.size() - std::ranges::count(layout.walls, true, &LayoutWall::rigid);
+  std::map<int, std::vector<int>> waiting;  // by number of elements
+  std::vector<int> order;
+  order.reserve(layout.walls.size());
+  const auto pass = [&order](std::vector<int>& walls) {
+    order.insert(order.end(), walls.begin(), walls.end());
+    walls.clear();
+  };
+  for (std::size_t wall = 0; wall < count; ++wall) {
+    std::vector<int>& alike = waiting[layout.walls[wall].elements];
+    alike.push_back(static_cast<int>(wall));
+    if (alike.size() == kMostWallsInBlock) pass(alike);
+    if (wall % kMostWait != 0) continue;
+    for (auto& [elements, walls] : waiting) {
+      if (!walls.empty() && static_cast<std::size_t>(walls.front()) + kMostWait <= wall) pass(walls);
+    }
+  }
+  if (waiting.size() < 2) return;
+  for (auto& [elements, walls] : waiting) pass(walls);
+  for (std::size_t wall = count; wall < layout.walls.size(); ++wall) order.push_back(static_cast<int>(wall));
+  reorder_walls(order, layout);
 }
 
 }  // namespace cellcrush

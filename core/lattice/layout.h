@@ -9,6 +9,7 @@
 
 #include "cellcrush/scene_spec.h"
 #include "cellcrush/vector.h"
+#include "cellcrush/walls.h"
 
 namespace cellcrush {
 
@@ -38,6 +39,7 @@ struct Layout {
   Bounds envelope;  ///< of the joints before any imperfection; filled in by the mesh
   /// Joints at the low side of a period and their images at the high side (lattice/period.h).
   std::vector<std::pair<int, int>> images;
+  ListOrder order;  ///< of joints and walls, as laid out at first
 
   [[nodiscard]] std::size_t element_count() const {
     const auto add = [](std::size_t sum, const LayoutWall& wall) { return sum + wall.elements; };
@@ -70,6 +72,11 @@ void number_columns(const std::vector<Vector2>& places, Layout& layout);
 /// Numbers the joints of rigid walls first, with those of the same body side by side, and moves rigid walls to the end.
 /// Returns RigidBodies::offset.
 std::vector<int> put_rigid_bodies_first(Layout& layout);
+
+/// Puts walls with the same number of elements together, so that they fill blocks (WallBlock), which are computed in
+/// vectors: the walls of other blocks take several times as long. A wall waits for a block to be filled while others
+/// pass it, but not for long: joints would leave the cache. Where all walls have the same number they stay as they are.
+void fill_blocks(Layout& layout);
 
 using GridPoint = Eigen::Vector2i;
 

@@ -239,7 +239,7 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     return summary;
   }
   summary.step_count = all.back().step;
-  summary.rigid_link_count = static_cast<std::int64_t>(scene.rigid_link_count());
+  summary.rigid_link_count = static_cast<std::int64_t>(scene.rigid.links);
   summary.start_overlap_count = std::ssize(scene.start_overlaps.walls());
   const bool has_travelled = scene.plates.kinetic_share > 0.0 ? all.back().travel >= scene.plates.end_travel
                                                               : all.back().step >= scene.schedule.step_count;

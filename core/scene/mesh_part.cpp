@@ -178,8 +178,11 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
   scene->single_fibres =
       part.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision && allows_single_fibres(*scene);
   Layout layout = lay_out(part, linked.links, *scene);
-  scene->list_order = linked.order;
   scene->rigid.offset = put_rigid_bodies_first(layout);
+  // The beams of a frame have loads and pins by their numbers.
+  if (!std::holds_alternative<FrameWalls>(part.lattice)) fill_blocks(layout);
+  scene->list_order = layout.order.after(linked.order);
+  scene->rigid.links = static_cast<std::size_t>(linked.links);
   divide_walls(layout, *scene);
   if (const auto* frame = std::get_if<FrameWalls>(&part.lattice)) {
     attach_to_frame(*frame, part.loads, *scene);

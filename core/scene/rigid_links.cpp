@@ -252,7 +252,7 @@ LinkedSpec put_rigid_links_first(const SceneSpec& spec) {
 }
 
 double link_mass_share_of(const Scene& scene) {
-  if (scene.list_order.wall.empty()) return 0.0;
+  if (scene.rigid.links == 0) return 0.0;
   double mass = 0.0;
   for (std::size_t e = scene.rigid.first_element; e < scene.element_count(); ++e) {
     const Element& link = scene.elements[e];

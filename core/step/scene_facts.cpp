@@ -92,7 +92,7 @@ std::string period_text(const Scene& scene) {
 
 /// Walls that are rigid because they are short.
 std::string links_text(const Scene& scene) {
-  const std::size_t count = scene.rigid_link_count();
+  const std::size_t count = scene.rigid.links;
   return "Rigid links: " + std::to_string(count) + (count == 1 ? " wall" : " walls") + " in " +
          std::to_string(scene.rigid.count()) + (scene.rigid.count() == 1 ? " rigid body" : " rigid bodies") +
          ", short for the thickness (numerics.rigid_link_slenderness), with " +
@@ -160,7 +160,7 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
     lines.push_back("Pins: " + std::to_string(ends) + (ends == 1 ? " end of a beam turns" : " ends of beams turn") +
                     " freely at the node, without friction.");
   }
-  if (scene.rigid_link_count() > 0) {
+  if (scene.rigid.links > 0) {
     lines.push_back(links_text(scene));
   } else if (scene.rigid.count() > 0) {
     lines.push_back(

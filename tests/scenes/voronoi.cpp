@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "cellcrush/vector.h"
+
 namespace cellcrush::scenes {
 namespace {
 

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <functional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cellcrush/scene.h"
@@ -53,6 +55,54 @@ TEST(Network, OfTypeIHasItsBitsAndFacts) {
   EXPECT_EQ(of_network.width, facts.width);
   EXPECT_EQ(of_network.relative_density, facts.relative_density);
   EXPECT_EQ(of_network.theory.gibson_ashby, 0.0) << "no closed form is known of it";
+}
+
+/// Type I as a network of a bit uneven walls, whose numbers of elements differ.
+SceneSpec uneven_type_i(int elements_per_wall) {
+  SceneSpec spec = scenes::as_network(scenes::preset("type-i"));
+  spec.elements_per_wall = elements_per_wall;
+  spec.imperfection = {};
+  int turn = 0;
+  for (double& place : std::get<NetworkWalls>(spec.lattice).joints_mm) place += 0.12 * (turn++ * 7 % 11 - 5);
+  return spec;
+}
+
+// The walls of other blocks take several times as long.
+TEST(Network, WallsOfUnequalLengthsFillBlocks) {
+  for (const SceneSpec& spec : {scenes::preset("zheng-2005"), uneven_type_i(4)}) {
+    const auto scene = scenes::build(spec);
+    std::size_t in_full = 0;
+    std::set<int> counts;
+    for (const WallBlock& block : scene->walls.blocks) {
+      if (block.walls == kMostWallsInBlock) in_full += kMostWallsInBlock;
+      counts.insert(block.elements);
+    }
+    EXPECT_GE(counts.size(), 3u);
+    EXPECT_GE(static_cast<double>(in_full), 0.95 * static_cast<double>(scene->walls.start.size()));
+  }
+}
+
+// The second is large enough for its joints to be numbered column by column.
+TEST(Network, JointsAndWallsKeepTheirNumbersInTheList) {
+  for (const SceneSpec& spec : {uneven_type_i(4), uneven_type_i(16)}) {
+    const auto scene = scenes::build(spec);
+    const auto& network = std::get<NetworkWalls>(spec.lattice);
+    const ListOrder& order = scene->list_order;
+    const auto place_of = [&](int joint) {
+      return Vector2(network.joints_mm[2 * joint], network.joints_mm[2 * joint + 1]);
+    };
+    std::set<int> seen;
+    for (int wall = 0; wall < static_cast<int>(scene->walls.start.size()); ++wall) {
+      const int listed = order.listed_wall(wall);
+      seen.insert(listed);
+      for (const auto& [joint, of_list] : {std::pair(scene->walls.start[wall], network.walls[2 * listed]),
+                                           std::pair(scene->walls.end[wall], network.walls[2 * listed + 1])}) {
+        EXPECT_EQ(order.listed_joint(joint), of_list);
+        EXPECT_EQ(scene->position[joint], place_of(of_list));
+      }
+    }
+    EXPECT_EQ(seen.size(), network.wall_count());
+  }
 }
 
 /// A ring of four quarter arcs of a radius, between plates.
