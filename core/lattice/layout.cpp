@@ -18,6 +18,13 @@ namespace {
 /// Walls that pass one which waits for its block (fill_blocks).
 constexpr std::size_t kMostWait = 1024;
 
+/// Whether walls that are not rigid differ in their numbers of elements.
+bool is_uneven(const Layout& layout) {
+  const auto first = std::ranges::find(layout.walls, false, &LayoutWall::rigid);
+  return std::any_of(first, layout.walls.end(),
+                     [&](const LayoutWall& wall) { return !wall.rigid && wall.elements != first->elements; });
+}
+
 bool is_longer_along_x(const std::vector<Vector2>& places) {
   const Vector2 extent = envelope_of(places);
   return extent.x() > extent.y();
@@ -112,13 +119,13 @@ void bow(const Imperfection& imperfection, std::vector<LayoutWall>& walls) {
   }
 }
 
-void number_columns(const std::vector<Vector2>& places, Layout& layout) {
-  if (layout.element_count() < kLeastElementsOfBands || std::ranges::any_of(layout.walls, &LayoutWall::rigid) ||
-      !is_longer_along_x(places)) {
-    return;
-  }
+void number_columns(const std::vector<Vector2>& places, int crush_axis, Layout& layout) {
+  const bool may_have_bands = layout.element_count() >= kLeastElementsOfBands && layout.images.empty() &&
+                              is_longer_along_x(places) && std::ranges::none_of(layout.walls, &LayoutWall::rigid);
+  if (!may_have_bands && !is_uneven(layout)) return;
+  const int along = may_have_bands ? 0 : crush_axis;
   std::vector<int> order = numbers_of(places.size());
-  std::ranges::sort(order, {}, [&](int joint) { return std::tie(places[joint].x(), places[joint].y()); });
+  std::ranges::sort(order, {}, [&](int joint) { return std::tie(places[joint][along], places[joint][1 - along]); });
   reorder_joints(order, layout);
   std::vector<int> walls = numbers_of(layout.walls.size());
   std::ranges::sort(walls, {}, [&](int wall) {
@@ -154,6 +161,7 @@ std::vector<int> put_rigid_bodies_first(Layout& layout) {
 }
 
 void fill_blocks(Layout& layout) {
+  if (!is_uneven(layout)) return;
   const std::size_t count = layout.walls.size() - std::ranges::count(layout.walls, true, &LayoutWall::rigid);
   std::map<int, std::vector<int>> waiting;  // by number of elements
   std::vector<int> order;
@@ -171,7 +179,6 @@ void fill_blocks(Layout& layout) {
       if (!walls.empty() && static_cast<std::size_t>(walls.front()) + kMostWait <= wall) pass(walls);
     }
   }
-  if (waiting.size() < 2) return;
   for (auto& [elements, walls] : waiting) pass(walls);
   for (std::size_t wall = count; wall < layout.walls.size(); ++wall) order.push_back(static_cast<int>(wall));
   reorder_walls(order, layout);

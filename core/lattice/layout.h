@@ -63,11 +63,12 @@ void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints);
 /// side. The offsets do not depend on those of the joints.
 void bow(const Imperfection& imperfection, std::vector<LayoutWall>& walls);
 
-/// Numbers the joints of a large lattice column by column, and its walls in the order of their joints. Bands
-/// (contact/topology/bands.h) then run across the lattice and are small. This applies if it is longer along x than
-/// along y and its rows run along x. Other lattices, and those with rigid walls, stay as they are. `places` are the
-/// positions of the joints before any imperfection, mm.
-void number_columns(const std::vector<Vector2>& places, Layout& layout);
+/// Numbers the joints column by column, and the walls in the order of their joints. Columns run across x in a large
+/// lattice that is longer along x than along y and has neither rigid walls nor images: bands (contact/topology/bands.h)
+/// then run across it and are small. They run across the crush in a lattice whose walls differ in their numbers of
+/// elements: walls of a block are then crushed together, and a kernel that finds no yielding wall does less. Other
+/// lattices stay as they are. `places` are the positions of the joints before any imperfection, mm.
+void number_columns(const std::vector<Vector2>& places, int crush_axis, Layout& layout);
 
 /// Numbers the joints of rigid walls first, with those of the same body side by side, and moves rigid walls to the end.
 /// Returns RigidBodies::offset.

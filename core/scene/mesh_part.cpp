@@ -78,11 +78,8 @@ Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   layout.envelope = bounds_of(places);
   perturb(spec.imperfection, layout.joints);
   bow(spec.imperfection, layout.walls);
-  if (period > 0.0) {
-    align_images(1 - axis, period, layout);
-  } else {
-    number_columns(places, layout);
-  }
+  if (period > 0.0) align_images(1 - axis, period, layout);
+  number_columns(places, axis, layout);
   return layout;
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -103,6 +104,27 @@ TEST(Network, JointsAndWallsKeepTheirNumbersInTheList) {
     }
     EXPECT_EQ(seen.size(), network.wall_count());
   }
+}
+
+TEST(Network, OfUnevenWallsHasTheSameBitsInWhateverOrderTheyAreListed) {
+  const SceneSpec spec = uneven_type_i(2);
+  SceneSpec reversed = spec;
+  auto& network = std::get<NetworkWalls>(reversed.lattice);
+  const auto& given = std::get<NetworkWalls>(spec.lattice);
+  const auto joints = static_cast<int>(given.joint_count());
+  for (int joint = 0; joint < joints; ++joint) {
+    for (int axis : {0, 1}) {
+      network.joints_mm[2 * joint + axis] = given.joints_mm[2 * (joints - 1 - joint) + axis];
+    }
+  }
+  const std::size_t walls = given.wall_count();
+  for (std::size_t wall = 0; wall < walls; ++wall) {
+    for (std::size_t end : {0, 1}) {
+      network.walls[2 * wall + end] = joints - 1 - given.walls[2 * (walls - 1 - wall) + end];
+    }
+  }
+  std::ranges::reverse(network.thicknesses_mm);
+  EXPECT_EQ(hash_after(reversed, 50), hash_after(spec, 50));
 }
 
 /// A ring of four quarter arcs of a radius, between plates.
