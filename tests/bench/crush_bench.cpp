@@ -97,10 +97,10 @@ CrushCost crush(const SceneSpec& spec, const std::string& target) {
 }
 
 /// Crushes in a process of its own, so that its memory is nothing else's, by a kernel. Throws
-/// std::runtime_error when the crush did not reach its end.
+/// std::runtime_error when the crush did not reach its end. REQUIRES: a spec that says its end strain.
 CrushCost crush_apart(const SceneSpec& spec, const std::string& target) {
   const auto cost = measure_apart([&] { return crush(spec, target); });
-  if (!cost || cost->strain < spec.loading.end_strain - 0.001) {
+  if (!cost || cost->strain < *spec.loading.end_strain - 0.001) {
     throw std::runtime_error("the crush did not reach its end.");
   }
   return *cost;
@@ -246,18 +246,22 @@ void add(const std::string& name, const SceneSpec& spec, const std::string& targ
       ->Iterations(crushes);
 }
 
+SceneSpec to_strain(SceneSpec spec, double strain) {
+  // Samples and frames as far apart as those of the whole crush.
+  const double share = strain / LoadingSpec::kDefaultEndStrain;
+  spec.output.sample_count = static_cast<int>(share * spec.output.sample_count);
+  spec.output.frame_count = static_cast<int>(share * spec.output.frame_count);
+  spec.loading.end_strain = strain;
+  return spec;
+}
+
 void add_all(const Flags&) {
   for (const std::string& target : simd_targets()) {
-    add("whole/type-i-paper/" + target, scenes::papers_type_i(), target);
+    add("whole/type-i-paper/" + target, to_strain(scenes::papers_type_i(), LoadingSpec::kDefaultEndStrain), target);
   }
   for (int times = 1; times <= kMostTimes; times *= 4) {
-    SceneSpec spec = scenes::papers_type_i_wider(times);
-    // Samples and frames as far apart as those of the whole crush.
-    const double share = kGrowthStrain / spec.loading.end_strain;
-    spec.output.sample_count = static_cast<int>(share * spec.output.sample_count);
-    spec.output.frame_count = static_cast<int>(share * spec.output.frame_count);
-    spec.loading.end_strain = kGrowthStrain;
-    add("cells/" + std::to_string(times), spec, simd_targets().front(), std::max(1, kCellsTimed / times));
+    add("cells/" + std::to_string(times), to_strain(scenes::papers_type_i_wider(times), kGrowthStrain),
+        simd_targets().front(), std::max(1, kCellsTimed / times));
   }
 }
 
