@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(Pages, RecordTables,
                          ::testing::Values(TablePage{"tests/accuracy.md", accuracy_tables},
                                            TablePage{"tests/validation/RESULTS.md", long_crush_tables},
                                            TablePage{"core/what-is-computed.md", mesh_tables},
-                                           TablePage{"tests/bench/README.md", shortcut_tables},
+                                           TablePage{"tests/bench/README.md", bench_tables},
                                            TablePage{"tests/stability/README.md", stability_tables}));
 
 TEST(PageTables, StandBetweenTheirMarks) {

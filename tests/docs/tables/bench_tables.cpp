@@ -1,7 +1,8 @@
-// tests/bench/README.md: what the shortcuts of the solver save.
+// tests/bench/README.md: what an element-step takes, and what the shortcuts of the solver save.
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "docs/tables/crush_rows.h"
 #include "docs/tables/record_tables.h"
@@ -38,9 +39,34 @@ double seconds_of(const std::vector<CrushGroup>& groups, const std::string& scen
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// The rows of the newest commit on each machine, with the fastest kernel.
+std::string element_step_table() {
+  PageTable table(
+      {"Crush, strain in %", "#Elements", "#Type I by default = 1", "#ns", "#Scalar = 1", "Processor", "Commit"});
+  for (const char* machine : {"amd-epyc", "intel-r-xeon-r-processor"}) {
+    const auto rows = bench::read_csv(kTests + "/bench/results/steps-" + machine + ".csv");
+    const std::string commit = rows.back().at("commit");
+    double of_type_i = std::numeric_limits<double>::quiet_NaN();
+    for (const bench::CsvRow& row : rows) {
+      if (row.at("commit") == commit && row.at("benchmark") == "type-i-default/20/avx512") {
+        of_type_i = bench::number_in(row, "element_step_ns");
+      }
+    }
+    for (const bench::CsvRow& row : rows) {
+      if (row.at("commit") != commit || row.at("simd_target") != "avx512") continue;
+      const std::string& benchmark = row.at("benchmark");
+      const double nanoseconds = bench::number_in(row, "element_step_ns");
+      table.add_row({benchmark.substr(0, benchmark.rfind('/')), row.at("elements"), fixed(nanoseconds / of_type_i, 2),
+                     fixed(nanoseconds, 1), fixed(bench::number_in(row, "times_as_fast_as_scalar"), 1),
+                     row.at("processor"), commit});
+    }
+  }
+  return table.text();
+}
+
 }  // namespace
 
-PageTables shortcut_tables() {
+PageTables bench_tables() {
   const std::vector<CrushGroup> groups =
       read_groups(kTests + "/bench/shortcuts.txt", kTests + "/bench/results/shortcuts.csv");
   PageTable table({"Shortcut", "Switched off by", "Agreement", "#100 m/s", "#10 m/s", "#1 m/s"});
@@ -52,7 +78,7 @@ PageTables shortcut_tables() {
     }
     table.add_row(cells);
   }
-  return {{"shortcuts", table.text()}};
+  return {{"element-steps", element_step_table()}, {"shortcuts", table.text()}};
 }
 
 }  // namespace cellcrush::docs
