@@ -77,6 +77,7 @@ std::string unknown_field_message(std::string_view field, const google::protobuf
   const std::vector<std::string> names = field_names(type);
   const std::string nearest = find_meant(field, names);
   const std::string message = fmt::format("{} has no field \"{}\"", type.name(), field);
+  if (nearest == field) return message + "; it is a field of the case itself: write it outside of all braces";
   return nearest.empty() ? fmt::format("{}; it has: {}. A field of a newer server needs the cellcrush of its version",
                                        message, fmt::join(names, ", "))
                          : with_suggestion(message, nearest);

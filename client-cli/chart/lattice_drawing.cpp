@@ -17,6 +17,7 @@ constexpr double kThinnestWall = 0.5;  // units; thinner lines vanish
 constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the specimen's longer side
 constexpr double kGripShare = 0.008;   // size of a square on a gripped particle, as a share of the box's longer side
 constexpr double kMarginShare = 1.5;   // around the drawing, in thicknesses of a plate
+constexpr double kNearShare = 0.2;     // how far faces of rigid walls may be that are shown, of the longer side
 constexpr double kSmallestRing = 2.5;  // units, radius
 constexpr Colour kPlateColour{0.35, 0.36, 0.40};
 constexpr Colour kOverlapColour{0.80, 0.15, 0.55};
@@ -31,6 +32,22 @@ void include(Box& box, double x, double y) {
   box.high_x = std::max(box.high_x, x);
   box.low_y = std::min(box.low_y, y);
   box.high_y = std::max(box.high_y, y);
+}
+
+// Includes the faces along x or y that are near: a striker may start far away.
+void include_faces(const std::vector<LatticeStage>& stages, Box& box) {
+  const Box lattice = box;
+  const double near = kNearShare * std::max(box.width(), box.height());
+  for (const LatticeStage& stage : stages) {
+    for (const WallFace& face : stage.faces) {
+      if (face.normal_y == 0.0 && face.x > lattice.low_x - near && face.x < lattice.high_x + near) {
+        include(box, face.x, lattice.low_y);
+      }
+      if (face.normal_x == 0.0 && face.y > lattice.low_y - near && face.y < lattice.high_y + near) {
+        include(box, lattice.low_x, face.y);
+      }
+    }
+  }
 }
 
 // Identical in every drawing of a crush, even where the box follows the impact plate.
@@ -71,6 +88,34 @@ void draw_plate(cairo_t* context, const Projection& projection, const Box& box, 
   }
   set_colour(context, kPlateColour);
   cairo_fill(context);
+}
+
+// Bands behind the faces of rigid walls, across the box.
+void draw_faces(cairo_t* context, const Rectangle& place, const Projection& projection, const Box& box,
+                const std::vector<WallFace>& faces) {
+  const double thickness = kPlateShare * std::max(box.width(), box.height());
+  cairo_save(context);
+  cairo_rectangle(context, place.x, place.y, place.width, place.height);
+  cairo_clip(context);
+  set_colour(context, kPlateColour);
+  for (const WallFace& face : faces) {
+    const double along_x = -face.normal_y;
+    const double along_y = face.normal_x;
+    const double half = 0.5 * (std::abs(along_x) * box.width() + std::abs(along_y) * box.height());
+    const double middle =
+        (0.5 * (box.low_x + box.high_x) - face.x) * along_x + (0.5 * (box.low_y + box.high_y) - face.y) * along_y;
+    const auto go_to = [&](double along, double behind) {
+      cairo_line_to(context, projection.x(face.x + along * along_x - behind * face.normal_x),
+                    projection.y(face.y + along * along_y - behind * face.normal_y));
+    };
+    cairo_new_path(context);
+    go_to(middle - half, 0.0);
+    go_to(middle + half, 0.0);
+    go_to(middle + half, thickness);
+    go_to(middle - half, thickness);
+    cairo_fill(context);
+  }
+  cairo_restore(context);
 }
 
 // A square on each particle that a grip holds.
@@ -170,6 +215,7 @@ Box find_box(const std::vector<LatticeStage>& stages) {
       stage.along_y ? include(box, box.low_x, face) : include(box, face, box.low_y);
     }
   }
+  include_faces(stages, box);
   const double thickness = stages.front().has_plates() ? plate_thickness(stages.front(), box)
                                                        : kPlateShare * std::max(box.width(), box.height());
   const double margin = std::max(thickness, 1e-6) * kMarginShare;
@@ -208,6 +254,7 @@ void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, cons
     draw_plate(context, projection, box, thickness, !stage.along_y, stage.side_low_mm, -1.0);
     draw_plate(context, projection, box, thickness, !stage.along_y, stage.side_high_mm, 1.0);
   }
+  draw_faces(context, place, projection, box, stage.faces);
   draw_walls(context, projection, stage);
   draw_overlaps(context, projection, stage);
   draw_grips(context, projection, box, stage);

@@ -6,6 +6,14 @@
 
 namespace cellcrush::client {
 
+/// The face of a rigid wall: a point of it, mm, and the unit normal out of the wall.
+struct WallFace {
+  double x = 0.0;
+  double y = 0.0;
+  double normal_x = 0.0;
+  double normal_y = 0.0;
+};
+
 /// A lattice at one instant, between two plates or, as an explicit frame, without any.
 struct LatticeStage {
   std::vector<float> position_mm{};       ///< x and y of each particle
@@ -19,7 +27,8 @@ struct LatticeStage {
   bool along_y = false;      ///< the direction of loading
   double side_low_mm = 0.0;  ///< faces of the side walls; equal without any
   double side_high_mm = 0.0;
-  std::vector<int> gripped{};  ///< particles that grips hold
+  std::vector<int> gripped{};     ///< particles that grips hold
+  std::vector<WallFace> faces{};  ///< of rigid walls
   double strain = 0.0;
   double time_s = 0.0;
 
@@ -48,9 +57,9 @@ std::vector<Box> find_boxes(const std::vector<LatticeStage>& stages);
 /// Picture units per millimetre when `box` is drawn into `place`.
 double drawing_scale(const Rectangle& place, const Box& box);
 
-/// Draws a lattice with its plates, side walls and grips into `place`, with the same scale for x and y: walls with
-/// their thickness, coloured by plastic fraction; rigid ones on top, in the colour of the plates; rings where walls
-/// overlapped before loading.
+/// Draws a lattice with its plates, side walls, rigid walls and grips into `place`, with the same scale for x and y:
+/// walls with their thickness, coloured by plastic fraction; rigid ones on top, in the colour of the plates; rings
+/// where walls overlapped before loading.
 void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const LatticeStage& stage);
 
 }  // namespace cellcrush::client

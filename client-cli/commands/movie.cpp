@@ -97,15 +97,16 @@ int draw_frames(Session& session, const std::string& job, const fs::path& folder
   Connection& connection = session.connection();
   const MeshFrame last = fetch_frame(connection, name, -1);
   const int count = last.frame.index() + 1;
-  Box box = find_box({lattice_stage(last)});
+  const RigidWalls rigid_walls = fetch_rigid_walls(connection, name);
+  Box box = find_box({lattice_stage(last, rigid_walls)});
   for (int i = 0; i + 1 < count; ++i) {
-    const Box other = find_box({lattice_stage(fetch_frame(connection, name, i))});
+    const Box other = find_box({lattice_stage(fetch_frame(connection, name, i), rigid_walls)});
     box = {std::min(box.low_x, other.low_x), std::max(box.high_x, other.high_x), std::min(box.low_y, other.low_y),
            std::max(box.high_y, other.high_y)};
   }
   for (int i = 0; i < count; ++i) {
     const MeshFrame frame = i + 1 < count ? fetch_frame(connection, name, i) : last;
-    write_file(frame_path(folder, i), render_movie_frame(lattice_stage(frame), box));
+    write_file(frame_path(folder, i), render_movie_frame(lattice_stage(frame, rigid_walls), box));
   }
   return count;
 }

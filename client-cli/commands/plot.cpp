@@ -70,7 +70,8 @@ std::string render_jobs(Connection& connection, PictureFormat format, const std:
                         const PlotOptions& options) {
   const NamedJob& first = jobs.front();
   if (options.frames_only) {
-    return render_stages_picture(format, fetch_stages(connection, first.name, options), options.print);
+    return render_stages_picture(format, fetch_stages(connection, first.name, options),
+                                 fetch_rigid_walls(connection, first.name), options.print);
   }
   std::vector<JobHistory> histories;
   histories.reserve(jobs.size());

@@ -79,9 +79,9 @@ std::string subtitle_of(const v1::Job& job) {
   return text;
 }
 
-std::vector<LatticeStage> lattice_stages(const std::vector<MeshFrame>& frames) {
+std::vector<LatticeStage> lattice_stages(const std::vector<MeshFrame>& frames, const RigidWalls& rigid_walls) {
   std::vector<LatticeStage> stages;
-  for (const MeshFrame& frame : frames) stages.push_back(lattice_stage(frame));
+  for (const MeshFrame& frame : frames) stages.push_back(lattice_stage(frame, rigid_walls));
   return stages;
 }
 
@@ -94,7 +94,7 @@ std::string sweep_subtitle(const SweepResults& results) {
 
 }  // namespace
 
-LatticeStage lattice_stage(const MeshFrame& frame) {
+LatticeStage lattice_stage(const MeshFrame& frame, const RigidWalls& rigid_walls) {
   const auto& [field, mesh] = frame;
   return {.position_mm = {field.position_mm().begin(), field.position_mm().end()},
           .element_nodes = {mesh.element_nodes().begin(), mesh.element_nodes().end()},
@@ -108,13 +108,14 @@ LatticeStage lattice_stage(const MeshFrame& frame) {
           .side_low_mm = mesh.side_low_mm(),
           .side_high_mm = mesh.side_high_mm(),
           .gripped = {mesh.gripped().begin(), mesh.gripped().end()},
+          .faces = rigid_walls.at(field.time_s()),
           .strain = field.strain(),
           .time_s = field.time_s()};
 }
 
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& frames,
                                const PrintSize& print) {
-  const std::vector<LatticeStage> stages = lattice_stages(frames);
+  const std::vector<LatticeStage> stages = lattice_stages(frames, {history.job.case_(), history.samples});
   const Page page(print, kWidth);
   const double bar_room = stages.empty() || page.has_title() ? 0.0 : kColourBarHeight + kChartGap;
   const bool plates = has_strain(history.job.words());
@@ -149,7 +150,7 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
 
 std::string render_wide_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& frames,
                                 const PrintSize& print) {
-  const std::vector<LatticeStage> stages = lattice_stages(frames);
+  const std::vector<LatticeStage> stages = lattice_stages(frames, {history.job.case_(), history.samples});
   const Page page(print, kWidth);
   const double left = 0.42 * page.inner();
   const double chart_left = page.margin + left + kChartGap;
@@ -173,8 +174,9 @@ std::string render_wide_picture(PictureFormat format, const JobHistory& history,
       print);
 }
 
-std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& frames, const PrintSize& print) {
-  const std::vector<LatticeStage> stages = lattice_stages(frames);
+std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& frames,
+                                  const RigidWalls& rigid_walls, const PrintSize& print) {
+  const std::vector<LatticeStage> stages = lattice_stages(frames, rigid_walls);
   constexpr double kNarrowMargin = 12.0;
   const Page page(print, kWidth);
   const double top = std::min(page.margin, kNarrowMargin);

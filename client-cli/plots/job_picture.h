@@ -6,6 +6,7 @@
 #include "chart/lattice_drawing.h"
 #include "connection/frames.h"
 #include "plots/job_curves.h"
+#include "plots/rigid_walls.h"
 #include "plots/sweep_curves.h"
 
 namespace cellcrush::client {
@@ -13,7 +14,7 @@ namespace cellcrush::client {
 /// Pictures of a width in print have no title, which a caption has, and their charts are higher for their width.
 
 /// What a drawing shows of a frame.
-LatticeStage lattice_stage(const MeshFrame& frame);
+LatticeStage lattice_stage(const MeshFrame& frame, const RigidWalls& rigid_walls = {});
 
 /// The picture of one job: the lattice at each of `stages` (may be empty), at one scale, above its curves. For a crush
 /// these are the stresses and the energy ledger, which a page in print without room for it lacks.
@@ -27,7 +28,7 @@ std::string render_wide_picture(PictureFormat format, const JobHistory& history,
 
 /// The stages alone, without a title, for a figure with a caption. REQUIRES: stages is not empty.
 std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& stages,
-                                  const PrintSize& print = {});
+                                  const RigidWalls& rigid_walls = {}, const PrintSize& print = {});
 
 /// The picture of several jobs: their curves over common axes.
 std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories,

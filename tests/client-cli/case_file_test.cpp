@@ -43,6 +43,8 @@ TEST(CaseFile, WhatIsWrongIsNamedWithItsPlace) {
       {"loading {\n  sped_m_per_s: 5\n}\nmaterail { }\n",
        "c.txtpb:4:1: Case has no field \"materail\"; did you mean \"material\"?"},
       {"depth_mm: \"thick\"\n", "c.txtpb:1:11: "},
+      {"lattice { depth_mm: 1 }",
+       "Lattice has no field \"depth_mm\"; it is a field of the case itself: write it outside of all braces"},
       {"lattice { frame { nodes { name: 'a' } } }", "Node has no field \"name\"; it has: id, x_mm"},
       {"loading { direction: Z }", "c.txtpb:1:22: direction: \"Z\" is not one of X, Y"},
       {"lattice {\n  hexagon {\n    columns: 74\n", "c.txtpb:4:1: the file ends too early"},

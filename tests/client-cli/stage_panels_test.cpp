@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <regex>
+#include <utility>
+#include <vector>
 
 #include "plots/job_picture.h"
 #include "programs/text_proto.h"
@@ -80,12 +82,34 @@ TEST(JobPicture, OfAWidthInPrintFitsOnAPage) {
                            testing::synthetic_samples(100, 0.8)};
   for (const PrintSize print : {PrintSize{85.0, 8.0}, PrintSize{85.0, 9.0}, PrintSize{140.0, 7.0}, PrintSize{180.0}}) {
     for (const std::string& svg : {render_job_picture(PictureFormat::svg, history, frames, print),
-                                   render_stages_picture(PictureFormat::svg, frames, print)}) {
+                                   render_stages_picture(PictureFormat::svg, frames, {}, print)}) {
       std::smatch height;
       ASSERT_TRUE(std::regex_search(svg, height, std::regex("height=\"([0-9.]+)mm\"")));
       EXPECT_LE(std::stod(height[1]), 240.01) << print.width_mm << ' ' << print.font_pt;
     }
   }
+}
+
+TEST(RigidWalls, AreWhereTheSamplesHaveMovedThem) {
+  const auto submitted = cellcrush::testing::from_text<v1::Case>(R"(
+    lattice { frame { rigid_walls { id: "top" y_mm: 40 normal_y: -2 } } }
+    loading { rigid_walls { id: "turned" x_mm: 1 normal_x: 3 normal_y: 4 } })");
+  std::vector<v1::Sample> samples;
+  for (const double time : {0.001, 0.003}) {
+    v1::Sample& sample = samples.emplace_back();
+    sample.set_time_s(time);
+    sample.add_rigid_walls()->set_displacement_mm(1e4 * time);
+    sample.add_rigid_walls()->set_displacement_mm(0.0);
+  }
+  const RigidWalls walls(submitted, samples);
+  for (const auto& [time, y] : {std::pair(0.0, 40.0), {0.001, 30.0}, {0.002, 20.0}, {0.003, 10.0}, {0.004, 10.0}}) {
+    const std::vector<WallFace> faces = walls.at(time);
+    ASSERT_EQ(faces.size(), 2u);
+    EXPECT_NEAR(faces[0].y, y, 1e-9) << time;
+    EXPECT_NEAR(faces[1].normal_x, 0.6, 1e-12);
+    EXPECT_EQ(faces[1].x, 1.0);
+  }
+  EXPECT_TRUE(RigidWalls({}, samples).at(0.002).empty());
 }
 
 }  // namespace

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/case.pb.h"
+#include "cellcrush/v1/sample.pb.h"
+#include "chart/lattice_drawing.h"
+#include "connection/connection.h"
+
+namespace cellcrush::client {
+
+/// The rigid walls of a case, moved by the displacements of the samples of its run.
+class RigidWalls {
+ public:
+  RigidWalls() = default;
+  RigidWalls(const v1::Case& submitted, std::vector<v1::Sample> samples);
+
+  /// The faces at a time; before the first sample those at the start. Empty without rigid walls.
+  [[nodiscard]] std::vector<WallFace> at(double time_s) const;
+
+ private:
+  std::vector<WallFace> start_;
+  std::vector<v1::Sample> samples_;  ///< times ascending
+};
+
+/// Those of a job; fetches its samples only if it has any. Throws CommandError.
+RigidWalls fetch_rigid_walls(Connection& connection, const std::string& job);
+
+}  // namespace cellcrush::client
