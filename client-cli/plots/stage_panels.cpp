@@ -87,8 +87,9 @@ Rows find_rows(const std::vector<Box>& boxes, double width, double height) {
 
 std::string stage_text(const LatticeStage& stage, std::size_t index, std::size_t count, bool has_time) {
   const std::string time = number_text(1e3 * stage.time_s) + " ms";
-  std::string text = stage.has_plates() ? fmt::format("strain {:.2f}", stage.strain) : time;
-  if (has_time && stage.has_plates() && stage.time_s > 0.0) text += ", " + time;
+  const bool has_strain = stage.has_plates() || stage.strain > 0.0;  // also between rigid walls
+  std::string text = has_strain ? fmt::format("strain {:.2f}", stage.strain) : time;
+  if (has_time && has_strain && stage.time_s > 0.0) text += ", " + time;
   // Letters as used in captions, as long as there are enough.
   return count > 1 && count <= 26 ? fmt::format("({}) {}", static_cast<char>('a' + index), text) : text;
 }

@@ -10,6 +10,9 @@ export interface Axis {
   text(value: number): string;
 }
 
+/** The default end of a crush. */
+export const kEndStrain = 0.8;
+
 export function strainAxis(end: number): Axis {
   return {
     label: "nominal strain", end,

@@ -5,7 +5,7 @@ import { errorText, isAway, isNotFound } from "../api/clients";
 import { isExported } from "../api/exported";
 import { idOf } from "../dom/format";
 import { Chart } from "../charts/chart";
-import { strainAxis, timeAxis, type Axis } from "../charts/curves";
+import { kEndStrain, strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";
 import { kSampleColumns, sampleChart, wordsOfColumn } from "../charts/sample_chart";
 import type { ChartData } from "../charts/chart_data";
@@ -13,7 +13,7 @@ import { closedBands, forceChart, stressChart } from "../charts/stress";
 import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { QueuePanel } from "../jobs/queue";
-import { hasEnded, sceneWords, titleOf, warningWords } from "../jobs/states";
+import { hasEnded, hasStrain, sceneWords, titleOf, warningWords } from "../jobs/states";
 import { JobStore } from "../jobs/store";
 import { FrameView } from "../picture/frame_view";
 import { colourLegend } from "../picture/colours";
@@ -148,7 +148,7 @@ export class JobPage implements View {
     const { lattice, loading } = job.case ?? {};
     const walls = lattice?.kind.value;
     const ofWalls = walls && "endTimeS" in walls ? walls.endTimeS : undefined;
-    if (job.words?.plates ?? true) this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
+    if (hasStrain(job.words)) this.setAxis(strainAxis(loading?.endStrain ?? this.reachedStrain(job)));
     else this.setAxis(timeAxis(loading?.endTimeS ?? ofWalls ?? 1));
     const isLive = !hasEnded(job);
     if (isLive && !this.wasLive && this.player.wanted === undefined) this.player.follow();
@@ -158,6 +158,12 @@ export class JobPage implements View {
     this.wasLive ||= isLive;
     this.bar.setLive(isLive);
     this.waiting.textContent = hasEnded(job) ? "This job has no frames." : "The first frame comes when the job runs.";
+  }
+
+  // Of rigid walls in place of plates, whose case has no end strain.
+  private reachedStrain(job: Job): number {
+    const last = this.data.samples[this.data.samples.length - 1];
+    return job.words?.rigidWallPlates && hasEnded(job) && last?.strain > 0 ? last.strain : kEndStrain;
   }
 
   private setAxis(axis: Axis): void {
@@ -178,9 +184,11 @@ export class JobPage implements View {
 
   private updateCurves(): void {
     const { samples } = this.data;
+    const { job } = this.data;
+    const { words } = job ?? {};
+    if (job && words?.rigidWallPlates) this.setAxis(strainAxis(this.reachedStrain(job)));
     this.player.fullEnd = this.axis.end;
-    const { words } = this.data.job ?? {};
-    const isDriven = words?.plates === false;
+    const isDriven = !hasStrain(words);
     const stress = isDriven ? forceChart(samples, this.axis)
       : stressChart(samples, this.axis, this.summary, this.theory, words?.theoryNote ?? "");
     this.stress.setTitle(isDriven ? "Forces of the rigid walls" : "Stress and strain");
@@ -191,7 +199,7 @@ export class JobPage implements View {
     const { value: column } = this.below;
     this.energy.setTitle(column ? wordsOfColumn(column) : "Energy ledger");
     this.energy.setData(withClosed(column ? sampleChart(samples, this.axis, column)
-      : energyChart(samples, this.axis, isDriven ? "work of all loads" : undefined)));
+      : energyChart(samples, this.axis, words?.plates === false ? "work of all loads" : undefined)));
     this.setEnd();
   }
 

@@ -45,6 +45,10 @@ export function warningWords(kind: Warning_Kind): string {
 }
 
 /** A case in one line; the words are the server's. */
+/** Whether a crush has strain and stresses: between plates, or between rigid walls in their place. */
+export const hasStrain = (words: CaseWords | undefined): boolean =>
+  words === undefined || words.plates || words.rigidWallPlates;
+
 export function sceneWords(words: CaseWords | undefined): string {
   return [words?.lattice, words?.loading].filter(Boolean).join(", ");
 }

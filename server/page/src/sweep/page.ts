@@ -4,6 +4,7 @@ import { api, errorText, isNotFound } from "../api/clients";
 import { allowed } from "../api/caller";
 import { get } from "../api/token";
 import { watch } from "../api/watch";
+import { kEndStrain } from "../charts/curves";
 import { Chart } from "../charts/chart";
 import { ask } from "../dom/dialog";
 import { button, h, replaceChildren, setBanner, setText } from "../dom/element";
@@ -12,7 +13,7 @@ import { icon, type IconName } from "../dom/icons";
 import { kMeasures } from "../job/measures";
 import { attempt } from "../jobs/actions";
 import { NoteEditor } from "../jobs/note";
-import { hasEnded, kStates, stateBar, stateWord, titleOfSweep, variedFields } from "../jobs/states";
+import { hasEnded, hasStrain, kStates, stateBar, stateWord, titleOfSweep, variedFields } from "../jobs/states";
 import { placeIn } from "../picture/player";
 import { go, keepInUrl, setTitle, type View } from "../router";
 import { download, saveButton, saveChartButton } from "../take_away/menus";
@@ -24,7 +25,6 @@ import { SweepMap } from "./sweep_map";
 import { SweepTableView } from "./table";
 import { urlOf } from "../dom/base";
 
-const kEndStrain = 0.8; // the default
 
 export class SweepPage implements View {
   title: string;
@@ -121,8 +121,7 @@ export class SweepPage implements View {
     this.map.update(this.data, measure ?? kMeasures[0]);
     this.table.update(this.data);
     const { loading } = sweep.case ?? {};
-    const isCrush = sweep.words?.plates ?? true;
-    this.crushes.update(isCrush ? rows : [], fields, loading?.endStrain ?? kEndStrain);
+    this.crushes.update(hasStrain(sweep.words) ? rows : [], fields, loading?.endStrain ?? kEndStrain);
     const counts: Record<string, number> = {};
     for (const row of rows) {
       const name = Job_State[row.result?.state ?? 0];
