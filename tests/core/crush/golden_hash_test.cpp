@@ -136,7 +136,7 @@ TEST(OneLane, GivesTheBitsOfTheFullWidthOverWholeCrushes) { expect_recorded_bits
 #else
 TEST(GoldenHash, OfEveryPresetsFirstSteps) {
   std::vector<GoldenCrush> crushes;
-  for (const auto& [name, spec] : scenes::presets()) crushes.push_back({name, spec, 200});
+  for (const auto& [name, spec] : scenes::presets()) crushes.push_back({name, spec, 50});
   expect_recorded_bits_of(crushes, scenes::distinct_targets());
 }
 
