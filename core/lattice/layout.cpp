@@ -43,20 +43,10 @@ double length_of(const Layout& layout, const LayoutWall& wall) {
   return chord * half_angle / std::sin(half_angle);
 }
 
-/// The items of a list in the order given by their present numbers.
-template <class Item>
-std::vector<Item> in_order(const std::vector<int>& order, const std::vector<Item>& items) {
-  std::vector<Item> result;
-  result.reserve(items.size());
-  for (const int from : order) result.push_back(items[from]);
-  return result;
-}
-
 /// Puts the joints into the order given by their present numbers.
 void reorder_joints(const std::vector<int>& order, Layout& layout) {
-  std::vector<int> number(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);
-  layout.joints = in_order(order, layout.joints);
+  const std::vector<int> number = places_of(order);
+  layout.joints = reordered(layout.joints, order);
   layout.order = ListOrder{order, {}}.after(layout.order);
   for (LayoutWall& wall : layout.walls) {
     wall.start = number[wall.start];
@@ -69,11 +59,17 @@ void reorder_joints(const std::vector<int>& order, Layout& layout) {
 }
 
 void reorder_walls(const std::vector<int>& order, Layout& layout) {
-  layout.walls = in_order(order, layout.walls);
+  layout.walls = reordered(layout.walls, order);
   layout.order = ListOrder{{}, order}.after(layout.order);
 }
 
 }  // namespace
+
+std::vector<int> places_of(const std::vector<int>& order) {
+  std::vector<int> place(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
+  return place;
+}
 
 Bounds bounds_of(const std::vector<Vector2>& points) {
   Bounds bounds = {points.front(), points.front()};

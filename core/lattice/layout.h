@@ -48,6 +48,18 @@ struct Layout {
   [[nodiscard]] double chord_of(const LayoutWall& wall) const { return (joints[wall.end] - joints[wall.start]).norm(); }
 };
 
+/// The items of a list in the order given by their present numbers.
+template <class Item>
+std::vector<Item> reordered(const std::vector<Item>& items, const std::vector<int>& order) {
+  std::vector<Item> result;
+  result.reserve(items.size());
+  for (const int from : order) result.push_back(items[from]);
+  return result;
+}
+
+/// Where each item is in that order.
+std::vector<int> places_of(const std::vector<int>& order);
+
 /// Divides every wall that is not rigid in proportion to its length: one of mean length into this many elements, each
 /// into at least one. Elements are then of about one length, and no short one sets the step.
 void divide_walls(int elements_of_mean, Layout& layout);

@@ -178,21 +178,6 @@ ListOrder order_of(const Candidates& all, const std::vector<char>& is_link) {
   return order;
 }
 
-/// The items of a list in another order.
-template <class Item>
-std::vector<Item> reordered(const std::vector<Item>& items, const std::vector<int>& order) {
-  std::vector<Item> result;
-  result.reserve(items.size());
-  for (const int from : order) result.push_back(items[from]);
-  return result;
-}
-
-std::vector<int> places_of(const std::vector<int>& order) {
-  std::vector<int> place(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
-  return place;
-}
-
 /// Puts nodes and beams in order, and renames them wherever they are named.
 void reorder(const ListOrder& order, FrameWalls& frame, LoadsSpec& loads) {
   const std::vector<int> node = places_of(order.joint);
