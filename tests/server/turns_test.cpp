@@ -161,6 +161,7 @@ class CallPoolTest : public ::testing::Test {
   Turns ends_;
   Accounts memory_{{1000, 600}};
   HeldPoint held_;
+  HeldPoint held_small_;
   CallPool pool_{{2, 1, 1, 1, 3}, memory_};
 };
 
@@ -169,9 +170,11 @@ TEST_F(CallPoolTest, CallersTakeTurnsAndSmallCallsComeBeforeLargeOnes) {
   ASSERT_TRUE(held_.wait());
   run_large(task("bob", "large 2"));
   pool_.run(task("anna", "anna"));
-  pool_.run(task("bob", "bob 1"));
+  pool_.run(task("bob", "bob 1", &held_small_));
+  ASSERT_TRUE(held_small_.wait());
   pool_.run(task("bob", "bob 2"));
   pool_.run(task("carl", "carl"));
+  held_small_.open();
   EXPECT_TRUE(wait_until([&] { return turns_.names().size() == 3; }));
   EXPECT_THAT(turns_.names(), ElementsAre("bob 1", "carl", "bob 2")) << "Bob's large call waits for Anna's.";
   held_.open();
