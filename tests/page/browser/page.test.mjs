@@ -190,7 +190,7 @@ test('a sweep has a note, which the list shows too', async () => {
 });
 
 test('the page of the server shows its workers and its queue', async () => {
-  const slow = await daemon.presetCase('type-i');
+  const slow = await daemon.presetCase('type-i', (each) => (each.loading.speedMPerS = 1));
   const names = [];
   for (let i = 0; i < 2; ++i) names.push((await daemon.call('Jobs/CreateJob', { case: slow })).name);
   await page.goto(daemon.url + '/server');
