@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <variant>
 
+#include "cellcrush/lattice_words.h"
 #include "cellcrush/simulation.h"
 #include "scenes/presets.h"
 
@@ -49,7 +50,7 @@ template <class Field>
 auto in_cells(Field RegularLattice::*field) {
   return [=](Options& options) -> Field& {
     auto* lattice = std::get_if<RegularLattice>(&options.spec.lattice);
-    if (lattice == nullptr) throw std::invalid_argument("columns, rows: a frame has none.");
+    if (lattice == nullptr) throw std::invalid_argument("columns, rows, side, thickness: only a lattice of equal cells has them.");
     return lattice->*field;
   };
 }
@@ -101,8 +102,20 @@ const std::vector<Option>& all_options() {
       number("speed", "speed of the impact plate, m/s", in(&S::loading, &LoadingSpec::speed_m_per_s)),
       number("end_strain", "nominal strain at which the run ends", in(&S::loading, &LoadingSpec::end_strain)),
       choice("direction", &S::loading, &LoadingSpec::direction, {{"x", Direction::x}, {"y", Direction::y}}),
+      {"kind", "of cells in place of those of the preset: a kind of lattice, such as kagome",
+       [](Options& options, const std::string& text) {
+         const auto names = lattice_names();
+         if (std::ranges::find(names, text) == names.end()) {
+           throw std::invalid_argument("kind=" + text + ": is no lattice; give one such as kind=kagome.");
+         }
+         auto& lattice = in_cells(&RegularLattice::kind)(options);
+         lattice = text;
+         std::get<RegularLattice>(options.spec.lattice).own.clear();
+       }},
       count("columns", "of cells", in_cells(&RegularLattice::columns)),
       count("rows", "of cells", in_cells(&RegularLattice::rows)),
+      number("side", "of the cells, mm", in_cells(&RegularLattice::side_mm)),
+      number("thickness", "of the walls, mm", in_cells(&RegularLattice::wall_thickness_mm)),
       count(
           "elements", "elements a wall", [](Options & o) -> auto& { return o.spec.elements_per_wall; }),
       choice("formulation", &S::section, &SectionSpec::formulation,
