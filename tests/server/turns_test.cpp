@@ -168,18 +168,20 @@ class CallPoolTest : public ::testing::Test {
 TEST_F(CallPoolTest, CallersTakeTurnsAndSmallCallsComeBeforeLargeOnes) {
   run_large(task("anna", "large 1", &held_));
   ASSERT_TRUE(held_.wait());
+  pool_.run(task("dora", "dora", &held_small_));
+  ASSERT_TRUE(held_small_.wait()) << "Both threads are busy until all have come.";
   run_large(task("bob", "large 2"));
   pool_.run(task("anna", "anna"));
-  pool_.run(task("bob", "bob 1", &held_small_));
-  ASSERT_TRUE(held_small_.wait());
+  pool_.run(task("bob", "bob 1"));
   pool_.run(task("bob", "bob 2"));
   pool_.run(task("carl", "carl"));
   held_small_.open();
-  EXPECT_TRUE(wait_until([&] { return turns_.names().size() == 3; }));
-  EXPECT_THAT(turns_.names(), ElementsAre("bob 1", "carl", "bob 2")) << "Bob's large call waits for Anna's.";
+  EXPECT_TRUE(wait_until([&] { return turns_.names().size() == 4; }));
+  EXPECT_THAT(turns_.names(), ElementsAre("dora", "bob 1", "carl", "bob 2")) << "Bob's large call waits for Anna's.";
   held_.open();
   pool_.stop();
-  EXPECT_THAT(turns_.names(), ::testing::UnorderedElementsAre("bob 1", "carl", "bob 2", "large 1", "large 2", "anna"));
+  EXPECT_THAT(turns_.names(),
+              ::testing::UnorderedElementsAre("dora", "bob 1", "carl", "bob 2", "large 1", "large 2", "anna"));
 }
 
 TEST_F(CallPoolTest, ACallerWaitsForItsOwnMemoryAndForItsOwnPlacesOnly) {
