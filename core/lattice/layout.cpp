@@ -94,14 +94,20 @@ void divide_walls(int elements_of_mean, Layout& layout) {
   }
 }
 
-void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints) {
+void perturb(const Imperfection& imperfection, Layout& layout) {
   if (imperfection.amplitude_mm == 0.0) {
     return;
   }
+  constexpr double kShare = 0.125;  // of the shortest wall: its joints keep their order
+  std::vector<double> amplitudes(layout.joints.size(), imperfection.amplitude_mm);
+  for (const LayoutWall& wall : layout.walls) {
+    const double most = kShare * length_of(layout, wall);
+    for (const int joint : {wall.start, wall.end}) amplitudes[joint] = std::min(amplitudes[joint], most);
+  }
   Draw draw(imperfection.seed);
-  for (Vector2& joint : joints) {
-    joint.x() += imperfection.amplitude_mm * draw.next();
-    joint.y() += imperfection.amplitude_mm * draw.next();
+  for (std::size_t i = 0; i < layout.joints.size(); ++i) {
+    layout.joints[i].x() += amplitudes[i] * draw.next();
+    layout.joints[i].y() += amplitudes[i] * draw.next();
   }
 }
 

@@ -67,9 +67,9 @@ void divide_walls(int elements_of_mean, Layout& layout);
 /// Extent of the joints in x and y, mm.
 Vector2 envelope_of(const std::vector<Vector2>& joints);
 
-/// Moves every joint by a uniformly distributed offset of at most the amplitude of the imperfection in x and in y. The
-/// same seed gives the same offsets on every machine.
-void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints);
+/// Moves every joint by a uniformly distributed offset of at most the amplitude of the imperfection in x and in y, and
+/// at most an eighth of the shortest wall at the joint. The same seed gives the same offsets on every machine.
+void perturb(const Imperfection& imperfection, Layout& layout);
 
 /// Bows every wall, by a uniformly distributed offset of its middle of at most the bow of the imperfection, to either
 /// side. The offsets do not depend on those of the joints.

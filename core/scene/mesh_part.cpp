@@ -76,7 +76,7 @@ Layout lay_out(const SceneSpec& spec, int links, Scene& scene) {
   }
   const std::vector<Vector2> places = layout.joints;
   layout.envelope = bounds_of(places);
-  perturb(spec.imperfection, layout.joints);
+  perturb(spec.imperfection, layout);
   bow(spec.imperfection, layout.walls);
   if (period > 0.0) align_images(1 - axis, period, layout);
   number_columns(places, axis, layout);

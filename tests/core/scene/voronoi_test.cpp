@@ -21,6 +21,7 @@
 #include "lattice/nuclei.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -237,6 +238,18 @@ TEST(Voronoi, CheckersAndScenesAgree) {
     ASSERT_TRUE(scene);
     EXPECT_EQ(verdict.step_count, facts_of(*scene).step_count);
     EXPECT_EQ(verdict.element_count, facts_of(*scene).element_count);
+  }
+}
+
+// Some walls are a hundredth of the side long. Offsets as long as they are would make their neighbours cross.
+TEST(Voronoi, ImperfectionsTurnNoShortWallAround) {
+  SceneSpec spec = scenes::preset("zheng-2005");
+  spec.imperfection.amplitude_mm = 0.1 * *std::get<VoronoiWalls>(spec.lattice).side_mm;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE(seed);
+    std::get<VoronoiWalls>(spec.lattice).seed = seed;
+    spec.imperfection.seed = seed;
+    EXPECT_TRUE(scenes::build(spec));
   }
 }
 
