@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -31,8 +33,9 @@ std::string own_numbers_in_words(const RegularLattice& lattice, const LatticeKin
   return text.str();
 }
 
-/// The walls whose angles to the crush are known; empty if they are not looked at. The spec is not checked yet.
-std::vector<Vector2> walls_with_angles(const SceneSpec& spec) {
+/// The walls whose lengths and angles to the crush are known; empty if they are not looked at. The spec is not checked
+/// yet.
+std::vector<Vector2> known_walls(const SceneSpec& spec) {
   if (const LatticeKind* kind = kind_of(spec)) {
     return kind->walls_of_cell == nullptr ? std::vector<Vector2>() : kind->walls_of_cell(*regular_lattice_of(spec));
   }
@@ -58,12 +61,47 @@ bool has_long_walls_along_crush(const SceneSpec& spec) {
   const Vector2 crush = spec.loading.direction == LoadingSpec::Direction::x ? turned : normal_of(turned);
   double all = 0.0;
   double along = 0.0;
-  for (const Vector2& wall : walls_with_angles(spec)) {
+  for (const Vector2& wall : known_walls(spec)) {
     const double length = wall.norm();
     all += length;
     if (std::abs(cross(crush, wall)) < kAlong * length) along += length;
   }
   return along > kShare * all;
+}
+
+/// Thickness of the walls, the mean where they differ; not a number where it is not given.
+double thickness_of(const SceneSpec& spec) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (const auto* lattice = regular_lattice_of(spec)) return lattice->wall_thickness_mm.value_or(kNone);
+  if (const auto* voronoi = std::get_if<VoronoiWalls>(&spec.lattice)) {
+    const double of_density =
+        0.5 * std::numbers::sqrt3 * voronoi->relative_density.value_or(kNone) * voronoi->side_mm.value_or(kNone);
+    return voronoi->wall_thickness_mm.value_or(of_density);
+  }
+  const auto* network = std::get_if<NetworkWalls>(&spec.lattice);
+  if (network == nullptr) return kNone;
+  const std::vector<double>& all = network->thicknesses_mm;
+  if (all.empty()) return network->wall_thickness_mm.value_or(kNone);
+  return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+}
+
+/// Mean length of the walls, of equal cells their side where no more is known. Not a number where it is not given.
+double length_of_walls(const SceneSpec& spec) {
+  const std::vector<Vector2> walls = known_walls(spec);
+  if (walls.empty()) {
+    if (const auto* lattice = regular_lattice_of(spec)) return lattice->side_mm.value_or(0.0);
+    const auto* voronoi = std::get_if<VoronoiWalls>(&spec.lattice);
+    return voronoi == nullptr ? 0.0 : voronoi->side_mm.value_or(0.0);
+  }
+  double length = 0.0;
+  for (const Vector2& wall : walls) length += wall.norm();
+  return length / static_cast<double>(walls.size());
+}
+
+/// Length of the walls over their thickness; where one of these is not known, such that no walls are slender or stout.
+double slenderness_of(const SceneSpec& spec) {
+  const double ratio = length_of_walls(spec) / thickness_of(spec);
+  return ratio > 0.0 ? ratio : 10.0;
 }
 
 }  // namespace
@@ -103,18 +141,35 @@ bool is_fast_crush(const SceneSpec& spec) { return spec.loading.speed_m_per_s.va
 
 DefaultMesh mesh_of(const LatticeKind& kind, const SceneSpec& spec) {
   if (kind.mesh != nullptr) return kind.mesh(spec);
-  return kind.has_walls_along_crush ? mesh_of_stacked_walls(kind.plural)
+  return kind.has_walls_along_crush ? mesh_of_stacked_walls(spec, kind.plural)
                                     : mesh_of_bent_walls(spec, std::string(kind.plural));
 }
 
 DefaultMesh mesh_of_bent_walls(const SceneSpec& spec, std::string of_what) {
-  if (!is_fast_crush(spec)) return {1, 2, 8, std::move(of_what)};
-  if (!has_long_walls_along_crush(spec)) return {2, 2, 8, std::move(of_what)};
-  return {2, 8, 16, of_what + " with walls along the crush, faster than 25 m/s"};
+  constexpr double kStout = 8.0;
+  constexpr double kSlender = 13.0;
+  constexpr double kVerySlender = 17.0;
+  constexpr double kQuasiStatic = 10.0;  // m/s
+  const double slenderness = slenderness_of(spec);
+  const int draft = is_fast_crush(spec) ? 2 : 1;
+  if (is_fast_crush(spec) && has_long_walls_along_crush(spec)) {
+    return {draft, 8, 16, of_what + " with walls along the crush, faster than 25 m/s"};
+  }
+  if (slenderness <= kStout) return {draft, 4, 8, of_what + " with walls at most 8 times as long as thick"};
+  if (slenderness < kSlender || spec.loading.speed_m_per_s.value_or(0.0) <= kQuasiStatic) {
+    return {draft, 2, 8, std::move(of_what)};
+  }
+  if (slenderness < kVerySlender) {
+    return {draft, 4, 8, of_what + " with walls 13 to 17 times as long as thick, faster than 10 m/s"};
+  }
+  return {draft, 8, 16, of_what + " with walls at least 17 times as long as thick, faster than 10 m/s"};
 }
 
-DefaultMesh mesh_of_stacked_walls(std::string_view plural) {
-  return {8, 16, 32, std::string(plural) + ", whose walls along the crush buckle in short waves"};
+DefaultMesh mesh_of_stacked_walls(const SceneSpec& spec, std::string_view plural) {
+  constexpr double kStout = 12.0;
+  const std::string words = std::string(plural) + ", whose walls along the crush buckle in short waves";
+  if (slenderness_of(spec) <= kStout) return {4, 8, 16, words + ", at most 12 times as long as thick"};
+  return {8, 16, 32, words};
 }
 
 std::string note_of_stretched_walls(const std::string& plural) {

@@ -59,7 +59,7 @@ struct LatticeKind {
   /// are odd in number and would have to be even.
   Vector2 (*period)(const RegularLattice& lattice) = nullptr;
   ClosedForms (*closed_forms)(const RegularLattice& lattice, LoadingSpec::Direction direction) = nullptr;
-  /// The walls of a cell, each once, mm, for their angles to the crush. Numbers may be missing. Null: not looked at.
+  /// The walls of a cell, each once, mm: lengths and angles to the crush. Numbers may be missing. Null: not looked at.
   std::vector<Vector2> (*walls_of_cell)(const RegularLattice& lattice) = nullptr;
   /// For force-based elements, at the direction and speed of the spec. Null: by the angles of its walls.
   DefaultMesh (*mesh)(const SceneSpec& spec) = nullptr;
@@ -93,15 +93,17 @@ bool is_fast_crush(const SceneSpec& spec);
 /// The mesh of a spec of a kind.
 DefaultMesh mesh_of(const LatticeKind& kind, const SceneSpec& spec);
 
-/// The mesh of walls that bend. In a fast crush, walls of one element cannot fold: those of the crushed layer overlap,
-/// by half of its volume at 100 m/s, and the run ends. Walls along the crush must then be finer: if more than a quarter
-/// of the length of the walls lies within 15 degrees of the crush. STANDARD is there the coarsest mesh whose plateau
-/// stresses lie within 4 % (impact) and 10 % (support) of a mesh twice as fine, for hexagons at 25 to 200 m/s; along y
-/// some differences exceed the bounds (core/what-is-computed.md).
+/// The mesh of walls that bend, by their slenderness, their angle to the crush and its speed. In a fast crush, walls of
+/// one element cannot fold: those of the crushed layer overlap, by half of its volume at 100 m/s, and the run ends.
+/// Walls along the crush must then be finer: if more than a quarter of the length of the walls lies within 15 degrees
+/// of the crush. So must stout walls, and slender ones beyond 10 m/s. STANDARD is meant to be the coarsest mesh whose
+/// plateau stresses lie within 5 % (impact) and 10 % (support) of a mesh twice as fine; how far each lattice is:
+/// core/what-is-computed.md.
 DefaultMesh mesh_of_bent_walls(const SceneSpec& spec, std::string of_what);
 
-/// The mesh of walls along the crush, which buckle in short waves.
-DefaultMesh mesh_of_stacked_walls(std::string_view plural);
+/// The mesh of walls along the crush, which buckle in short waves: elements as long as a stout wall is thick, and at
+/// most 16 a wall.
+DefaultMesh mesh_of_stacked_walls(const SceneSpec& spec, std::string_view plural);
 
 /// The theory note of a lattice whose walls yield axially.
 std::string note_of_stretched_walls(const std::string& plural);

@@ -19,7 +19,7 @@ DefaultMesh default_mesh_of(const SceneSpec& spec) {
   if (kind != nullptr) return mesh_of(*kind, spec);
   if (std::holds_alternative<VoronoiWalls>(spec.lattice)) return mesh_of_bent_walls(spec, "Voronoi honeycombs");
   if (!std::holds_alternative<NetworkWalls>(spec.lattice)) return mesh_of_bent_walls(spec, "");
-  return has_walls_along_crush(spec) ? mesh_of_stacked_walls("networks with more than three walls at a joint")
+  return has_walls_along_crush(spec) ? mesh_of_stacked_walls(spec, "networks with more than three walls at a joint")
                                      : mesh_of_bent_walls(spec, "networks with at most three walls at a joint");
 }
 

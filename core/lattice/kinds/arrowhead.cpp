@@ -42,6 +42,12 @@ void check_arrowheads(const SceneSpec& spec, double, FieldChecker& check) {
   }
 }
 
+std::vector<Vector2> walls_of_arrowhead(const RegularLattice& arrowheads) {
+  const Vector2 to_tip = arrowheads.side_mm.value_or(0.0) * unit_direction(own_number(arrowheads, kLongAngle));
+  const double notch = to_tip.x() * tangent_of(own_number(arrowheads, kShortAngle));
+  return {to_tip, {to_tip.x(), -to_tip.y()}, {to_tip.x(), notch}, {to_tip.x(), -notch}};
+}
+
 Layout lay_out_arrowheads(const SceneSpec& spec) {
   const RegularLattice& arrowheads = *regular_lattice_of(spec);
   const double half_width = half_width_of(arrowheads);
@@ -130,6 +136,7 @@ const LatticeKind& arrowhead_lattice() {
       .lay_out = lay_out_arrowheads,
       .period = period_of_arrowheads,
       .closed_forms = forms_of_arrowheads,
+      .walls_of_cell = walls_of_arrowhead,
       .theory_note =
           [](const RegularLattice&) { return note_of_turning_walls("0.6 along x and, as they close, 3.9 along y"); },
   };

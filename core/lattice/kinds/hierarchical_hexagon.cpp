@@ -72,6 +72,17 @@ Layout lay_out_hierarchical_hexagons(const SceneSpec& spec) {
   return layout;
 }
 
+std::vector<Vector2> walls_of_hierarchical_hexagon(const RegularLattice& hexagons) {
+  const auto corner = corners_of(own_number(hexagons, kSmallSide));
+  const double large = hexagons.side_mm.value_or(0.0) - 2.0 * own_number(hexagons, kSmallSide);
+  std::vector<Vector2> walls;
+  for (int of_two_joints = 0; of_two_joints < 2; ++of_two_joints) {
+    for (std::size_t i = 0; i < corner.size(); ++i) walls.push_back(corner[(i + 1) % corner.size()] - corner[i]);
+  }
+  for (const std::size_t towards : {0, 2, 4}) walls.push_back(large * corner[towards].normalized());
+  return walls;
+}
+
 /// Energy of a small hexagon and the halves of its large walls under a stress, with E and l of 1.
 double energy_of_joint(const Eigen::Matrix2d& stress, double gamma, double thickness) {
   const double bending = 6.0 / (thickness * thickness * thickness);  // 1 / 2 E I
@@ -136,6 +147,7 @@ const LatticeKind& hierarchical_hexagon_lattice() {
       .lay_out = lay_out_hierarchical_hexagons,
       .period = period_of_hierarchical_hexagons,
       .closed_forms = forms_of_hierarchical_hexagons,
+      .walls_of_cell = walls_of_hierarchical_hexagon,
       .theory_note =
           [](const RegularLattice&) {
             return std::string(

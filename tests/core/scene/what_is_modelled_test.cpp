@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
+#include <variant>
 #include <vector>
 
 #include "cellcrush/fidelity.h"
@@ -118,6 +120,38 @@ TEST(Fidelity, EveryLatticeHasACoarserAndAFinerMesh) {
   expect_meshes(spec, {2, 8, 16});
   expect_meshes(scenes::preset("type-ii-as-counted"), {8, 16, 32});
   expect_meshes(scenes::preset("type-iii-as-counted"), {8, 16, 32});
+}
+
+TEST(Fidelity, FollowsTheSlendernessOfTheWalls) {
+  const auto standard_of = [](SceneSpec spec, double speed) {
+    spec.loading.speed_m_per_s = speed;
+    spec.elements_per_wall.reset();
+    return *fill_in_fidelity(spec).elements_per_wall;
+  };
+  for (const auto& [slenderness, fast, slow] :
+       {std::tuple(5.0, 4, 4), std::tuple(10.0, 2, 2), std::tuple(15.0, 4, 2), std::tuple(20.0, 8, 2)}) {
+    SCOPED_TRACE(slenderness);
+    SceneSpec spec = scenes::hexagon_specimen(4, 3);
+    RegularLattice& cells = scenes::cells_of(spec);
+    cells.wall_thickness_mm = *cells.side_mm / slenderness;
+    cells.own.clear();
+    for (const SceneSpec& each : {spec, scenes::as_network(spec)}) {
+      EXPECT_EQ(standard_of(each, 100.0), fast);
+      EXPECT_EQ(standard_of(each, 11.0), fast);
+      EXPECT_EQ(standard_of(each, 10.0), slow);
+    }
+  }
+  SceneSpec voronoi = scenes::preset("zheng-2005");
+  EXPECT_EQ(standard_of(voronoi, 100.0), 2);
+  std::get<VoronoiWalls>(voronoi.lattice).relative_density = 0.05;
+  EXPECT_EQ(standard_of(voronoi, 100.0), 8);
+  EXPECT_THAT(describe_fidelity(voronoi), HasSubstr("8, STANDARD for Voronoi honeycombs with walls at least 17 times"));
+  SceneSpec squares = scenes::preset("type-ii-as-counted");
+  scenes::cells_of(squares).wall_thickness_mm = 0.1 * *scenes::cells_of(squares).side_mm;
+  EXPECT_EQ(standard_of(squares, 100.0), 8);
+  SceneSpec nothing_known;
+  nothing_known.lattice = RegularLattice{"hexagon", {}, {}, {}, {}, {}};
+  EXPECT_EQ(standard_of(nothing_known, 100.0), 2);
 }
 
 RunStatus::Kind end_of(const SceneSpec& spec) {
