@@ -50,7 +50,8 @@ template <class Field>
 auto in_cells(Field RegularLattice::*field) {
   return [=](Options& options) -> Field& {
     auto* lattice = std::get_if<RegularLattice>(&options.spec.lattice);
-    if (lattice == nullptr) throw std::invalid_argument("columns, rows, side, thickness: only a lattice of equal cells has them.");
+    if (lattice == nullptr)
+      throw std::invalid_argument("kind, columns, rows, side, thickness: of a lattice of equal cells only.");
     return lattice->*field;
   };
 }
