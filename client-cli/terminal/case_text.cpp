@@ -168,6 +168,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   const std::string& note = check.words().theory_note();
   if (!note.empty()) text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
   if (!check.small_specimen().empty()) text += '\n' + wrapped(printable(check.small_specimen()), width, "  ", "  ");
+  if (!check.default_mesh().empty()) text += '\n' + wrapped(printable(check.default_mesh()), width, "  ", "  ");
   text += fidelity_text(check, width);
   if (check.modelled_size() > 0) text += "\nmodel and simplifications\n";
   for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), width, "  - ", "    ");

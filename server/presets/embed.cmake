@@ -2,6 +2,7 @@
 file(READ ${CMAKE_CURRENT_LIST_DIR}/presets.txtpb presets)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/measured_errors.csv errors)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/small_specimens.csv specimens)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/default_meshes.csv meshes)
 file(WRITE ${OUTPUT} "#include \"translate/presets.h\"
 
 namespace cellcrush::translate {
@@ -16,6 +17,10 @@ const char* measured_errors_text() {
 
 const char* small_specimens_text() {
   return R\"text(${specimens})text\";
+}
+
+const char* default_meshes_text() {
+  return R\"text(${meshes})text\";
 }
 
 }  // namespace cellcrush::translate

@@ -11,8 +11,8 @@
 #include "cellcrush/v1/field.pb.h"
 #include "translate/case_to_spec.h"
 #include "translate/loads_places.h"
+#include "translate/plateau_differences.h"
 #include "translate/results.h"
-#include "translate/small_specimen.h"
 #include "translate/spec_to_case.h"
 #include "translate/worker_memory.h"
 
@@ -167,6 +167,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   out.response.set_small_specimen(describe_small_specimen(spec));
   out.meshes->know(spec, *scene);
   const auto facts = facts_of(*scene);
+  out.response.set_default_mesh(describe_default_mesh(spec, facts.relative_density));
   describe(facts, out.response);
   add_moduli(spec, *out.response.mutable_theory());
   *out.response.mutable_completed_case() = to_case(complete_spec(spec, *scene));

@@ -300,7 +300,7 @@ void add_fidelities(const v1::Case& submitted, double step_cost, CaseCheck& chec
   const auto asked = submitted.numerics().fidelity();
   const auto decides = asked == v1::Numerics::FIDELITY_UNSPECIFIED ? v1::Numerics::STANDARD : asked;
   const SceneSpec spec = to_spec(submitted).spec;
-  if (!std::holds_alternative<RegularLattice>(spec.lattice)) return;  // nothing was measured
+  if (std::holds_alternative<FrameWalls>(spec.lattice)) return;
   for (const FidelityPoint& point : fidelity_points(spec)) {
     SceneSpec tried = spec;
     tried.numerics.fidelity = point.fidelity;

@@ -11,4 +11,9 @@ namespace cellcrush::translate {
 /// smaller specimen from that preset (server/presets/small_specimens.csv), as sentences. Empty for any other case.
 std::string describe_small_specimen(const SceneSpec& spec);
 
+/// The largest measured differences of the default mesh of such a lattice between plates from one twice as fine
+/// (server/presets/default_meshes.csv), of the relative density that is nearest to the given one, as a sentence. Empty
+/// for a lattice that was not measured, and for elements other than the default ones.
+std::string describe_default_mesh(const SceneSpec& spec, double relative_density);
+
 }  // namespace cellcrush::translate

@@ -11,6 +11,7 @@ namespace cellcrush::translate {
 const char* presets_text();          ///< presets.txtpb
 const char* measured_errors_text();  ///< measured_errors.csv
 const char* small_specimens_text();  ///< small_specimens.csv
+const char* default_meshes_text();   ///< default_meshes.csv
 
 /// A preset with its complete case, and what the case means.
 struct Preset {

@@ -189,6 +189,17 @@ TEST_F(CasesServiceTest, AMeasuredCaseHasItsErrorsAndAnotherTheFieldsThatDiffer)
   EXPECT_EQ(unknown.given_fields(0), "loading.speed_m_per_s");
 }
 
+TEST_F(CasesServiceTest, ALatticeThatWasNotMeasuredHasCostsAndNoErrors) {
+  for (const char* name : {"zheng-2005", "gibson-1982-reentrant"}) {
+    const auto response = check(client().preset(name));
+    ASSERT_EQ(response.fidelities_size(), 3) << name;
+    EXPECT_EQ(response.predicted_seconds(), response.fidelities(1).predicted_seconds());
+    EXPECT_EQ(response.fidelities(1).errors_size(), 0);
+    EXPECT_GT(response.fidelities(1).given_fields_size(), 0);
+    EXPECT_NE(response.default_mesh(), "");
+  }
+}
+
 TEST_F(CasesServiceTest, PresetsAreListedAndEachIsSound) {
   auto client = this->client();
   const auto listed = answer_of(*client.cases, &v1::Cases::Stub::ListPresets, {});

@@ -8,7 +8,7 @@
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
 #include "translate/measured_errors.h"
-#include "translate/small_specimen.h"
+#include "translate/plateau_differences.h"
 #include "translate/spec_to_case.h"
 
 namespace cellcrush {
@@ -24,6 +24,7 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
+using translate::describe_default_mesh;
 using translate::describe_small_specimen;
 using translate::fields_beside_measured;
 using translate::measured_errors_of;
@@ -205,6 +206,26 @@ TEST(SmallSpecimens, AreToldWithTheirCellsAndWhatWasMeasured) {
   EXPECT_THAT(told, Not(HasSubstr("Fewer cells")));
   scenes::cells_of(spec).columns = 12;
   EXPECT_THAT(describe_small_specimen(spec), EndsWith("Fewer cells were not measured."));
+}
+
+TEST(DefaultMeshes, AreToldOfEveryKindWithWhatWasMeasured) {
+  SceneSpec spec = scenes::preset("zheng-2005");
+  const auto is_told =
+      AllOf(StartsWith("Default mesh: such lattices of relative density 0."), HasSubstr("crushed along"),
+            ContainsRegex("impact plateau by up to [-+][0-9]+ ± [0-9]+ % \\([0-9]+ m/s\\), support"));
+  EXPECT_THAT(describe_default_mesh(spec, 0.1), is_told);
+  for (const std::string& name : lattice_names()) {
+    spec.lattice = RegularLattice{name, {}, {}, {}, {}, {}};
+    EXPECT_THAT(describe_default_mesh(spec, 0.1), is_told) << name;
+  }
+  EXPECT_THAT(describe_default_mesh(scenes::preset("type-i"), 0.1), HasSubstr("relative density 0.1, crushed along X"));
+  EXPECT_THAT(describe_default_mesh(scenes::preset("type-i"), 0.01), HasSubstr("relative density 0.0"));
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  EXPECT_EQ(describe_default_mesh(spec, 0.1), "");
+  spec = scenes::preset("zheng-2005");
+  spec.lattice = NetworkWalls();
+  EXPECT_EQ(describe_default_mesh(spec, 0.1), "") << "networks were not measured";
+  EXPECT_EQ(describe_default_mesh(scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2), 0.1), "");
 }
 
 TEST(SmallSpecimens, OfALatticeWithoutMeasuredDifferencesClaimNone) {

@@ -32,8 +32,15 @@ std::vector<CrushGroup> read_groups(const std::string& list, const std::string& 
   for (const bench::VariedScene& scene : bench::read_variants(list)) {
     for (const bench::Variant& variant : scene.variants) {
       const SceneSpec spec = fill_in_fidelity(validation::read_options(bench::words_of(scene, variant, 1)).spec);
-      CrushGroup group = {
-          scene.name, variant.name, scene.words.front(), *spec.loading.speed_m_per_s, *spec.elements_per_wall, {}};
+      SceneSpec without_mesh = spec;
+      without_mesh.elements_per_wall.reset();
+      CrushGroup group = {scene.name,
+                          variant.name,
+                          scene.words.front(),
+                          *spec.loading.speed_m_per_s,
+                          *spec.elements_per_wall,
+                          *fill_in_fidelity(without_mesh).elements_per_wall,
+                          {}};
       std::ranges::copy_if(all, std::back_inserter(group.rows), [&](const bench::CsvRow& row) {
         return bench::is_of(row, scene, variant) && row.at("status") == "finished";
       });

@@ -16,6 +16,7 @@ struct CrushGroup {
   std::string preset;
   double speed = 0.0;  ///< m/s
   int elements_per_wall = 0;
+  int default_elements = 0;  ///< per wall
   std::vector<bench::CsvRow> rows;
 
   [[nodiscard]] SeedStatistics of(const std::string& column) const;

@@ -1,6 +1,9 @@
 // core/what-is-computed.md: how far the mean plateaus of a mesh lie from those of a finer one.
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "docs/tables/crush_rows.h"
 #include "docs/tables/record_tables.h"
@@ -57,6 +60,35 @@ void add_rows(PageTable& table, const std::vector<CrushGroup>& groups, const std
   }
 }
 
+/// "kagome along y" of "kagome-along-y-25"; "hexagons, walls 10 times as long as thick" of "hexagons-10-25".
+std::string cells_of(const std::string& scene) {
+  std::string words = scene.substr(0, scene.rfind('-'));
+  const std::size_t last = words.rfind('-') + 1;
+  if (last > 0 && std::isdigit(static_cast<unsigned char>(words[last])) != 0) {
+    return words.substr(0, last - 1) + ", walls " + words.substr(last) + " times as long as thick";
+  }
+  std::ranges::replace(words, '-', ' ');
+  std::ranges::replace(words, '_', '-');
+  return words;
+}
+
+/// The default mesh of each scene of a list against one twice as fine.
+PageTable default_meshes(const std::string& list) {
+  PageTable table({"Cells", "#Plate speed, m/s", "#Default", "#Impact: against twice", "#Support: against twice"});
+  std::vector<std::pair<std::string, Meshes>> scenes;
+  for (const CrushGroup& group : read_groups(kBench + list + ".txt", kBench + "results/" + list + ".csv")) {
+    if (scenes.empty() || scenes.back().first != group.scene) scenes.push_back({group.scene, {}});
+    scenes.back().second[group.elements_per_wall] = group;
+  }
+  for (const auto& [scene, meshes] : scenes) {
+    const auto& [speed, elements] = std::pair(meshes.begin()->second.speed, meshes.begin()->second.default_elements);
+    table.add_row({cells_of(scene), fixed(speed, 0), std::to_string(elements),
+                   difference(meshes, elements, 2 * elements, kImpact),
+                   difference(meshes, elements, 2 * elements, kSupport)});
+  }
+  return table;
+}
+
 std::vector<std::string> heads_of(const std::vector<Comparison>& comparisons) {
   std::vector<std::string> heads = {"Cells", "#Plate speed, m/s"};
   for (const std::string plate : {"Impact", "Support"}) {
@@ -92,6 +124,10 @@ PageTables mesh_tables() {
           {"meshes of squares and triangles", small.text()},
           {"meshes of hexagons along y", y.text()},
           {"meshes of presets", whole.text()},
+          {"meshes of other kinds", default_meshes("kind_study").text()},
+          {"meshes of slender and stout walls", default_meshes("slenderness_study").text()},
+          {"origin of other meshes", origin_of(kBench + "results/kind_study.csv")},
+          {"origin of slender and stout walls", origin_of(kBench + "results/slenderness_study.csv")},
           {"origin of meshes", origin_of(kBench + "results/mesh_study.csv")}};
 }
 
