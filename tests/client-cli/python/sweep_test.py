@@ -249,7 +249,8 @@ class Means(unittest.TestCase):
             daemon.stdout.readline()
             server = stack.enter_context(cc.connect(f"unix:{folder}/s"))
             sweep = server.sweep(PRESET, SMALL, wall_thickness_mm=[0.5, 0.6], vertical_wall_thickness_mm=0.4,
-                                 end_strain=0.85, speed_m_per_s=10, seeds=3, amplitude_mm=0.05).wait()
+                                 end_strain=0.85, speed_m_per_s=10, elements_per_wall=2, seeds=3, amplitude_mm=0.05
+                                 ).wait()
             direct = urllib.request.build_opener(urllib.request.ProxyHandler({}))
             theirs = pandas.read_csv(direct.open(f"{pages}/{sweep.name}.csv"))
             ours = sweep.table(mean_over="seed")

@@ -92,6 +92,7 @@ std::vector<HeldWalls> held_walls() {
   SceneSpec hexagons = scenes::spec_of({"hexagon", 100.0, 0.3}, 5, 4);
   scenes::cells_of(hexagons).wall_thickness_mm = 0.5;
   scenes::cells_of(hexagons).own["vertical_wall_thickness_mm"] = 0.35;
+  hexagons.elements_per_wall = 2;
   std::vector<HeldWalls> all = {HeldWalls(squashed_squares(), 800), HeldWalls(hexagons, 640)};
   EXPECT_GT(*std::ranges::max_element(all.front().state.radius_growth), 0.05);
   return all;

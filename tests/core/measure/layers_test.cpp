@@ -81,6 +81,7 @@ TEST(DensestLayer, OfThinFoilIsNotADisplacedJoint) {
   lattice.side_mm = 2.75;
   lattice.wall_thickness_mm = 0.0254;
   lattice.own["vertical_wall_thickness_mm"] = 0.0508;
+  spec.elements_per_wall = 2;
   spec.imperfection = {0.05, 1};
   const auto scene = scenes::build(spec);
   State state = make_initial_state(*scene);

@@ -334,6 +334,7 @@ TEST_P(LastingRiseOfACrush, IsDensificationOnlyIfItIsDense) {
   const NamedRise& of = GetParam();
   SceneSpec spec = scenes::hexagon_specimen(of.columns, 7);
   spec.lattice = scenes::hexagons(of.columns, 7, 4.0, 4.0 * of.slenderness, 4.0 * of.slenderness);
+  spec.elements_per_wall = 2;
   spec.material.hardening_modulus_mpa = of.hardening;
   spec.imperfection = {.amplitude_mm = 0.01, .seed = 1};
   spec.loading.direction = of.direction;
