@@ -223,7 +223,8 @@ class UnitResponse {
       return forces;
     }
     visit_yielding([&](int e, int i, const FibreBits<D>& yielding) HWY_ATTR {
-      sections_.flexibility[e][i] = flexibility_of(rule_, law_of(e), [&](int j) HWY_ATTR { return yielding.has(j); });
+      sections_.flexibility[e][i] = flexibility_of(rule_, law_of(e), memory_[e].fibres, first_fibre(i),
+                                                   [&](int j) HWY_ATTR { return yielding.has(j); });
     });
     return select(yields, sections_.solve(none), forces);
   }

@@ -45,35 +45,48 @@ struct SectionFlexibility {
   }
 };
 
-/// Flexibility of the section whose fibres `is_soft(fibre)` yield; the others are elastic.
+/// Flexibility of the section whose fibres `is_soft(fibre)` yield; the others are elastic. `first` is the first of its
+/// fibres.
 template <class Law, class Rule, class D, class IsSoft>
-HWY_INLINE SectionFlexibility<D> flexibility_of(const Rule& rule, const FibreLaw<Law, D>& law, const IsSoft& is_soft) {
+HWY_INLINE SectionFlexibility<D> flexibility_of(const Rule& rule, const FibreLaw<Law, D>& law,
+                                                const Fibres<hn::TFromD<D>>& fibres, std::size_t first,
+                                                const IsSoft& is_soft) {
+  const Lane<D> one = 1;
+  const auto lost_by = [&](int j) HWY_ATTR {
+    return one - law.tangent(Lane<D>(hn::TFromD<D>(kAddedTangent)), fibres, (first + j) * fibres.stride);
+  };
   Lane<D> area = 0;
-  Lane<D> first = 0;
+  Lane<D> moment = 0;
   Lane<D> second = 0;
   for (int j = 0; j < rule.depth_points(); ++j) {
     const LaneMask<D> soft = is_soft(j);
-    area = select(soft, area + Lane<D>(rule.depth_weight[j]), area);
-    first = select(soft, first + Lane<D>(rule.arm_weight[j]), first);
-    second = select(soft, second + Lane<D>(rule.square_weight[j]), second);
+    if constexpr (Law::kFacts.keeps_tangent) {
+      const Lane<D> lost = masked(soft, lost_by(j));
+      area = fma(lost, Lane<D>(rule.depth_weight[j]), area);
+      moment = fma(lost, Lane<D>(rule.arm_weight[j]), moment);
+      second = fma(lost, Lane<D>(rule.square_weight[j]), second);
+    } else {
+      area = select(soft, area + Lane<D>(rule.depth_weight[j]), area);
+      moment = select(soft, moment + Lane<D>(rule.arm_weight[j]), moment);
+      second = select(soft, second + Lane<D>(rule.square_weight[j]), second);
+    }
   }
-  const Lane<D> one = 1;
-  const Lane<D> lost = one - law.tangent(Lane<D>(hn::TFromD<D>(kAddedTangent)));
+  const Lane<D> lost = Law::kFacts.keeps_tangent ? one : lost_by(0);
   const Lane<D> axial = fnma(lost, area, one);  // stiffness
-  const Lane<D> mixed = lost * first;           // with the opposite sign
+  const Lane<D> mixed = lost * moment;          // with the opposite sign
   const Lane<D> bending = fnma(lost, second, one);
   const Lane<D> inverse = one / fms(axial, bending, mixed * mixed);
   return {inverse * bending, inverse * mixed, inverse * axial};
 }
 
 /// Flexibility of a section in the coming step: of the fibres that yielded in the last one, those are soft which its
-/// strains would drive further. `first` is the first fibre of the section, `yielding` has its own bits, and `strains`
-/// are those that it would have if it were elastic.
+/// strains would drive further. `yielding` has the section's own bits, and `strains` are those that it would have if it
+/// were elastic.
 template <class Law, class Rule, class D>
 HWY_INLINE SectionFlexibility<D> look_ahead(const Rule& rule, const FibreLaw<Law, D>& law,
                                             const Fibres<hn::TFromD<D>>& fibres, const FibreBits<D>& yielding,
                                             std::size_t first, const SectionForce<D>& strains) {
-  return flexibility_of(rule, law, [&](int j) HWY_ATTR {
+  return flexibility_of(rule, law, fibres, first, [&](int j) HWY_ATTR {
     const Lane<D> reduced = law.reduced(fibres, (first + j) * fibres.stride);
     const Lane<D> strain = fma(Lane<D>(rule.arm[j]), strains.moment, strains.axial);
     return yielding.has(j) & (reduced * strain > 0);

@@ -111,9 +111,14 @@ void with_rule(const Scene& scene, State& state, FibreHistory<T>& memory, const 
 
 template <class Law, class Use>
 void with_precision(const Scene& scene, State& state, const Use& use) {
+  if constexpr (Law::kFacts.may_be_single) {
+    if (!scene.section.force_based && scene.single_fibres) {
+      with_rule<false, Law>(scene, state, state.single_fibres, use);
+      return;
+    }
+  }
   if (!scene.section.force_based) {
-    scene.single_fibres ? with_rule<false, Law>(scene, state, state.single_fibres, use)
-                        : with_rule<false, Law>(scene, state, state.fibres, use);
+    with_rule<false, Law>(scene, state, state.fibres, use);
     return;
   }
   if constexpr (Law::kFacts.may_be_single_in_force_based) {

@@ -82,7 +82,7 @@ class WallChunk {
         stress_(memory.stress.data()),
         inverse_modulus_(1.0 / scene.materials.front().youngs_modulus),
         prefetches_(memory.stress.size() * sizeof(T) > last_cache_bytes() / kCacheShareOfFibres),
-        uniform_(scene.materials.front()) {}
+        uniform_(LaneMaterials<F>(scene.materials.front())) {}
 
   /// The first loop: axes, lengths and strains. Returns whether any elements are squashed, so that their modulus is
   /// reduced (E5c).
@@ -221,6 +221,8 @@ class WallChunk {
     const std::ptrdiff_t first = row * rule_.fibres() + lane;
     return {stress_ + first, Law::kFacts.keeps_back_stress ? &memory_.back_stress[first] : nullptr,
             Law::kFacts.keeps_plastic_strain ? &memory_.plastic_strain[first] : nullptr,
+            Law::kFacts.keeps_tangent ? &memory_.tangent[first] : nullptr,
+            Law::kFacts.keeps_tangent ? &memory_.flow[first] : nullptr,
             Law::kFacts.keeps_plastic_strain ? nullptr : &memory_.yielded[row + lane],
             static_cast<std::size_t>(stride)};
   }
@@ -247,7 +249,7 @@ class WallChunk {
   /// From the strains to the sums over the stresses (E5 to E6).
   HWY_INLINE void return_map_fibres(const WallBlock& block, int lane) const {
     const LaneMaterial<F> material =
-        scene_.materials.size() == 1 ? uniform_ : material_of_walls<F>(scene_, block.first_wall + lane);
+        scene_.materials.size() == 1 ? uniform_ : LaneMaterial<F>(LaneMaterials<F>(scene_, block.first_wall + lane));
     const int together = has_pairs(block) ? 2 : 1;
     for (int j = 0; j < block.elements; j += together) {
       if (prefetches_) {

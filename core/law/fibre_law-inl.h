@@ -6,6 +6,7 @@
 #define CELLCRUSH_LAW_FIBRE_LAW_INL_H_
 #endif
 
+#include <algorithm>
 #include <cstddef>
 
 #include "cellcrush/scene.h"
@@ -15,47 +16,77 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
+/// Materials of the walls of the lanes.
+template <class D>
+class LaneMaterials {
+  using Number = hn::TFromD<D>;
+
+ public:
+  LaneMaterials() = default;
+
+  /// The same in all lanes.
+  HWY_INLINE explicit LaneMaterials(const Material& material) : materials_(&material) {}
+
+  /// Those of the walls from `wall` on.
+  HWY_INLINE LaneMaterials(const Scene& scene, int wall)
+      : materials_(scene.materials.data()), of_lanes_(&scene.walls.material[wall]) {}
+
+  /// Lanes of get(material).
+  template <class Get>
+  [[nodiscard]] HWY_INLINE Lane<D> load(const Get& get) const {
+    if (of_lanes_ == nullptr) {
+      return Lane<D>(static_cast<Number>(get(*materials_)));
+    }
+    Number values[Lane<D>::kWidth];
+    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
+      values[lane] = static_cast<Number>(get(materials_[of_lanes_[lane]]));
+    }
+    return Lane<D>::load(values);
+  }
+
+  /// The greatest size(material).
+  template <class Size>
+  [[nodiscard]] std::size_t greatest(const Size& size) const {
+    std::size_t most = size(of_lanes_ == nullptr ? *materials_ : materials_[of_lanes_[0]]);
+    for (std::size_t lane = 1; of_lanes_ != nullptr && lane < Lane<D>::kWidth; ++lane) {
+      most = std::max(most, size(materials_[of_lanes_[lane]]));
+    }
+    return most;
+  }
+
+ private:
+  const Material* materials_ = nullptr;
+  const int* of_lanes_ = nullptr;
+};
+
 /// Constants of E6 for the material of each lane, MPa.
 template <class D>
 struct LaneMaterial {
-  using Number = hn::TFromD<D>;
-
   Lane<D> modulus;  ///< E
   Lane<D> yield_stress;
-  Lane<D> of_law[kLawParameterCount];  ///< parameters of its law
-  Lane<D> isotropic;                   ///< beta H
-  Lane<D> kinematic;                   ///< (1 - beta) H
-  Lane<D> inverse;                     ///< 1 / (E + H)
-  Lane<D> elastic_share;               ///< E / (E + H)
+  Lane<D> hardening;
+  Lane<D> isotropic;      ///< beta H
+  Lane<D> kinematic;      ///< (1 - beta) H
+  Lane<D> inverse;        ///< 1 / (E + H)
+  Lane<D> elastic_share;  ///< E / (E + H)
+  LaneMaterials<D> materials;
 
   LaneMaterial() = default;
 
-  /// `load(get)` returns the lanes of get(material).
-  template <class Load>
-  HWY_INLINE static LaneMaterial from(const Load& load) {
-    LaneMaterial loaded;
-    loaded.modulus = load([](const Material& material) HWY_ATTR { return material.youngs_modulus; });
-    loaded.yield_stress = load([](const Material& material) HWY_ATTR { return material.yield_stress; });
-    for (std::size_t i = 0; i < kLawParameterCount; ++i) {
-      loaded.of_law[i] = load([i](const Material& material) HWY_ATTR { return material.law.*kLawParameters[i].value; });
-    }
-    const Lane<D> fraction = loaded.template parameter<&LawParameters::isotropic_fraction>();
-    loaded.isotropic = fraction * loaded.hardening();
-    loaded.kinematic = (Lane<D>(1) - fraction) * loaded.hardening();
-    loaded.set_shares();
-    return loaded;
+  HWY_INLINE explicit LaneMaterial(const LaneMaterials<D>& of) : materials(of) {
+    modulus = of.load([](const Material& material) HWY_ATTR { return material.youngs_modulus; });
+    yield_stress = of.load([](const Material& material) HWY_ATTR { return material.yield_stress; });
+    hardening = parameter<&LawParameters::hardening_modulus_mpa>();
+    const Lane<D> fraction = parameter<&LawParameters::isotropic_fraction>();
+    isotropic = fraction * hardening;
+    kinematic = (Lane<D>(1) - fraction) * hardening;
+    set_shares();
   }
-
-  /// One material in all lanes.
-  HWY_INLINE explicit LaneMaterial(const Material& material)
-      : LaneMaterial(from([&](const auto& get) HWY_ATTR { return Lane<D>(static_cast<Number>(get(material))); })) {}
 
   template <double LawParameters::*kValue>
   [[nodiscard]] HWY_INLINE Lane<D> parameter() const {
-    constexpr std::size_t kPlace = index_of(kValue);
-    return of_law[kPlace];
+    return materials.load([](const Material& material) HWY_ATTR { return material.law.*kValue; });
   }
-  [[nodiscard]] HWY_INLINE Lane<D> hardening() const { return parameter<&LawParameters::hardening_modulus_mpa>(); }
 
   /// The same with a fraction of the modulus (E5c).
   HWY_INLINE LaneMaterial softened(Lane<D> share) const {
@@ -67,23 +98,10 @@ struct LaneMaterial {
 
  private:
   HWY_INLINE void set_shares() {
-    inverse = Lane<D>(1) / (modulus + hardening());
+    inverse = Lane<D>(1) / (modulus + hardening);
     elastic_share = modulus * inverse;
   }
 };
-
-/// Materials of the walls from `wall` on.
-template <class D>
-HWY_INLINE LaneMaterial<D> material_of_walls(const Scene& scene, int wall) {
-  using Number = hn::TFromD<D>;
-  return LaneMaterial<D>::from([&](const auto& get) HWY_ATTR {
-    Number values[Lane<D>::kWidth];
-    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
-      values[lane] = static_cast<Number>(get(scene.materials[scene.walls.material[wall + lane]]));
-    }
-    return Lane<D>::load(values);
-  });
-}
 
 /// A fibre after the elastic trial step: its reduced stress (Eq. 35), the same within the yield surface, and the stress
 /// that it returns to. The fibre yields where the first two differ. MPa.
@@ -97,16 +115,21 @@ struct MappedFibre {
 /// The equations of a law (cellcrush/laws.h) for the fibres of the lanes; one file a law specializes it:
 ///
 ///   FibreLaw(material, step)        constants of the lanes' materials, and the time step, s
-///   map(trial, fibres, at)          return mapping of the elastic trial stress; `at`: place of the fibre in the arrays
+///   Carried                         what map passes to flow and dissipating
+///   map(trial, fibres, at, carried) return mapping of the elastic trial stress; `at`: place of the fibre in the arrays
 ///   increment(reduced, within)      plastic strain increment; 0 where the fibre stays elastic
-///   flow(increment, fibres, at)     updates the arrays that the law keeps, other than the stress
-///   dissipating(increment, fibres, at)  after flow: mean stress over the step by which it dissipates (E10)
+///   flow(increment, carried, fibres, at)  updates the arrays that the law keeps, other than the stress
+///   dissipating(increment, carried, fibres, at)  after flow: mean stress over the step by which it dissipates (E10)
 ///   reduced(fibres, at)             reduced stress before the step
-///   tangent(added)                  tangent modulus of a yielding fibre over E, plus `added`
+///   tangent(added, fibres, at)      tangent modulus of a yielding fibre over E, plus `added`; a law whose fibres have
+///                                   the same one ignores the place
 ///
 /// The stored energy is that of the stress, sigma^2 / 2E, for every law (energy/ledger.h).
 template <class Law, class D>
 class FibreLaw;
+
+/// Of a law that passes nothing on.
+struct NothingCarried {};
 
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

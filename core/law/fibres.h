@@ -14,6 +14,8 @@ struct Fibres {
   T* __restrict stress;
   T* __restrict back_stress;
   T* __restrict plastic_strain;
+  T* __restrict tangent;  ///< modulus over E of the last flow
+  T* __restrict flow;     ///< plastic strain increment of the last flow, not below 0
   typename FibreHistory<T>::Bits* __restrict yielded;
   std::size_t stride = 1;
 };

@@ -101,8 +101,7 @@ bool is_dense_at(const Scene& scene, std::span<const Sample> samples, double str
 }
 
 bool hardens(const Scene& scene) {
-  return std::ranges::any_of(scene.materials,
-                             [](const Material& material) { return material.law.hardening_modulus_mpa > 0.0; });
+  return std::ranges::any_of(scene.materials, [](const Material& material) { return material.law.hardens(); });
 }
 
 RiseKind kind_of(const Scene& scene, const CurveRise& rise) {

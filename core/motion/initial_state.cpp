@@ -16,6 +16,10 @@ void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
   if (law.keeps_back_stress) {
     fibres.back_stress.assign(elements * scene.fibre_count(), T(0.0));
   }
+  if (law.keeps_tangent) {
+    fibres.tangent.assign(elements * scene.fibre_count(), T(0.0));
+    fibres.flow.assign(elements * scene.fibre_count(), T(0.0));
+  }
   if (law.keeps_plastic_strain) {
     fibres.plastic_strain.assign(elements * scene.fibre_count(), T(0.0));
   } else {

@@ -14,6 +14,7 @@
 #include "lattice/period.h"
 #include "lattice/voronoi.h"
 #include "push/half_planes.h"
+#include "scene/check_law.h"
 #include "scene/grips.h"
 #include "scene/mesh_part.h"
 #include "scene/repeat_mesh.h"
@@ -178,6 +179,11 @@ void check_quasi_static(const SceneSpec& spec, FieldChecker& check) {
   exclude(loading.ramp_strain != 0.0, "loading.ramp_strain", loading.ramp_strain);
   exclude(loading.end_time_s.has_value(), "loading.end_time_s", loading.end_time_s.value_or(0.0));
   exclude(spec.numerics.mass_scaling != 1.0, "numerics.mass_scaling", spec.numerics.mass_scaling);
+  if (std::ranges::any_of(material_specs_of(spec), &LawParameters::depends_on_rate)) {
+    check.add("loading.quasi_static", "true",
+              "does not go with a yield stress that depends on the rate: the solver chooses the speed.",
+              "Give loading.speed_m_per_s, or the yield stress at the rate of the test without a law of the rate.");
+  }
 }
 
 void check_plates(const LoadingSpec& loading, FieldChecker& check) {
@@ -275,6 +281,7 @@ void check_material(const std::string& path, const MaterialSpec& material, Field
   }
   check.within_limits(path + "poissons_ratio", material.poissons_ratio);
   check.within_limits(path + "density_kg_per_m3", material.density_kg_per_m3);
+  check_law(path, material, check);
 }
 
 double count_elements(const SceneSpec& spec) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numbers>
 
 #include "cellcrush/lattice_moduli.h"
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
 #include "lattice/network.h"
 #include "lattice/period.h"
+#include "law/flow_curve.h"
 #include "push/half_planes.h"
 #include "scene/approach_speed.h"
 #include "scene/check_spec.h"
@@ -25,21 +25,6 @@ namespace {
 
 constexpr double kTonnePerMm3PerKgPerM3 = 1e-12;
 
-std::vector<Material> materials_of(const SceneSpec& spec) {
-  std::vector<Material> materials = {material_of(spec.material)};
-  if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
-    for (const FrameWalls::Beam& beam : frame->beams) {
-      if (beam.material) {
-        materials.push_back(material_of(*beam.material));
-      }
-    }
-  }
-  if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
-    std::ranges::transform(network->materials, std::back_inserter(materials), material_of);
-  }
-  return materials;
-}
-
 /// Index of the law of a scene of some materials.
 std::size_t law_of(const std::vector<Material>& materials) {
   const auto describes_all = [&](const LawFacts& law) {
@@ -50,7 +35,8 @@ std::size_t law_of(const std::vector<Material>& materials) {
 
 bool allows_single_fibres(const Scene& scene) {
   return has_known_counts(scene.section) &&
-         (!scene.section.force_based || Laws::kFacts[scene.law].may_be_single_in_force_based);
+         (scene.section.force_based ? Laws::kFacts[scene.law].may_be_single_in_force_based
+                                    : Laws::kFacts[scene.law].may_be_single);
 }
 
 /// Lays out the lattice, and computes the measures that a frame has not. The last walls of a list may be rigid links.
@@ -114,17 +100,28 @@ double lightest_mass_of(const Scene& scene) {
 Material material_of(const MaterialSpec& spec) {
   const bool held = spec.plane == MaterialSpec::Plane::strain;
   const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
-  const double flowing = held ? 2.0 / std::numbers::sqrt3 : 1.0;
+  const double flowing = held ? kHeldFlow : 1.0;
   Material material = {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa, spec,
-                       *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3, held};
-  for (const LawParameter& parameter : kLawParameters) {
-    double factor = 1.0;
-    for (int i = 0; i < parameter.flow_power; ++i) {
-      factor *= flowing;
-    }
-    material.law.*parameter.value *= factor;
+                       *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3, held, {}, {}};
+  if (held) {
+    hold_walls(material.law);
   }
+  material.hardening = bent_line_of(material.law.hardening_table);
+  material.rate = bent_line_of_rate(material.law);
   return material;
+}
+
+std::vector<MaterialSpec> material_specs_of(const SceneSpec& spec) {
+  std::vector<MaterialSpec> specs = {spec.material};
+  if (const auto* frame = std::get_if<FrameWalls>(&spec.lattice)) {
+    for (const FrameWalls::Beam& beam : frame->beams) {
+      if (beam.material) specs.push_back(*beam.material);
+    }
+  }
+  if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
+    specs.insert(specs.end(), network->materials.begin(), network->materials.end());
+  }
+  return specs;
 }
 
 std::optional<LatticeModuli> elastic_moduli_of(const SceneSpec& spec) {
@@ -168,7 +165,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
   const SceneSpec& part = linked.spec;
   auto scene = std::make_shared<Scene>();
   scene->depth = *part.depth_mm;
-  scene->materials = materials_of(part);
+  std::ranges::transform(material_specs_of(part), std::back_inserter(scene->materials), material_of);
   scene->law = law_of(scene->materials);
   scene->section = make_section_rule(part.section);
   scene->constant_area = part.section.area_rule == SectionSpec::AreaRule::constant_area;

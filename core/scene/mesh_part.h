@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
@@ -14,6 +15,9 @@ namespace cellcrush {
 /// held across (E6b): the elastic modulus is E / (1 - nu^2). In plastic flow, the stress along the wall is 2 / sqrt 3
 /// of the effective stress, and its strain sqrt 3 / 2 of the effective strain.
 Material material_of(const MaterialSpec& spec);
+
+/// That of the spec, then those of its walls, in their order.
+std::vector<MaterialSpec> material_specs_of(const SceneSpec& spec);
 
 /// 0: crushed along x, 1: along y.
 int crush_axis_of(const SceneSpec& spec);

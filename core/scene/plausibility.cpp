@@ -71,7 +71,7 @@ void check_slowness(const SceneSpec& spec, FieldChecker& notes) {
   const double share = LoadingSpec().kinetic_share;
   const double enough = quasi_static_speed(share, kThinnestLattice, material_of(spec.material)) / kMmPerM;
   const double speed = *spec.loading.speed_m_per_s;
-  if (kTooSlow * speed < enough) {
+  if (kTooSlow * speed < enough && !spec.material.depends_on_rate()) {
     notes.add("loading.speed_m_per_s", to_text(speed),
               "is far slower than inertia asks for: the number of steps grows as the speed falls, and already at " +
                   to_text(std::round(10.0 * enough) / 10.0) + " m/s, in " + to_text(std::round(enough / speed)) +
@@ -87,7 +87,8 @@ void check_speed(const SceneSpec& spec, FieldChecker& notes) {
   if (share > kFastest) {
     notes.add("loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s),
               "is " + percent(share) + " of the speed of an elastic wave in the walls, " + to_text(std::round(wave)) +
-                  " m/s. At such speeds strain-rate and thermal effects matter, which are not modelled.",
+                  " m/s. At such speeds " + (spec.material.depends_on_rate() ? "" : "strain-rate and ") +
+                  "thermal effects matter, which are not modelled.",
               "Check the speed, and the units of youngs_modulus_mpa and density_kg_per_m3.");
   }
 }

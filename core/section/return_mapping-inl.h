@@ -106,11 +106,12 @@ HWY_INLINE SectionSums<D> return_map_section(const FibreLaw<Law, D>& law, const 
   SectionSums<D> sums;
   Lane<D> reduced[Rule::kDepthRoom];
   Lane<D> within[Rule::kDepthRoom];
+  typename FibreLaw<Law, D>::Carried carried[Rule::kDepthRoom];
   Differences<D> differences;
   for (int i = 0; i < rule.depth_points(); ++i) {
     const std::size_t at = (first + static_cast<std::size_t>(i)) * fibres.stride;
     const Lane<D> trial = fma(bent, Lane<D>(arm[i]), stretched) + Lane<D>::load(fibres.stress + at);  // Eq. 34, E6
-    const MappedFibre<D> mapped = law.map(trial, fibres, at);
+    const MappedFibre<D> mapped = law.map(trial, fibres, at, carried[i]);
     reduced[i] = mapped.reduced;
     within[i] = mapped.within;
     mapped.stress.store(fibres.stress + at);
@@ -125,9 +126,9 @@ HWY_INLINE SectionSums<D> return_map_section(const FibreLaw<Law, D>& law, const 
   for (int i = 0; i < rule.depth_points(); ++i) {
     const std::size_t at = (first + static_cast<std::size_t>(i)) * fibres.stride;
     const Lane<D> increment = law.increment(reduced[i], within[i]);
-    law.flow(increment, fibres, at);
+    law.flow(increment, carried[i], fibres, at);
     of_section.add(reduced[i] != within[i], i);
-    const Lane<D> stress = law.dissipating(increment, fibres, at);
+    const Lane<D> stress = law.dissipating(increment, carried[i], fibres, at);
     sums.plastic_work = fma(Lane<D>(rule.depth_weight[i]) * stress, increment, sums.plastic_work);
   }
   yields.add_section(of_section, first);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 
 #include "beam/element_place.h"
@@ -42,7 +43,8 @@ std::string fibres_text(const Scene& scene) {
     return law + ", in double precision: in single precision, rounding errors of slow loading add up.";
   }
   return law + ", in double precision" +
-         (scene.section.force_based && !facts.may_be_single_in_force_based
+         (!facts.may_be_single                                               ? ", as its law requires."
+          : scene.section.force_based && !facts.may_be_single_in_force_based
               ? ", as hardening requires in force-based elements."
               : ".");
 }
@@ -178,7 +180,10 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
     lines.push_back(scene.fidelity);
   }
   lines.emplace_back("Symmetry: not used; round-off makes the halves of a symmetric lattice deform differently.");
-  lines.emplace_back("Not modelled: fracture, strain-rate dependence, out-of-plane motion.");
+  const auto depends = [](const Material& material) { return material.law.depends_on_rate(); };
+  lines.push_back("Not modelled: fracture, " +
+                  std::string(std::ranges::any_of(scene.materials, depends) ? "" : "strain-rate dependence, ") +
+                  "out-of-plane motion.");
   return lines;
 }
 

@@ -21,6 +21,7 @@
 #include "jobs/sweep_points.h"
 #include "store/large_lattice.h"
 #include "translate/case_checker.h"
+#include "translate/materials.h"
 
 namespace cellcrush::jobs {
 
@@ -304,7 +305,7 @@ v1::Case JobMaker::case_at(std::size_t point) const {
 
 v1::Job JobMaker::job_at(std::size_t point) const {
   v1::Job out;
-  *out.mutable_case_() = case_at(point);
+  *out.mutable_case_() = translate::with_named_materials(case_at(point));
   out.mutable_case_()->set_title(title_of(out.case_().title(), text(point)));
   *out.mutable_labels() = sweep_.labels();
   out.set_priority(sweep_.priority());

@@ -1,5 +1,6 @@
 # Writes OUTPUT, a C++ source with the texts of this folder.
 file(READ ${CMAKE_CURRENT_LIST_DIR}/presets.txtpb presets)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/materials.txtpb materials)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/measured_errors.csv errors)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/small_specimens.csv specimens)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/default_meshes.csv meshes)
@@ -9,6 +10,10 @@ namespace cellcrush::translate {
 
 const char* presets_text() {
   return R\"text(${presets})text\";
+}
+
+const char* materials_text() {
+  return R\"text(${materials})text\";
 }
 
 const char* measured_errors_text() {

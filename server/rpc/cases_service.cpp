@@ -1,6 +1,7 @@
 #include <memory>
 #include <string>
 
+#include "cellcrush/fidelity.h"
 #include "drawing/drawing.h"
 #include "drawing/import_lattice.h"
 #include "error_table.h"
@@ -8,7 +9,9 @@
 #include "rpc/services.h"
 #include "store/result_writer.h"
 #include "translate/case_checker.h"
+#include "translate/case_to_spec.h"
 #include "translate/check_case.h"
+#include "translate/materials.h"
 #include "translate/measured_errors.h"
 #include "translate/presets.h"
 #include "translate/preview_case.h"
@@ -41,7 +44,8 @@ class CaseCalls {
     auto check = translate::check_case(request.case_(), [&call] { call.require_wanted(); });
     v1::CheckCaseResponse& out = check.response;
     if (out.problems_size() > 0) return std::move(out);
-    out.set_predicted_seconds(parts_.step_cost * static_cast<double>(out.element_count()) *
+    const double laws = step_cost_of_laws(translate::to_spec(request.case_()).spec);
+    out.set_predicted_seconds(parts_.step_cost * laws * static_cast<double>(out.element_count()) *
                               static_cast<double>(out.step_count()));
     translate::add_fidelities(request.case_(), parts_.step_cost, check);
     out.set_predicted_bytes(store::predicted_result_bytes(out.particle_count(), out.element_count(), check.wall_count,
@@ -98,6 +102,10 @@ class CaseCalls {
     return preset->message;
   }
 
+  v1::ListMaterialsResponse list_materials(const Call&, const v1::ListMaterialsRequest&) {
+    return translate::materials();
+  }
+
  private:
   /// For the mesh of the case.
   jobs::MeshPlaces::Place take_place(const Call& call, const v1::Case& submitted) const {
@@ -125,6 +133,7 @@ void add_cases_methods(MethodTable& table, const ServiceParts& parts) {
               is_long);
   table.unary("/cellcrush.v1.Cases/ListPresets", Scope::read, &parts.calls, calls, &CaseCalls::list_presets);
   table.unary("/cellcrush.v1.Cases/GetPreset", Scope::read, &parts.calls, calls, &CaseCalls::get_preset);
+  table.unary("/cellcrush.v1.Cases/ListMaterials", Scope::read, &parts.calls, calls, &CaseCalls::list_materials);
 }
 
 }  // namespace cellcrush::rpc

@@ -13,6 +13,7 @@
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
+#include "translate/materials.h"
 #include "watch/job_source.h"
 
 namespace cellcrush::rpc {
@@ -39,7 +40,7 @@ class JobCalls {
     const auto verdict = checkers_.check(request.case_(), take_place);
     if (!verdict.problems.empty()) throw RefusedCase({verdict.problems.begin(), verdict.problems.end()});
     v1::Job job;
-    *job.mutable_case_() = request.case_();
+    *job.mutable_case_() = translate::with_named_materials(request.case_());
     *job.mutable_labels() = request.labels();
     job.set_priority(request.priority());
     job.set_note(request.note());

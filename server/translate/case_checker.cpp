@@ -1,5 +1,6 @@
 #include "translate/case_checker.h"
 
+#include <cmath>
 #include <utility>
 
 #include "cellcrush/fidelity.h"
@@ -7,6 +8,7 @@
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
 #include "translate/loads_places.h"
+#include "translate/materials.h"
 #include "translate/worker_memory.h"
 
 namespace cellcrush::translate {
@@ -34,10 +36,12 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted, const BeforeM
   }
   if (!out.problems.empty()) return out;
   for (const auto& note : verdict.notes) out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
+  if (const auto note = idle_name(submitted)) out.notes.push_back(to_proto(*note, v1::Problem::IMPLAUSIBLE));
   out.element_count = verdict.element_count;
   const bool has_default_mesh = !reading.spec.elements_per_wall && !submitted.lattice().has_frame();
   if (has_default_mesh) out.default_mesh = *fill_in_fidelity(reading.spec).elements_per_wall;
-  out.element_steps = verdict.element_count * verdict.step_count;
+  out.element_steps = std::llround(static_cast<double>(verdict.element_count * verdict.step_count) *
+                                   step_cost_of_laws(reading.spec));
   out.most_memory_bytes = memory_of_worker(
       reading.spec, {verdict.most_memory_bytes, verdict.element_count, reading.spec.output.sample_count});
   return out;

@@ -11,6 +11,7 @@
 
 #include "cellcrush/lattice_words.h"
 #include "translate/loads_places.h"
+#include "translate/materials.h"
 #include "translate/network_lists.h"
 
 namespace cellcrush::translate {
@@ -221,7 +222,12 @@ std::optional<RegularLattice> read_regular(const v1::Lattice& in) {
   return out;
 }
 
-MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems) {
+MaterialSpec to_spec(const v1::Material& given, const std::string& path, Problems& problems) {
+  const v1::Material in = with_named(given);
+  if (!in.named().empty() && !is_named_material(in.named())) {
+    problems.push_back({path + "named", in.named(), "is no material of the list.",
+                        "Name one of " + known_materials() + ", or give its numbers."});
+  }
   MaterialSpec out;
   if (in.has_youngs_modulus_mpa()) out.youngs_modulus_mpa = in.youngs_modulus_mpa();
   if (in.has_yield_stress_mpa()) out.yield_stress_mpa = in.yield_stress_mpa();
@@ -232,6 +238,13 @@ MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& 
   if (in.has_density_kg_per_m3()) out.density_kg_per_m3 = in.density_kg_per_m3();
   read_choice(in.plane(), path + "plane", out.plane, problems);
   if (in.has_poissons_ratio()) out.poissons_ratio = in.poissons_ratio();
+  const v1::Material::HardeningTable& curve = in.hardening_table();
+  out.hardening_table.plastic_strains.assign(curve.plastic_strains().begin(), curve.plastic_strains().end());
+  out.hardening_table.stresses_mpa.assign(curve.stresses_mpa().begin(), curve.stresses_mpa().end());
+  read_choice(curve.beyond(), path + "hardening_table.beyond", out.hardening_table.beyond, problems);
+  if (!in.has_yield_stress_mpa() && !curve.stresses_mpa().empty()) out.yield_stress_mpa = curve.stresses_mpa(0);
+  out.rate_table.rates_per_s.assign(in.rate_table().rates_per_s().begin(), in.rate_table().rates_per_s().end());
+  out.rate_table.factors.assign(in.rate_table().factors().begin(), in.rate_table().factors().end());
   return out;
 }
 

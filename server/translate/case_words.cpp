@@ -261,17 +261,10 @@ void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
   words.set_loading(std::move(text));
 }
 
-std::string material_text(const v1::Material& material) {
-  std::string text =
-      fmt::format("E {:.6g} MPa, yield {:.6g} MPa", material.youngs_modulus_mpa(), material.yield_stress_mpa());
-  Problems ignored;
-  const LawParameters law = to_spec(material, "", ignored);
-  for (const LawParameter& parameter : kLawParameters) {
-    if (const double value = law.*parameter.value; value != LawParameters().*parameter.value)
-      text += ", " + fmt::format(fmt::runtime(parameter.words), value);
-  }
-  text += fmt::format(", {} kg/m3", material.density_kg_per_m3());
-  return text + (material.plane() == v1::Material::PLANE_STRAIN ? ", plane strain" : "");
+std::string words_of(const HardeningTable& table) {
+  constexpr const char* kBeyond[] = {"at the last stress", "at the last slope", "as a power"};
+  return fmt::format(", hardening table to plastic strain {:.6g}, then {}", table.plastic_strains.back(),
+                     kBeyond[static_cast<int>(table.beyond)]);
 }
 
 v1::CaseWords describe_case(const v1::Case& scene) {
@@ -328,6 +321,25 @@ std::string end_words_of(const v1::Summary& summary) {
 }
 
 }  // namespace
+
+std::string material_text(const v1::Material& material) {
+  Problems ignored;
+  const MaterialSpec law = to_spec(material, "", ignored);
+  std::string text = material.named().empty() ? "" : material.named() + ": ";
+  text += fmt::format("E {:.6g} MPa, yield {:.6g} MPa", law.youngs_modulus_mpa.value_or(0.0),
+                      law.yield_stress_mpa.value_or(0.0));
+  for (const LawParameter& parameter : kLawParameters) {
+    if (const double value = law.*parameter.value; value != LawParameters().*parameter.value)
+      text += ", " + fmt::format(fmt::runtime(parameter.words), value);
+  }
+  if (!law.hardening_table.plastic_strains.empty()) text += words_of(law.hardening_table);
+  if (!law.rate_table.rates_per_s.empty()) {
+    text += fmt::format(", rate table from {:.6g} to {:.6g} 1/s", law.rate_table.rates_per_s.front(),
+                        law.rate_table.rates_per_s.back());
+  }
+  text += fmt::format(", {} kg/m3", law.density_kg_per_m3.value_or(0.0));
+  return text + (law.plane == MaterialSpec::Plane::strain ? ", plane strain" : "");
+}
 
 bool has_plates(const v1::Case& scene) { return scene.loading().has_speed_m_per_s() || scene.loading().quasi_static(); }
 

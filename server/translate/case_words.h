@@ -28,6 +28,9 @@ void add_words(Message&) {}
 /// Whether two plates crush the walls.
 bool has_plates(const v1::Case& scene);
 
+/// The numbers of a material, after its name if it has one.
+std::string material_text(const v1::Material& material);
+
 /// What elements_per_wall of a case counts: "elements per wall", of a frame "elements per beam".
 std::string mesh_words(const v1::Case& scene);
 

@@ -11,6 +11,7 @@
 #include "cellcrush/v1/field.pb.h"
 #include "translate/case_to_spec.h"
 #include "translate/loads_places.h"
+#include "translate/materials.h"
 #include "translate/plateau_differences.h"
 #include "translate/results.h"
 #include "translate/spec_to_case.h"
@@ -160,6 +161,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   CaseCheck out;
   const auto [spec, scene] = build(submitted, *out.response.mutable_problems(), between_stages);
   if (!scene) return out;
+  if (const auto note = idle_name(submitted)) *out.response.add_notes() = to_proto(*note, v1::Problem::IMPLAUSIBLE);
   for (const auto& note : find_implausible(spec)) *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
   for (const auto& note : find_costly_walls(spec, *scene)) {
     *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);

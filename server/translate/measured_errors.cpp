@@ -163,7 +163,7 @@ std::vector<std::string> other_fields(const SceneSpec& spec, const SceneSpec& me
   differencer.set_field_comparator(&comparator);
   differencer.ReportDifferencesTo(&collector);
   differencer.Compare(to_case(measured), to_case(spec));
-  const bool hardens = spec.material.hardening_modulus_mpa != 0.0 || measured.material.hardening_modulus_mpa != 0.0;
+  const bool hardens = spec.material.hardens() || measured.material.hardens();
   const bool in_plane_strain = spec.material.plane == MaterialSpec::Plane::strain;
   std::erase_if(collector.fields, [&](const std::string& field) {
     return (!hardens && field == "material.isotropic_fraction") ||
@@ -312,7 +312,8 @@ void add_fidelities(const v1::Case& submitted, double step_cost, CaseCheck& chec
     forecast.set_element_count(verdict.element_count);
     forecast.set_step_count(verdict.step_count);
     const double element_steps = static_cast<double>(verdict.element_count) * static_cast<double>(verdict.step_count);
-    forecast.set_predicted_seconds(step_cost * step_cost_of(forecast.elements_per_wall()) * element_steps);
+    forecast.set_predicted_seconds(step_cost * step_cost_of(forecast.elements_per_wall()) * step_cost_of_laws(spec) *
+                                   element_steps);
     write_errors(spec, forecast);
     if (decides == forecast.fidelity()) response.set_predicted_seconds(forecast.predicted_seconds());
   }

@@ -9,6 +9,7 @@ namespace cellcrush::translate {
 
 // What the build embeds of server/presets.
 const char* presets_text();          ///< presets.txtpb
+const char* materials_text();        ///< materials.txtpb
 const char* measured_errors_text();  ///< measured_errors.csv
 const char* small_specimens_text();  ///< small_specimens.csv
 const char* default_meshes_text();   ///< default_meshes.csv

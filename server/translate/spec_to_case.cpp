@@ -39,6 +39,17 @@ void write_material(const MaterialSpec& in, v1::Material& out) {
   if (in.density_kg_per_m3) out.set_density_kg_per_m3(*in.density_kg_per_m3);
   out.set_plane(wire_of<v1::Material::Plane>(in.plane));
   out.set_poissons_ratio(in.poissons_ratio);
+  if (const HardeningTable& table = in.hardening_table; !table.stresses_mpa.empty()) {
+    auto& curve = *out.mutable_hardening_table();
+    curve.mutable_plastic_strains()->Add(table.plastic_strains.begin(), table.plastic_strains.end());
+    curve.mutable_stresses_mpa()->Add(table.stresses_mpa.begin(), table.stresses_mpa.end());
+    curve.set_beyond(wire_of<v1::Material::HardeningTable::Beyond>(table.beyond));
+  }
+  if (const RateTable& table = in.rate_table; !table.factors.empty()) {
+    auto& rates = *out.mutable_rate_table();
+    rates.mutable_rates_per_s()->Add(table.rates_per_s.begin(), table.rates_per_s.end());
+    rates.mutable_factors()->Add(table.factors.begin(), table.factors.end());
+  }
 }
 
 void write_function(const LoadsSpec::TimeFunction& in, v1::Frame::TimeFunction& out) {

@@ -20,7 +20,7 @@ void put_frame(const FrameLattice& frame, SceneSpec& spec) {
 }
 
 FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements) {
-  return {start, end, thickness_mm, elements, std::nullopt};
+  return {start, end, thickness_mm, elements, {}};
 }
 
 FrameLattice bar(double length_mm, double thickness_mm, int elements) {

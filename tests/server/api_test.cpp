@@ -294,6 +294,8 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "CaseWords.Fact.text",
       // Of a drawing to be imported: its bytes, its name with the ending that tells the format, its unit.
       "ImportLatticeRequest.File.content", "ImportLatticeRequest.File.name", "ImportLatticeRequest.unit",
+      // Of a case: the name of a material, compared with those that the daemon has.
+      "Material.named",
       // Of a case: its title and the ids of a frame and of grips.
       "Loading.Grip.id", "Case.title", "Frame.Node.id", "Frame.Beam.start", "Frame.Beam.end", "Frame.Support.node",
       "Frame.NodalLoad.node", "Frame.NodalMotion.node", "Frame.InitialVelocity.node", "Frame.RigidWall.id",

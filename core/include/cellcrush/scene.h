@@ -20,13 +20,25 @@ namespace cellcrush {
 /// Greatest thickness of a squashed wall over that before loading (E5f).
 inline constexpr double kMostThickening = 2.0;
 
-/// Bilinear elastic-plastic law with mixed hardening (E6).
+/// A function that starts at 0, is linear between its edges and goes on as a power: with z = min(x, end),
+/// y = sum of bend (z - edge) over the edges below z, + last ((x / end)^exponent - 1) beyond the end.
+struct BentLine {
+  std::vector<double> edges;  ///< ascending
+  std::vector<double> bends;  ///< change of the slope at each
+  double end = std::numeric_limits<double>::infinity();
+  double last = 0.0;
+  double exponent = 0.0;
+};
+
+/// Elastic-plastic law of the fibres (E6).
 struct Material {
   double youngs_modulus = 0.0;  ///< E, MPa
   double yield_stress = 0.0;    ///< MPa
   LawParameters law;            ///< in plane strain, those of the wall (E6b)
   double density = 0.0;         ///< tonne / mm^3
   bool plane_strain = false;    ///< squashed walls grow in thickness alone, not in depth (E5f)
+  BentLine hardening;           ///< of the table: stress beyond the yield stress over plastic strain, MPa (E6d)
+  BentLine rate;                ///< of the table or Johnson and Cook: factor - 1 over ln(ep' s) (E6e)
 };
 
 /// Integration points of an element: P sections along it, at s = x / l, times D points through its depth (Eq. 30, E5b);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cellcrush/laws.h"
+#include "cellcrush/optional_box.h"
 
 namespace cellcrush {
 
@@ -91,7 +92,7 @@ struct FrameWalls {
     int end = 0;
     double thickness_mm = 0.0;
     std::optional<int> elements;           ///< default: elements_per_wall of the spec
-    std::optional<MaterialSpec> material;  ///< default: that of the spec
+    OptionalBox<MaterialSpec> material;    ///< default: that of the spec
     bool pin_start = false;                ///< whether the beam turns freely at its start (E16)
     bool pin_end = false;
     bool operator==(const Beam&) const = default;

@@ -25,6 +25,8 @@ struct FibreHistory {
   LaneVector<T> stress;          ///< E x F, sigma of E6
   LaneVector<T> back_stress;     ///< E x F, centre of the yield surface (alpha of E6); empty unless the law keeps it
   LaneVector<T> plastic_strain;  ///< E x F, accumulated (effective), ep of E6; empty unless the law keeps it
+  LaneVector<T> tangent;         ///< E x F, tangent modulus over E of the last flow; empty unless the law keeps it
+  LaneVector<T> flow;            ///< E x F, its plastic strain increment in a step; empty with tangent
   LaneVector<Bits> yielded;      ///< E, bit f: fibre f has yielded; empty with plastic_strain
 
   // Force-based rules only (E5b, E5d, beam/element_response-inl.h), otherwise empty.
@@ -201,9 +203,10 @@ void visit_fields(S& state, Visitor&& visit) {
          side_force, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
-    auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding, end_force, owed] =
-        history;
-    list(stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding, end_force, owed);
+    auto& [stress, back_stress, plastic_strain, tangent, flow, yielded, section_axial, section_moment, yielding,
+           end_force, owed] = history;
+    list(stress, back_stress, plastic_strain, tangent, flow, yielded, section_axial, section_moment, yielding,
+         end_force, owed);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
        reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,

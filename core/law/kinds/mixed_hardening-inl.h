@@ -23,9 +23,11 @@ class FibreLaw<MixedHardening, D> {
   using T = hn::TFromD<D>;
 
  public:
+  using Carried = NothingCarried;
+
   HWY_INLINE FibreLaw(const LaneMaterial<D>& material, double /*step*/) : material_(material) {}
 
-  HWY_INLINE MappedFibre<D> map(Lane<D> trial, const Fibres<T>& fibres, std::size_t at) const {
+  HWY_INLINE MappedFibre<D> map(Lane<D> trial, const Fibres<T>& fibres, std::size_t at, Carried& /*carried*/) const {
     const Lane<D> back = Lane<D>::load(fibres.back_stress + at);
     const Lane<D> reduced = trial - back;
     const Lane<D> yield =
@@ -36,20 +38,23 @@ class FibreLaw<MixedHardening, D> {
   HWY_INLINE Lane<D> increment(Lane<D> reduced, Lane<D> within) const {
     return material_.inverse * (reduced - within);  // Eq. 37, 38, E6
   }
-  HWY_INLINE void flow(Lane<D> increment, const Fibres<T>& fibres, std::size_t at) const {
+  HWY_INLINE void flow(Lane<D> increment, Carried /*carried*/, const Fibres<T>& fibres, std::size_t at) const {
     const Lane<D> strain = Lane<D>::load(fibres.plastic_strain + at);
     const Lane<D> back = Lane<D>::load(fibres.back_stress + at);
     (strain + abs(increment)).store(fibres.plastic_strain + at);
     fma(material_.kinematic, increment, back).store(fibres.back_stress + at);  // Eq. 39, E6
   }
   /// Mean of both yield surfaces.
-  HWY_INLINE Lane<D> dissipating(Lane<D> increment, const Fibres<T>& fibres, std::size_t at) const {
-    return fnma(Lane<D>(T(0.5)) * material_.hardening(), increment, Lane<D>::load(fibres.stress + at));
+  HWY_INLINE Lane<D> dissipating(Lane<D> increment, Carried /*carried*/, const Fibres<T>& fibres,
+                                 std::size_t at) const {
+    return fnma(Lane<D>(T(0.5)) * material_.hardening, increment, Lane<D>::load(fibres.stress + at));
   }
   HWY_INLINE Lane<D> reduced(const Fibres<T>& fibres, std::size_t at) const {
     return Lane<D>::load(fibres.stress + at) - Lane<D>::load(fibres.back_stress + at);
   }
-  HWY_INLINE Lane<D> tangent(Lane<D> added) const { return fma(material_.hardening(), material_.inverse, added); }
+  HWY_INLINE Lane<D> tangent(Lane<D> added, const Fibres<T>& /*fibres*/, std::size_t /*at*/) const {
+    return fma(material_.hardening, material_.inverse, added);
+  }
 
  private:
   const LaneMaterial<D>& material_;

@@ -19,23 +19,28 @@ class FibreLaw<PerfectlyPlastic, D> {
   using T = hn::TFromD<D>;
 
  public:
+  using Carried = NothingCarried;
+
   HWY_INLINE FibreLaw(const LaneMaterial<D>& material, double /*step*/) : material_(material) {}
 
-  HWY_INLINE MappedFibre<D> map(Lane<D> trial, const Fibres<T>& /*fibres*/, std::size_t /*at*/) const {
+  HWY_INLINE MappedFibre<D> map(Lane<D> trial, const Fibres<T>& /*fibres*/, std::size_t /*at*/,
+                                Carried& /*carried*/) const {
     const Lane<D> within = max(min(trial, material_.yield_stress), -material_.yield_stress);
     return {trial, within, within};
   }
   HWY_INLINE Lane<D> increment(Lane<D> reduced, Lane<D> within) const {
     return material_.inverse * (reduced - within);  // Eq. 37, 38, E6
   }
-  HWY_INLINE void flow(Lane<D> /*increment*/, const Fibres<T>& /*fibres*/, std::size_t /*at*/) const {}
-  HWY_INLINE Lane<D> dissipating(Lane<D> /*increment*/, const Fibres<T>& fibres, std::size_t at) const {
+  HWY_INLINE void flow(Lane<D> /*increment*/, Carried /*carried*/, const Fibres<T>& /*fibres*/,
+                       std::size_t /*at*/) const {}
+  HWY_INLINE Lane<D> dissipating(Lane<D> /*increment*/, Carried /*carried*/, const Fibres<T>& fibres,
+                                 std::size_t at) const {
     return Lane<D>::load(fibres.stress + at);
   }
   HWY_INLINE Lane<D> reduced(const Fibres<T>& fibres, std::size_t at) const {
     return Lane<D>::load(fibres.stress + at);
   }
-  HWY_INLINE Lane<D> tangent(Lane<D> added) const { return added; }
+  HWY_INLINE Lane<D> tangent(Lane<D> added, const Fibres<T>& /*fibres*/, std::size_t /*at*/) const { return added; }
 
  private:
   const LaneMaterial<D>& material_;

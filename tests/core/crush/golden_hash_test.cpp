@@ -46,6 +46,15 @@ SceneSpec with_hardening(SceneSpec spec, double isotropic_fraction) {
   return spec;
 }
 
+SceneSpec with_a_curve_and_a_rate(SceneSpec spec) {
+  spec.material.voce_stress_mpa = 50.0;
+  spec.material.voce_exponent = 20.0;
+  spec.material.isotropic_fraction = 0.5;
+  spec.material.cowper_symonds_rate_per_s = 6500.0;
+  spec.material.cowper_symonds_exponent = 4.0;
+  return spec;
+}
+
 SceneSpec with_elements_per_wall(SceneSpec spec, int elements) {
   spec.elements_per_wall = elements;
   return spec;
@@ -71,6 +80,9 @@ std::vector<GoldenCrush> whole_crushes() {
           {"hexagons in single precision", in_single_precision(specimen("hexagon"))},
           {"mixed hardening and damping", with_hardening(specimen("hexagon", 0.2), 0.5)},
           {"kinematic hardening", with_hardening(with_the_papers_elements(specimen("hexagon")), 0.0)},
+          {"a curve and a rate", with_a_curve_and_a_rate(specimen("hexagon", 0.2))},
+          {"a curve and a rate in the paper's elements",
+           with_a_curve_and_a_rate(with_the_papers_elements(specimen("hexagon")))},
           {"one element a wall", with_elements_per_wall(specimen("triangle"), 1)},
           {"five elements a wall", with_elements_per_wall(specimen("hexagon"), 5)},
           {"a rigid row", with_a_rigid_row(specimen("hexagon"))}};

@@ -249,7 +249,10 @@ TEST(SquashedWall, AtConstantAreaOneElementIsSquashedToNothing) {
 // The stiffness that is left makes the greatest frequency of a squashed element or pair that of one at 0.95 of its
 // length.
 TEST(SquashedWall, VibratesNoFasterThanTheUndeformedOne) {
-  const Material material = {kModulus, kYieldStress, 0.0, 1.0, 2.7e-9};
+  Material material;
+  material.youngs_modulus = kModulus;
+  material.yield_stress = kYieldStress;
+  material.density = 2.7e-9;
   const double undeformed = 2.0;
   for (const bool in_pairs : {false, true}) {
     const auto step_of = in_pairs ? stable_step_of_pair : stable_step_of_element;

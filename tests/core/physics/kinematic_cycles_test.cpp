@@ -5,68 +5,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "cellcrush/scene.h"
-#include "cellcrush/simulation.h"
-#include "cellcrush/state.h"
+#include "scenes/cycled_element.h"
 #include "scenes/evidence.h"
-#include "scenes/frames.h"
 #include "section/section_rule.h"
 
 namespace cellcrush::kinematic_cycles {
 namespace {
 
-using Component = FrameLattice::Component;
+using scenes::CycledElement;
 
 constexpr double kModulus = 200000.0;  // E, MPa
 constexpr double kTangent = 20000.0;   // E_T
 constexpr double kYieldStress = 200.0;
 constexpr double kHardening = kModulus * kTangent / (kModulus - kTangent);  // H
-constexpr double kLength = 10.0;                                            // mm
-constexpr double kThickness = 1.0;
-constexpr int kCycles = 6;
-constexpr double kQuarter = 4e-4;  // s, quarter of a cycle
+constexpr double kLength = CycledElement::kLength;
+constexpr double kThickness = CycledElement::kThickness;
+constexpr int kCycles = CycledElement::kCycles;
+constexpr double kQuarter = CycledElement::kQuarter;
 
-/// Goes to +amplitude and -amplitude in turn.
-FrameLattice::TimeFunction cycles_of(double amplitude) {
-  FrameLattice::TimeFunction points = {{0.0, 0.0}};
-  for (int i = 0; i < kCycles; ++i) {
-    points.emplace_back((4.0 * i + 1.0) * kQuarter, amplitude);
-    points.emplace_back((4.0 * i + 3.0) * kQuarter, -amplitude);
-  }
-  return points;
-}
-
-SceneSpec cycled(FrameLattice frame, double isotropic_fraction) {
-  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {kLength, 0.0, 0.0, 0.0}};
-  frame.beams = {scenes::beam(0, 1, kThickness, 1)};
-  frame.end_time_s = (4.0 * kCycles - 1.0) * kQuarter;
-  SceneSpec spec = scenes::elastic_frame(std::move(frame));
-  spec.material.youngs_modulus_mpa = kModulus;
-  spec.material.yield_stress_mpa = kYieldStress;
-  spec.material.hardening_modulus_mpa = kHardening;
-  spec.material.isotropic_fraction = isotropic_fraction;
-  spec.material.density_kg_per_m3 = 7850.0;
-  spec.numerics.time_step_s = kQuarter / 512.0;  // a step ends at every turn
-  return spec;
-}
-
-/// Calls visit(time, force and moment that the element's end bears) after every step, and before it turn(side) where
-/// cycles_of has turned.
-void run(const SceneSpec& spec, const std::function<void(double)>& turn,
-         const std::function<void(double, double, double)>& visit) {
-  const auto scene = scenes::build(spec);
-  Simulation simulation(scene);
-  int turns = 0;
-  while (simulation.status().kind == RunStatus::Kind::running) {
-    simulation.advance(1);
-    for (; simulation.time() > (2.0 * turns + 1.0) * kQuarter * (1.0 + 1e-9); ++turns)
-      turn(turns % 2 == 0 ? 1.0 : -1.0);
-    visit(simulation.time(), -simulation.state().internal_force[1].x(), -simulation.state().internal_moment[1]);
-  }
-  EXPECT_EQ(simulation.step(), scene->schedule.step_count) << simulation.status().message;
+MaterialSpec bilinear(double isotropic_fraction) {
+  MaterialSpec material;
+  material.youngs_modulus_mpa = kModulus;
+  material.yield_stress_mpa = kYieldStress;
+  material.hardening_modulus_mpa = kHardening;
+  material.isotropic_fraction = isotropic_fraction;
+  material.density_kg_per_m3 = 7850.0;
+  return material;
 }
 
 /// Stress of a bilinear bar whose strain goes to and fro, in closed form (Lemaitre and Chaboche 1990, chapter 5). From
@@ -106,17 +73,13 @@ double value_at(const FrameLattice::TimeFunction& points, double time) { return 
 /// Worst error over the yield stress of the stress of a bar of constant area between +-`amplitude` of elongation over
 /// length.
 double worst_stress_error(double isotropic_fraction, double amplitude) {
-  FrameLattice frame;
-  const auto points = cycles_of(amplitude * kLength);
-  frame.supports = {{0, true, true, true}, {1, false, true, true}};
-  frame.motions = {{1, Component::x, points}};
+  const auto points = CycledElement::to_and_fro(amplitude);
   BilinearBar bar(isotropic_fraction);
   const auto turn = [&](double side) { bar.turn_at(side * amplitude); };
   double worst = 0.0;
-  SceneSpec spec = cycled(std::move(frame), isotropic_fraction);
-  spec.section.area_rule = SectionSpec::AreaRule::constant_area;
-  run(spec, turn, [&](double time, double force, double) {
-    const double stress = bar.stress_at(value_at(points, time) / kLength);
+  const SceneSpec spec = CycledElement::stretched(amplitude, bilinear(isotropic_fraction));
+  CycledElement::run(spec, turn, [&](double time, double force, double) {
+    const double stress = bar.stress_at(value_at(points, time));
     worst = std::max(worst, std::abs(force / kThickness - stress) / kYieldStress);
   });
   return worst;
@@ -127,15 +90,6 @@ TEST(KinematicCycles, ABarFollowsTheClosedFormOfItsStressForAnyShareOfIsotropicH
     const double error = worst_stress_error(share, 0.006);
     scenes::record_bound("stress error", error, 1e-8);
   }
-}
-
-/// The element between two held nodes that turn against each other by kappa l / 2: pure bending.
-SceneSpec bent(double curvature, double isotropic_fraction) {
-  FrameLattice frame;
-  frame.supports = {{0, true, true, false}, {1, true, true, false}};
-  frame.motions = {{0, Component::rotation, cycles_of(-0.5 * kLength * curvature)},
-                   {1, Component::rotation, cycles_of(0.5 * kLength * curvature)}};
-  return cycled(std::move(frame), isotropic_fraction);
 }
 
 constexpr double kYieldMoment = kYieldStress * kThickness * kThickness / 6.0;
@@ -154,7 +108,7 @@ double first_moment(double curvature) {
 /// first moment within 2.1 % (section/section_rule.h), so they have every change of moment within that too.
 TEST(KinematicCycles, ASectionInPureBendingFollowsTheLoopsIntegratedOverItsDepth) {
   constexpr double kPeak = 4.0 * kYieldCurvature;
-  const auto points = cycles_of(kPeak);
+  const auto points = CycledElement::to_and_fro(kPeak);
   double worst = 0.0;
   double moment_at_turn = 0.0;
   double last_moment = 0.0;
@@ -166,7 +120,7 @@ TEST(KinematicCycles, ASectionInPureBendingFollowsTheLoopsIntegratedOverItsDepth
     moment_at_turn = last_moment;
     EXPECT_NEAR(moment_at_turn / first_moment(kPeak), side, 0.021);
   };
-  run(bent(kPeak, 0.0), turn, [&](double time, double, double moment) {
+  CycledElement::run(CycledElement::bent(kPeak, bilinear(0.0)), turn, [&](double time, double, double moment) {
     const double curvature = value_at(points, time);
     const double factor = side == 0.0 ? 1.0 : 2.0;
     const double change = (curvature - side * kPeak) / factor;
@@ -195,12 +149,12 @@ TEST(KinematicCycles, TheFibresOfASectionInPureBendingAreBilinearBars) {
   const SectionRule rule = make_section_rule({});
   double worst = 0.0;
   for (const double share : {0.0, 0.3}) {
-    const auto points = cycles_of(kPeak);
+    const auto points = CycledElement::to_and_fro(kPeak);
     std::vector<BilinearBar> fibres(rule.depth_count(), BilinearBar(share));
     const auto turn = [&](double side) {
       for (std::size_t i = 0; i < fibres.size(); ++i) fibres[i].turn_at(side * kPeak * rule.offset[i] * kThickness);
     };
-    run(bent(kPeak, share), turn, [&](double time, double, double moment) {
+    CycledElement::run(CycledElement::bent(kPeak, bilinear(share)), turn, [&](double time, double, double moment) {
       double exact = 0.0;
       for (std::size_t i = 0; i < fibres.size(); ++i) {
         const double arm = rule.offset[i] * kThickness;
