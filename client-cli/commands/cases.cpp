@@ -23,6 +23,14 @@ ExitCode run_presets(Session& session) {
   return ExitCode::done;
 }
 
+ExitCode run_materials(Session& session) {
+  Connection& connection = session.connection();
+  const auto materials =
+      connection.call(connection.cases(), &v1::Cases::Stub::ListMaterials, v1::ListMaterialsRequest());
+  session.json ? print_json(materials) : fmt::print("{}", material_list_text(materials));
+  return ExitCode::done;
+}
+
 ExitCode run_check(Session& session, const CaseOptions& options) {
   Connection& connection = session.connection();
   v1::CheckCaseRequest request;
@@ -47,6 +55,10 @@ void add_case_commands(CLI::App& app, Session& session) {
   CLI::App* presets = add_command(app, session, kCaseCommands, "presets", "List the preset cases of the server",
                                   [&session] { return run_presets(session); });
   add_examples(*presets, {"cellcrush presets"});
+  CLI::App* materials =
+      add_command(app, session, kCaseCommands, "materials", "List the named materials of the server with their sources",
+                  [&session] { return run_materials(session); });
+  add_examples(*materials, {"cellcrush materials"});
   const auto [check, options] = add_command<CaseOptions>(
       app, session, kCaseCommands, "check", "Predict the cost of a case, or report all its problems", run_check);
   add_case_options(*check, *options);

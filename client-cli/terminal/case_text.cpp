@@ -199,6 +199,16 @@ std::string preset_heading(const v1::Preset& preset) {
   return heading;
 }
 
+std::string material_list_text(const v1::ListMaterialsResponse& materials, int width) {
+  std::string text;
+  for (const v1::NamedMaterial& material : materials.materials()) {
+    text += (text.empty() ? "\"" : "\n\"") + material.name() + "\"  " + material.title() + '\n' +
+            wrapped(material.numbers(), width, "  ", "  ");
+    for (const std::string& source : material.sources()) text += wrapped(source, width, "  - ", "    ");
+  }
+  return text;
+}
+
 std::string preset_list_text(const v1::ListPresetsResponse& presets, int width) {
   Table table({Align::left, Align::left});
   for (const v1::Preset& preset : presets.presets()) table.add({"preset:" + preset.name(), preset.title()});

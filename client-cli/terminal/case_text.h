@@ -29,6 +29,9 @@ std::string case_file_text(const v1::Case& contents, const std::string& heading)
 /// Header of a preset's case file: name, title and assumptions.
 std::string preset_heading(const v1::Preset& preset);
 
+/// The named materials, with numbers and sources.
+std::string material_list_text(const v1::ListMaterialsResponse& materials, int width = terminal_width());
+
 /// The presets, one row each.
 std::string preset_list_text(const v1::ListPresetsResponse& presets, int width = terminal_width());
 

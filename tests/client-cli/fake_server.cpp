@@ -63,6 +63,16 @@ class FakeServer::Cases : public v1::Cases::Service {
     return grpc::Status::OK;
   }
 
+  grpc::Status ListMaterials(grpc::ServerContext*, const v1::ListMaterialsRequest*,
+                             v1::ListMaterialsResponse* response) override {
+    v1::NamedMaterial& material = *response->add_materials();
+    material.set_name("Al 1");
+    material.set_title("Aluminium of the tests");
+    material.set_numbers("E 69000 MPa");
+    material.add_sources("E: a handbook.");
+    return grpc::Status::OK;
+  }
+
   grpc::Status GetPreset(grpc::ServerContext*, const v1::GetPresetRequest* request, v1::Preset* response) override {
     if (request->name() != shared_.script.preset.name()) return not_found("preset " + request->name());
     *response = shared_.script.preset;

@@ -37,6 +37,14 @@ TEST(Presets, AreListedAndShownAsACaseFileThatReadsBack) {
   EXPECT_TRUE(MessageDifferencer::Equals(parse_text_case(show.output, "shown"), preset_script().preset.case_()));
 }
 
+TEST(Materials, AreListedWithNumbersAndSources) {
+  const FakeServer server(Script{});
+  const ProgramResult list = server.run({"materials"});
+  EXPECT_EQ(list.exit_code, 0) << list.errors;
+  EXPECT_EQ(list.output, "\"Al 1\"  Aluminium of the tests\n  E 69000 MPa\n  - E: a handbook.\n");
+  EXPECT_THAT(server.run({"materials", "--json"}).output, HasSubstr("\"name\":\"Al 1\""));
+}
+
 TEST(Presets, JsonIsOneObjectWithTheProtosNames) {
   const FakeServer server(preset_script());
   const ProgramResult show = server.run({"show", "preset:type-i", "--json"});

@@ -134,6 +134,9 @@ class Server:
     async def presets(self) -> Dict[str, str]:
         return await asyncio.to_thread(self.sync.presets)
 
+    async def materials(self) -> Dict[str, str]:
+        return await asyncio.to_thread(self.sync.materials)
+
     async def check(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, **more: Any) -> Check:
         return await asyncio.to_thread(self.sync.check, case, fields, **more)
 

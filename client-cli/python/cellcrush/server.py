@@ -71,6 +71,11 @@ class Server:
         answer = self._connection.call(self._connection.cases.ListPresets, cases_service_pb2.ListPresetsRequest())
         return {f"preset:{preset.name}": preset.title for preset in answer.presets}
 
+    def materials(self) -> Dict[str, str]:
+        """The materials that `material.named` may name, and their numbers."""
+        answer = self._connection.call(self._connection.cases.ListMaterials, cases_service_pb2.ListMaterialsRequest())
+        return {material.name: material.numbers for material in answer.materials}
+
     def check(self, case: CaseLike, fields: Optional[Mapping[str, Any]] = None, **more: Any) -> Check:
         """All problems of a case, or what running it takes. Starts nothing."""
         request = cases_service_pb2.CheckCaseRequest(case=self.case(case, fields, **more))

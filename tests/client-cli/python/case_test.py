@@ -135,6 +135,7 @@ class Cases(WithServer):
         self.assertGreater(check.step_count, 100)
         self.assertGreater(check.theory.shock_mpa, check.theory.gibson_ashby_mpa)
         self.assertIn(PRESET, self.server.presets())
+        self.assertIn("E 207000 MPa", self.server.materials()["mild steel"])
         self.assertIn("default", self.server.explain("end_strain"))
         self.assertRegex(str(self.server.check(PRESET, SMALL, density_kg_per_m3=2.7).notes[0]), "density")
 
