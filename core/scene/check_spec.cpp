@@ -14,7 +14,6 @@
 #include "lattice/period.h"
 #include "lattice/voronoi.h"
 #include "push/half_planes.h"
-#include "scene/check_law.h"
 #include "scene/grips.h"
 #include "scene/mesh_part.h"
 #include "scene/repeat_mesh.h"
@@ -272,17 +271,6 @@ Problems name_crossings(const SceneSpec& spec, const Scene& scene, const std::ve
 }
 
 }  // namespace
-
-void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check) {
-  check.within_limits(path + "youngs_modulus_mpa", material.youngs_modulus_mpa);
-  check.within_limits(path + "yield_stress_mpa", material.yield_stress_mpa);
-  for (const LawParameter& parameter : kLawParameters) {
-    check.within_limits(path + parameter.name, material.*parameter.value);
-  }
-  check.within_limits(path + "poissons_ratio", material.poissons_ratio);
-  check.within_limits(path + "density_kg_per_m3", material.density_kg_per_m3);
-  check_law(path, material, check);
-}
 
 double count_elements(const SceneSpec& spec) {
   const int elements_per_wall = *spec.elements_per_wall;

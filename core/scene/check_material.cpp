@@ -1,4 +1,4 @@
-#include "scene/check_law.h"
+#include "scene/check_spec.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,8 +103,7 @@ void check_rate_table(const std::string& path, const MaterialSpec& material, Fie
   }
 }
 
-}  // namespace
-
+/// What the parameters of a law must be to each other, and its tables.
 void check_law(const std::string& path, const MaterialSpec& material, FieldChecker& check) {
   needs(path, "voce_stress_mpa", material.voce_stress_mpa, "voce_exponent", material.voce_exponent, 1e-6, check);
   needs(path, "ludwik_stress_mpa", material.ludwik_stress_mpa, "ludwik_exponent", material.ludwik_exponent, 0.01,
@@ -122,6 +121,19 @@ void check_law(const std::string& path, const MaterialSpec& material, FieldCheck
               "is given beside another law of the rate.",
               "Give one of cowper_symonds_rate_per_s, johnson_cook_coefficient and rate_table.");
   }
+}
+
+}  // namespace
+
+void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check) {
+  check.within_limits(path + "youngs_modulus_mpa", material.youngs_modulus_mpa);
+  check.within_limits(path + "yield_stress_mpa", material.yield_stress_mpa);
+  for (const LawParameter& parameter : kLawParameters) {
+    check.within_limits(path + parameter.name, material.*parameter.value);
+  }
+  check.within_limits(path + "poissons_ratio", material.poissons_ratio);
+  check.within_limits(path + "density_kg_per_m3", material.density_kg_per_m3);
+  check_law(path, material, check);
 }
 
 }  // namespace cellcrush
