@@ -5,7 +5,7 @@ import { create } from "@bufbuild/protobuf";
 import { CaseSchema, Frame_RigidWallSchema, Lattice_HexagonSchema,
          Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
 import { printable } from "../src/dom/element";
-import { caseValues, fieldAt, groupsOf, isSingle, kLatticeKinds, linesOf, pathsBeside, readField, typedAt,
+import { caseValues, fieldAt, groupsOf, isNumber, kLatticeKinds, linesOf, pathsBeside, readField, typedAt,
          writeField } from "../src/new_case/fields";
 import { baseOf, pathIn } from "../src/dom/base";
 import { labelsOf } from "../src/new_case/order";
@@ -84,7 +84,7 @@ test("lists of numbers are separated by blanks, commas with blanks or semicolons
   assert.ok(writeField(value, "lattice.grading.thickness_steps", ""));
   assert.deepEqual(value.lattice.grading.thicknessSteps, []);
   assert.equal(limitsOf("lattice.grading.thickness_steps"), "Default none; numbers separated by blanks, at most 1000");
-  assert.ok(!isSingle("lattice.outline.corners_mm") && isSingle("lattice.outline.edge_wall_thickness_mm"));
+  assert.ok(!isNumber("lattice.outline.corners_mm") && isNumber("lattice.outline.edge_wall_thickness_mm"));
 });
 
 test("a text that is no value of its field is refused", () => {

@@ -3,7 +3,8 @@ import { create, getOption, ScalarType, type DescField, type DescMessage } from 
 import { reflect, type ReflectMessage } from "@bufbuild/protobuf/reflect";
 import { CaseSchema, LatticeSchema, LoadingSchema, MaterialSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
 import { rules } from "../../gen/cellcrush/v1/field_pb";
-import { readReal, readWhole, type TypedNumber } from "./typed_number";
+import { columnsOf, rowsOf, setRows, tableText } from "./table_text";
+import { entriesOf, readReal, readWhole, type TypedNumber } from "./typed_number";
 
 export type LatticeKind = DescField & { fieldKind: "message" };
 
@@ -42,8 +43,8 @@ export function groupsOf(kind: LatticeKind): Group[] {
     { title: "Grading and outline", isOpen: false, paths: isListed(kind) ? []
       : [...under("lattice.grading", ["axis", "thickness_steps", "thickness_polynomial", "size_steps",
         "size_polynomial"]), ...under("lattice.outline", ["corners_mm", "edge_wall_thickness_mm"])] },
-    { title: "Material, further", isOpen: false, paths: under("material", singleFields(MaterialSchema).filter((name) =>
-      !kMaterial.includes(name))) },
+    { title: "Material, further", isOpen: false, paths: under("material", [...singleFields(MaterialSchema).filter(
+      (name) => !kMaterial.includes(name)), "hardening_table", "hardening_table.beyond", "rate_table"]) },
     { title: "Mesh and section", isOpen: false, paths: ["numerics.fidelity", "elements_per_wall",
       ...under("section", ["formulation", "axial_points", "depth_points", "depth_rule", "area_rule"])] },
     { title: "Contact", isOpen: false, paths: under("contact", ["friction", "stiffness_factor", "damping_ratio",
@@ -55,8 +56,11 @@ export function groupsOf(kind: LatticeKind): Group[] {
   return groups.filter(({ paths }) => paths.length > 0);
 }
 
-/** Whether a field holds one value, such as the axis of a sweep can. */
-export const isSingle = (path: string): boolean => fieldAt(path).field.fieldKind !== "list";
+/** Whether a field holds one number, such as the axis of a sweep can. */
+export const isNumber = (path: string): boolean => typedAt(path, "") !== undefined;
+
+/** Whether a field is a table of numbers, whose text has one row a point. */
+export const isTable = (path: string): boolean => columnsOf(fieldAt(path).field).length > 0;
 
 export interface Place { field: DescField; parent: DescMessage }
 
@@ -145,7 +149,9 @@ export function linesOf(value: Case, path: string): string[] {
 export function readField(value: Case, path: string): string {
   const { field } = fieldAt(path);
   const holder = holderOf(value, path, false);
-  return holder?.isSet(field) ? textOf(holder, field) : "";
+  if (!holder?.isSet(field)) return "";
+  const columns = columnsOf(field);
+  return columns.length ? tableText(holder.get(field) as ReflectMessage, columns) : textOf(holder, field);
 }
 
 /** Sets the value at a path from text; an empty text clears it. Returns whether the text is a value of the field. */
@@ -158,6 +164,7 @@ export function writeField(value: Case, path: string, text: string): boolean {
     return true;
   }
   if (field.fieldKind === "list") return holder !== undefined && writeNumbers(holder, field, trimmed);
+  if (field.fieldKind === "message") return writeTable(value, path, trimmed);
   const parsed = parse(field, trimmed);
   if (!holder || parsed === undefined) return false;
   try {
@@ -168,15 +175,21 @@ export function writeField(value: Case, path: string, text: string): boolean {
   }
 }
 
-// A comma without a blank may be a decimal sign.
-const entriesOf = (text: string): string[] => text.trim().split(/\s*;\s*|,?\s+/).filter(Boolean);
-
 function writeNumbers(holder: ReflectMessage, field: DescField & { fieldKind: "list" }, text: string): boolean {
   const numbers = entriesOf(text).map((entry) => readReal(entry).plain);
   if (field.listKind !== "scalar" || field.scalar !== ScalarType.DOUBLE || numbers.includes(undefined)) return false;
   const list = holder.get(field);
   list.clear();
   for (const number of numbers) list.add(Number(number));
+  return true;
+}
+
+// What a table has beside its rows stays.
+function writeTable(value: Case, path: string, text: string): boolean {
+  const columns = columnsOf(fieldAt(path).field);
+  const rows = rowsOf(text, columns.length);
+  if (columns.length === 0 || typeof rows === "string") return false;
+  setRows(holderOf(value, `${path}.${columns[0].name}`, true)!, columns, rows);
   return true;
 }
 
@@ -199,6 +212,10 @@ function typedFor(field: DescField, text: string): TypedNumber | undefined {
     if (faulty === undefined) return undefined;
     return { problem: `has an entry, “${faulty}”, that ${readReal(faulty).problem}` };
   }
+  if (field.fieldKind === "message") {
+    const rows = rowsOf(text, columnsOf(field).length);
+    return typeof rows === "string" ? { problem: rows } : undefined;
+  }
   switch (field.fieldKind === "scalar" ? field.scalar : undefined) {
     case ScalarType.DOUBLE: return readReal(text);
     case ScalarType.INT32:
@@ -208,5 +225,5 @@ function typedFor(field: DescField, text: string): TypedNumber | undefined {
   }
 }
 
-/** What a text is for the field at a path, if that is a number. */
+/** What a text is for the field at a path, if that is a number; of a list or a table, only what is wrong with it. */
 export const typedAt = (path: string, text: string): TypedNumber | undefined => typedFor(fieldAt(path).field, text);

@@ -5,7 +5,7 @@ import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { h, labelled, replaceChildren, setText } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { FieldInput } from "./field_input";
-import { groupsOf, isListed, isSingle, kLatticeKinds, linesOf, pathsBeside, readField, writeField, type Group,
+import { groupsOf, isListed, isNumber, isTable, kLatticeKinds, linesOf, pathsBeside, readField, writeField, type Group,
          type LatticeKind } from "./fields";
 import { defaultOf, fieldHelp, helpOf, labelOf } from "./words";
 
@@ -42,7 +42,7 @@ export class CaseForm {
 
   /** The fields of the form that the axis of a sweep may have. */
   get paths(): string[] {
-    return [...this.inputs.keys()].filter(isSingle);
+    return [...this.inputs.keys()].filter(isNumber);
   }
 
   private build(): void {
@@ -61,6 +61,7 @@ export class CaseForm {
       isNewer && h("p", { class: "banner warning" }, "The lattice is one of a newer server, and stays as it is."),
       beside.length > 0 && h("dl", { class: "facts beside" }, ...beside.map((path) => this.rowBeside(path))),
       ...groups);
+    for (const path of this.inputs.keys()) if (isTable(path)) this.showWithRows(path);
   }
 
   // What has no field is kept as it is, or removed.
@@ -101,7 +102,18 @@ export class CaseForm {
     else this.unreadable.add(path);
     if (isValue) input.showProblem(undefined);
     else input.showUnreadable();
+    if (isTable(path)) this.showWithRows(path);
     this.on.changed();
+  }
+
+  // What a table has beside its rows counts with them only.
+  private showWithRows(table: string): void {
+    const hasRows = readField(this.value, table) !== "";
+    for (const [path, input] of this.inputs) {
+      if (!path.startsWith(`${table}.`)) continue;
+      input.isDisabled = !hasRows;
+      if (hasRows) writeField(this.value, path, input.text);
+    }
   }
 
   // Keeps the fields of the same names.
@@ -115,14 +127,14 @@ export class CaseForm {
 
   /** Shows problems at what they are about; returns those that the form does not have. */
   showProblems(problems: Problem[]): Problem[] {
-    const byPath = new Map(problems.map((problem) => [problem.field, problem]));
-    for (const [path, input] of this.inputs) {
-      if (this.unreadable.has(path)) continue;
-      input.showProblem(byPath.get(path));
-      if (byPath.has(path)) input.element.closest("details")!.open = true;
-    }
     const ofPath = (path: string, { field }: Problem): boolean => field === path || field.startsWith(`${path}.`)
       || field.startsWith(`${path}[`);
+    for (const [path, input] of this.inputs) {
+      if (this.unreadable.has(path)) continue;
+      const problem = problems.find((each) => ofPath(path, each));
+      input.showProblem(problem);
+      if (problem) input.element.closest("details")!.open = true;
+    }
     for (const [path, line] of this.beside) {
       const found = problems.filter((problem) => ofPath(path, problem));
       setText(line, found.map(({ field, message, remedy }) =>

@@ -6,7 +6,7 @@ import { button, h, labelled, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { showHint } from "./field_input";
 import { readReal } from "./typed_number";
-import { choicesOf, labelOf, unitOf } from "./words";
+import { labelOf, unitOf } from "./words";
 
 /** The axis that a text describes, or what is wrong with the text. */
 export function axisOf(field: string, text: string): SweepAxis | string {
@@ -139,7 +139,7 @@ export class SweepInput {
   }
 
   setPaths(paths: string[]): void {
-    this.paths = paths.filter((path) => choicesOf(path).length === 0);
+    this.paths = paths;
     if (this.axes.length === 0 && this.paths.length > 0) {
       const first = this.append();
       const speed = "loading.speed_m_per_s";

@@ -30,6 +30,9 @@ export function readReal(text: string): TypedNumber {
   return { plain: sign + whole + (fraction && `.${fraction}`) + exponent };
 }
 
+/** What stands between blanks, semicolons, or commas with a blank: a comma without one may be a decimal sign. */
+export const entriesOf = (text: string): string[] => text.trim().split(/\s*;\s*|,?\s+/).filter(Boolean);
+
 /** The shortest form of a plain number: "1.2" of "1.200". */
 export function shortest(plain: string): string {
   return /^-?\d+$/.test(plain) ? String(BigInt(plain)) : String(Number(plain)).replace("e+", "e");

@@ -2,7 +2,8 @@
 import { getOption, ScalarType } from "@bufbuild/protobuf";
 import { rules, type FieldRules } from "../../gen/cellcrush/v1/field_pb";
 import help from "../../gen/help.json";
-import { fieldAt } from "./fields";
+import { fieldAt, isTable } from "./fields";
+import { columnsOf, type Column } from "./table_text";
 
 const messages: Record<string, Record<string, string>> = help.messages;
 const enums: Record<string, Record<string, string>> = help.enums;
@@ -33,6 +34,7 @@ const kLabels: Record<string, string> = {
   "lattice.outline.corners_mm": "Corners of the outline",
   "lattice.outline.edge_wall_thickness_mm": "Thickness of walls along the outline",
   amplitude_mm: "Offset of joints, at most", bow_mm: "Bow of walls, at most",
+  beyond: "Hardening beyond the table",
   plane: "Plane stress or strain", direction: "Direction",
   sample_count: "Samples", frame_count: "Frames", vertical_wall_thickness_mm: "Thickness of the walls along y",
   gravity_x_m_per_s2: "Gravity along x", gravity_y_m_per_s2: "Gravity along y",
@@ -50,9 +52,11 @@ export function labelOf(path: string): string {
 
 const messageName = (typeName: string): string => typeName.replace("cellcrush.v1.", "");
 
+/** Help of the field at a path; of a table with that of its columns. */
 export function helpOf(path: string): string {
   const { field, parent } = fieldAt(path);
-  return fieldHelp(messageName(parent.typeName), field.name);
+  return [fieldHelp(messageName(parent.typeName), field.name),
+          ...columnsOf(field).map(({ name }) => helpOf(`${path}.${name}`))].join(" ");
 }
 
 const rulesOf = (path: string): FieldRules => getOption(fieldAt(path).field, rules);
@@ -66,8 +70,17 @@ export function defaultOf(path: string): string {
   return isSometimesRequired(of) ? "" : of.required ? "required" : of.default;
 }
 
+// What a row of a table has: "2 to 64 rows: rates in 1/s and factors".
+function rowLimitsOf(columns: Column[]): string {
+  const { minimum, maximum } = getOption(columns[0], rules);
+  const names = columns.map(({ name }) => [nameOf(name).words, nameOf(name).unit].filter(Boolean).join(" in "));
+  return `${minimum} to ${maximum} rows: ${names.join(" and ")}`;
+}
+
 /** What a field may be, from its options: "Required, 2 to 10000" or "Default 0.8; 0.0001 to below 0.95". */
 export function limitsOf(path: string): string {
+  const columns = columnsOf(fieldAt(path).field);
+  if (columns.length) return rowLimitsOf(columns);
   const of = rulesOf(path);
   const { required, default: value, minimum, maximum, below, upTo, limits } = of;
   const most = maximum === undefined ? upTo : number(maximum);
@@ -78,6 +91,13 @@ export function limitsOf(path: string): string {
   const all = [range, limits].filter(Boolean).join(", ");
   const start = required ? "Required" : value && `Default ${value}`;
   return [start, all].filter(Boolean).join(required ? ", " : "; ");
+}
+
+/** Where in the value of a field a problem is, to begin a sentence: "Stresses, row 2"; empty for the field itself. */
+export function placeIn(path: string, place: string): string {
+  const [, column, index] = place.slice(path.length).match(/^(\.\w+)?(?:\[(\d+)\])?$/) ?? [];
+  const number = index !== undefined && `${isTable(path) ? "row" : "entry"} ${Number(index) + 1}`;
+  return [column && labelOf(path + column), number].filter(Boolean).join(", ");
 }
 
 // As in a case file: "1e-6", "100000".
