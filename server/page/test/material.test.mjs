@@ -2,8 +2,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
 import { CaseSchema } from "../gen/cellcrush/v1/case_pb";
+import { NamedMaterialSchema } from "../gen/cellcrush/v1/cases_service_pb";
 import { groupsOf, isNumber, isTable, kLatticeKinds, pathsBeside, readField, typedAt,
          writeField } from "../src/new_case/fields";
+import { NamedMaterials } from "../src/new_case/named_materials";
 import { helpOf, limitsOf, placeIn } from "../src/new_case/words";
 
 const kHardening = "material.hardening_table";
@@ -69,4 +71,39 @@ test("a sweep varies numbers only", () => {
   for (const path of ["material.named", "material.plane", kRate, "loading.quasi_static"]) {
     assert.ok(!isNumber(path), path);
   }
+});
+
+const kSteel = create(NamedMaterialSchema, {
+  name: "steel", title: "A steel", material: { youngsModulusMpa: 207000, yieldStressMpa: 250, ludwikStressMpa: 100 },
+});
+const kOther = create(NamedMaterialSchema, { name: "other", material: { youngsModulusMpa: 1000 } });
+
+test("a picked material stands for all numbers, and none has those from before", () => {
+  const materials = new NamedMaterials([kSteel, kOther]);
+  const value = create(CaseSchema, { material: { youngsModulusMpa: 69000, hardeningModulusMpa: 700, plane: 1 } });
+  const plain = { ...value.material };
+  assert.equal(materials.givenAt(value, "material.youngs_modulus_mpa"), undefined);
+  materials.pick(value, "steel");
+  assert.equal(materials.of(value), kSteel);
+  assert.deepEqual([value.material.named, value.material.youngsModulusMpa, value.material.hardeningModulusMpa],
+                   ["steel", undefined, undefined]);
+  assert.deepEqual(materials.givenAt(value, "material.ludwik_stress_mpa"), { text: "100", by: "steel" });
+  assert.equal(materials.givenAt(value, "material.voce_stress_mpa"), undefined);
+  writeField(value, "material.yield_stress_mpa", "300");
+  materials.pick(value, "other");
+  assert.equal(value.material.yieldStressMpa, undefined);
+  writeField(value, "material.plane", "PLANE_STRAIN");
+  materials.pick(value, "");
+  assert.deepEqual({ ...value.material }, { ...plain, plane: 2 });
+  assert.equal(limitsOf("material.youngs_modulus_mpa", "From steel"), "From steel; 1e-6 to 1e12");
+});
+
+test("a case keeps a name that the daemon does not know, and the numbers beside it", () => {
+  const value = create(CaseSchema, { material: { named: "alloy", youngsModulusMpa: 500 } });
+  const materials = new NamedMaterials([kSteel]);
+  assert.deepEqual(materials.choicesOf(value).map((choice) => choice.value), ["steel", "alloy"]);
+  assert.deepEqual(new NamedMaterials([]).choicesOf(value), []);
+  assert.equal(materials.of(value), undefined);
+  materials.pick(value, "");
+  assert.deepEqual([value.material.named, value.material.youngsModulusMpa], ["", 500]);
 });

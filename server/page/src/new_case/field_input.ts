@@ -4,6 +4,7 @@ import { Problem_Kind } from "../../gen/cellcrush/v1/problem_pb";
 import { h, labelled, setText } from "../dom/element";
 import { plural } from "../dom/format";
 import { fieldAt, isNumber, isTable, typedAt } from "./fields";
+import type { Given } from "./named_materials";
 import { columnsOf, rowsOf } from "./table_text";
 import { shortest } from "./typed_number";
 import { choicesOf, defaultOf, helpOf, labelOf, limitsOf, placeIn, unitOf } from "./words";
@@ -18,9 +19,10 @@ export class FieldInput {
   readonly element: HTMLElement;
   private readonly input: HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
   private readonly line = h("div", { class: "limits" });
+  private origin: Given | undefined;
 
-  constructor(private readonly path: string, on: { changed(text: string): void; focused(path: string): void }) {
-    const choices = choicesOf(path);
+  constructor(private readonly path: string, on: { changed(text: string): void; focused(path: string): void },
+              choices = choicesOf(path)) {
     const asTyped = { autocomplete: "off", spellcheck: "false", placeholder: defaultOf(path) };
     if (choices.length) {
       this.input = h("select", {}, h("option", { value: "" }, `default: ${defaultOf(path)
@@ -50,10 +52,24 @@ export class FieldInput {
     this.input.disabled = isDisabled;
   }
 
+  /** What stands for an empty text, in place of the default. */
+  set given(given: Given | undefined) {
+    this.origin = given;
+    if ("placeholder" in this.input) this.input.placeholder = given?.text ?? defaultOf(this.path);
+    this.showProblem(undefined);
+  }
+
   showUnreadable(): void {
     const text = this.text.trim();
     const problem = typedAt(this.path, text)?.problem;
     this.show("error", isTable(this.path) ? problem ?? "" : `“${text}” ${problem ?? "is out of range"}.`);
+  }
+
+  private get limits(): string {
+    if (!this.origin) return limitsOf(this.path);
+    const { by, text } = this.origin;
+    const isOwn = this.text.trim() !== "";
+    return limitsOf(this.path, !isOwn ? `From ${by}` : `${by} has ${isTable(this.path) ? "another table" : text}`);
   }
 
   // A number as it was read, where it is not written so; of a table, how far its rows go.
@@ -69,7 +85,7 @@ export class FieldInput {
   }
 
   showProblem(problem: Problem | undefined): void {
-    if (!problem) return this.show("", [this.reading, limitsOf(this.path)].filter(Boolean).join(" · "));
+    if (!problem) return this.show("", [this.reading, this.limits].filter(Boolean).join(" · "));
     const message = `${placeIn(this.path, problem.field)} ${problem.message} ${problem.remedy}`.trim();
     this.show(problem.kind === Problem_Kind.IMPLAUSIBLE ? "warning" : "error",
               message.charAt(0).toUpperCase() + message.slice(1));

@@ -21,7 +21,7 @@ export interface Group { title: string; paths: string[]; isOpen: boolean }
 const singleFields = (message: DescMessage): string[] => message.fields.filter(({ fieldKind }) =>
   fieldKind === "scalar" || fieldKind === "enum").map(({ name }) => name);
 
-const kMaterial = ["youngs_modulus_mpa", "yield_stress_mpa", "density_kg_per_m3", "hardening_modulus_mpa"];
+const kMaterial = ["named", "youngs_modulus_mpa", "yield_stress_mpa", "density_kg_per_m3", "hardening_modulus_mpa"];
 const kCrush = ["direction", "speed_m_per_s", "quasi_static", "kinetic_share", "end_strain", "ramp_strain"];
 
 /** The groups of the form for a kind of lattice. What a kind has at a place of its own is not in its loading. */

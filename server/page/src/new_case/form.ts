@@ -7,6 +7,7 @@ import { iconButton } from "../dom/icons";
 import { FieldInput } from "./field_input";
 import { groupsOf, isListed, isNumber, isTable, kLatticeKinds, linesOf, pathsBeside, readField, writeField, type Group,
          type LatticeKind } from "./fields";
+import { kNamed, NamedMaterials } from "./named_materials";
 import { defaultOf, fieldHelp, helpOf, labelOf } from "./words";
 
 export class CaseForm {
@@ -19,6 +20,8 @@ export class CaseForm {
   private readonly kinds = kLatticeKinds.filter((kind) => !isListed(kind));
   private readonly kind = h("select", {}, ...this.kinds.map(({ name }) =>
     h("option", { value: name }, fieldHelp("Lattice", name).replace(/\.$/, "") || name)));
+  private materials = new NamedMaterials([]);
+  private readonly about = h("div", { class: "about-material", "aria-live": "polite" });
   private value!: Case;
 
   constructor(private readonly on: { changed(): void; focused(path: string): void }) {
@@ -33,9 +36,10 @@ export class CaseForm {
     });
   }
 
-  /** Shows a case, which the form then changes. */
-  setCase(value: Case): void {
+  /** Shows a case, which the form then changes, and the materials that it may name. */
+  setCase(value: Case, materials: NamedMaterials): void {
     this.value = value;
+    this.materials = materials;
     this.title.value = value.title ?? "";
     this.build();
   }
@@ -61,7 +65,8 @@ export class CaseForm {
       isNewer && h("p", { class: "banner warning" }, "The lattice is one of a newer server, and stays as it is."),
       beside.length > 0 && h("dl", { class: "facts beside" }, ...beside.map((path) => this.rowBeside(path))),
       ...groups);
-    for (const path of this.inputs.keys()) if (isTable(path)) this.showWithRows(path);
+    this.inputs.get(kNamed)!.element.after(this.about);
+    this.showMaterial();
   }
 
   // What has no field is kept as it is, or removed.
@@ -90,20 +95,40 @@ export class CaseForm {
     const input = new FieldInput(path, {
       changed: (text) => this.take(path, input, text),
       focused: (focused) => this.on.focused(focused),
-    });
+    }, path === kNamed ? this.materials.choicesOf(this.value) : undefined);
     input.text = readField(this.value, path);
     this.inputs.set(path, input);
     return input;
   }
 
   private take(path: string, input: FieldInput, text: string): void {
-    const isValue = writeField(this.value, path, text);
+    const isPick = path === kNamed && !this.materials.isEmpty;
+    if (isPick) this.materials.pick(this.value, text);
+    const isValue = isPick || writeField(this.value, path, text);
     if (isValue) this.unreadable.delete(path);
     else this.unreadable.add(path);
     if (isValue) input.showProblem(undefined);
     else input.showUnreadable();
-    if (isTable(path)) this.showWithRows(path);
+    if (isPick) this.showMaterial();
+    else if (isTable(path)) this.showWithRows(path);
     this.on.changed();
+  }
+
+  // The fields of the material, and what its name gives them.
+  private showMaterial(): void {
+    const named = this.materials.of(this.value);
+    for (const [path, input] of this.inputs) {
+      if (!path.startsWith("material.")) continue;
+      const given = this.materials.givenAt(this.value, path);
+      input.text = readField(this.value, path);
+      input.given = given;
+      this.unreadable.delete(path);
+      if (given) input.element.closest("details")!.open = true;
+    }
+    for (const path of this.inputs.keys()) if (isTable(path)) this.showWithRows(path);
+    this.about.hidden = this.materials.isEmpty;
+    replaceChildren(this.about, named && h("strong", {}, `${named.title}. `), named?.sources.join(" "),
+      !this.value.material?.named && "Without a name, the numbers are those of the fields.");
   }
 
   // What a table has beside its rows counts with them only.

@@ -13,6 +13,7 @@ import { DrawingInput } from "./drawing_input";
 import { OrderInput } from "./order";
 import { Forecast } from "./forecast";
 import { CaseForm } from "./form";
+import { NamedMaterials } from "./named_materials";
 import { Preview } from "./preview";
 import { jobCount, SweepInput } from "./sweep_axis";
 import { helpOf, labelOf } from "./words";
@@ -65,6 +66,7 @@ export class NewCasePage implements View {
   private readonly start = h("button", { type: "submit", class: "primary", disabled: true }, "Start the job");
   private readonly cost = h("span", { class: "faint" });
   private readonly problem = h("div", { class: "banner error", hidden: true });
+  private readonly materials = ifAny(api.cases.listMaterials({})).then((answer) => answer?.materials ?? []);
   private value: Case = create(CaseSchema);
   private check: CheckCaseResponse | undefined;
   private abort = new AbortController();
@@ -120,21 +122,22 @@ export class NewCasePage implements View {
       if (from.startsWith("jobs/")) {
         const job = await api.jobs.getJob({ name: from });
         setText(this.about, `The case of job ${idOf(from)}`);
-        this.setCase(job.case);
+        await this.setCase(job.case);
       } else {
         const preset = await api.cases.getPreset({ name: from.replace("preset:", "") });
         setText(this.about, preset.title);
         this.about.title = preset.assumptions.join(" ");
-        this.setCase(preset.case);
+        await this.setCase(preset.case);
       }
     } catch (error) {
       setBanner(this.problem, errorText(error));
     }
   }
 
-  private setCase(value: Case | undefined): void {
+  private async setCase(value: Case | undefined): Promise<void> {
+    const materials = new NamedMaterials(await this.materials);
     this.value = clone(CaseSchema, value ?? create(CaseSchema));
-    this.form.setCase(this.value);
+    this.form.setCase(this.value, materials);
     this.sweepInput.setPaths(this.form.paths);
     void this.runCheck();
   }
@@ -147,7 +150,7 @@ export class NewCasePage implements View {
     value.lattice.inclusions = undefined;
     value.title = title;
     setText(this.about, "");
-    this.setCase(value);
+    void this.setCase(value);
   }
 
   private showHelp(path: string): void {

@@ -34,7 +34,7 @@ const kLabels: Record<string, string> = {
   "lattice.outline.corners_mm": "Corners of the outline",
   "lattice.outline.edge_wall_thickness_mm": "Thickness of walls along the outline",
   amplitude_mm: "Offset of joints, at most", bow_mm: "Bow of walls, at most",
-  beyond: "Hardening beyond the table",
+  named: "Named material", beyond: "Hardening beyond the table",
   plane: "Plane stress or strain", direction: "Direction",
   sample_count: "Samples", frame_count: "Frames", vertical_wall_thickness_mm: "Thickness of the walls along y",
   gravity_x_m_per_s2: "Gravity along x", gravity_y_m_per_s2: "Gravity along y",
@@ -77,10 +77,13 @@ function rowLimitsOf(columns: Column[]): string {
   return `${minimum} to ${maximum} rows: ${names.join(" and ")}`;
 }
 
-/** What a field may be, from its options: "Required, 2 to 10000" or "Default 0.8; 0.0001 to below 0.95". */
-export function limitsOf(path: string): string {
+/**
+ * What a field may be, from its options: "Required, 2 to 10000" or "Default 0.8; 0.0001 to below 0.95". `origin` of its
+ * value replaces that it is required, or its default.
+ */
+export function limitsOf(path: string, origin = ""): string {
   const columns = columnsOf(fieldAt(path).field);
-  if (columns.length) return rowLimitsOf(columns);
+  if (columns.length) return [origin, rowLimitsOf(columns)].filter(Boolean).join("; ");
   const of = rulesOf(path);
   const { required, default: value, minimum, maximum, below, upTo, limits } = of;
   const most = maximum === undefined ? upTo : number(maximum);
@@ -89,8 +92,8 @@ export function limitsOf(path: string): string {
     : minimum === undefined ? "" : `${number(minimum)} to ${below ? "below " : ""}${most}`;
   if (isSometimesRequired(of)) return [`R${limits.slice(1)}`, range].filter(Boolean).join("; ");
   const all = [range, limits].filter(Boolean).join(", ");
-  const start = required ? "Required" : value && `Default ${value}`;
-  return [start, all].filter(Boolean).join(required ? ", " : "; ");
+  const start = origin || (required ? "Required" : value && `Default ${value}`);
+  return [start, all].filter(Boolean).join(required && !origin ? ", " : "; ");
 }
 
 /** Where in the value of a field a problem is, to begin a sentence: "Stresses, row 2"; empty for the field itself. */
