@@ -143,6 +143,43 @@ test('a case keeps its loads in the form, and problems stand at what they are ab
   assert.deepEqual(sent.loading, { ...submitted.loading, endAtRest: 0.25 });
 });
 
+test('a material is picked by its name, tables are pasted, and both come back with the case', async () => {
+  await page.goto(daemon.url + '/new');
+  const inField = (label) => page.locator('.field', { hasText: label });
+  await page.getByLabel('Named material').selectOption('AISI 4340');
+  await page.getByText('torsion tests and Hopkinson bars').waitFor();
+  assert.equal(await page.getByLabel('Yield stress').inputValue(), '');
+  assert.equal(await page.getByLabel('Ludwik stress').getAttribute('placeholder'), '510');
+  await page.getByLabel('Density').fill('7800');
+  await inField('Density').getByText('AISI 4340 has 7830').waitFor();
+  await page.getByLabel('Ludwik stress').fill('0');
+  assert.ok(await page.getByLabel('Hardening beyond the table').isDisabled());
+  await page.getByLabel('Hardening table').fill('0\t800\n0,05\t');
+  await page.getByText('Row 2 has 1 number, not 2.').waitFor();
+  await page.getByLabel('Hardening table').fill('0\t800\n0,05\t900');
+  await inField('Hardening table').getByText('Stresses, row 1 is not the yield stress of 792 MPa.').waitFor();
+  await page.getByLabel('Hardening table').fill('0\t792\n0,05\t900');
+  await page.getByLabel('Hardening beyond the table').selectOption('POWER_LAW');
+  await page.getByLabel('End strain').fill('0.01');
+  await page.getByRole('button', { name: 'Start the job' }).and(page.locator(':enabled')).waitFor();
+  assert.deepEqual(await axeFindings(page), []);
+  await page.getByRole('button', { name: 'Start the job' }).click();
+  await page.waitForURL((url) => /jobs/.test(url.pathname));
+  const name = new URL(page.url()).pathname.slice(1);
+  const { material } = (await daemon.call('Jobs/GetJob', { name })).case;
+  assert.deepEqual([material.named, material.yieldStressMpa, material.densityKgPerM3], ['AISI 4340', 792, 7800]);
+  assert.deepEqual(material.hardeningTable,
+                   { plasticStrains: [0, 0.05], stressesMpa: [792, 900], beyond: 'POWER_LAW' });
+  await page.goto(`${daemon.url}/new?from=${name}`);
+  assert.equal(await page.getByLabel('Hardening table').inputValue(), '0\t792\n0.05\t900');
+  assert.equal(await page.getByLabel('Hardening beyond the table').inputValue(), 'POWER_LAW');
+  // A daemon that is older than named materials.
+  await page.route('**/cellcrush.v1.Cases/ListMaterials', (route) => route.fulfill({ status: 404 }));
+  await page.reload();
+  assert.equal(await page.getByRole('textbox', { name: 'Named material' }).inputValue(), 'AISI 4340');
+  await page.unroute('**/cellcrush.v1.Cases/ListMaterials');
+});
+
 test('a note from the form is edited by keyboard, and no other caller is overwritten unread', async () => {
   await page.goto(daemon.url + '/new');
   await page.getByText('Note, labels and priority').click();
