@@ -108,7 +108,7 @@ LatticeStage lattice_stage(const MeshFrame& frame, const RigidWalls& rigid_walls
           .side_low_mm = mesh.side_low_mm(),
           .side_high_mm = mesh.side_high_mm(),
           .gripped = {mesh.gripped().begin(), mesh.gripped().end()},
-          .faces = rigid_walls.at(field.time_s()),
+          .faces = rigid_walls.at(field.time_s(), mesh),
           .strain = field.strain(),
           .time_s = field.time_s()};
 }

@@ -13,14 +13,19 @@ namespace cellcrush::client {
 /// The rigid walls of a case, moved by the displacements of the samples of its run.
 class RigidWalls {
  public:
+  struct Start {
+    WallFace face;
+    bool at_edge = false;  ///< counted from the outermost surface of the lattice
+  };
+
   RigidWalls() = default;
   RigidWalls(const v1::Case& submitted, std::vector<v1::Sample> samples);
 
-  /// The faces at a time; before the first sample those at the start. Empty without rigid walls.
-  [[nodiscard]] std::vector<WallFace> at(double time_s) const;
+  /// The faces at a time; before the first sample those at the start. Empty without rigid walls. `mesh`: of the case.
+  [[nodiscard]] std::vector<WallFace> at(double time_s, const v1::Mesh& mesh) const;
 
  private:
-  std::vector<WallFace> start_;
+  std::vector<Start> start_;
   std::vector<v1::Sample> samples_;  ///< times ascending
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 #include "results/energy_terms.h"
@@ -29,6 +30,12 @@ bool has_closed(const v1::Summary& summary) {
   return summary.end() == v1::Summary::END_CLOSED || std::ranges::any_of(summary.warnings(), [](const auto& warning) {
            return warning.kind() == v1::Warning::CLOSED;
          });
+}
+
+// Whether a lattice is crushed against something: one rigid wall alone crushes against nothing.
+bool has_support(const v1::Summary& summary) {
+  const auto is_side = [](const v1::RigidWallSummary& wall) { return wall.wall().starts_with("side_"); };
+  return std::ranges::count_if(summary.rigid_walls(), std::not_fn(is_side)) != 1;
 }
 
 void add_plateau_rows(Table& table, const v1::Summary& summary) {
@@ -61,8 +68,10 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   } else if (const std::string absent = absent_theory_text(summary); !absent.empty()) {
     table.add({"", "", "none", absent});
   }
-  stress_row("support", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
-             summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
+  if (has_support(summary)) {
+    stress_row("support", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
+               summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
+  }
   if (summary.has_peak_stress_mpa()) {
     table.add({"peak stress, impact plate", quantity_text(summary.peak_stress_mpa(), "MPa"), "",
                fmt::format("mean over {:.3g} % strain, at {:.3g}", 100 * summary.peak_stress_window(),
@@ -107,6 +116,7 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   if (summary.has_valid_to_strain()) {
     table.add({"valid to strain", number_text(summary.valid_to_strain()), "", "the lattice is closed from there on"});
   }
+  if (!has_support(summary)) return;
   // For a run that ended earlier, this is the total work of its plate.
   const bool whole = summary.absorbed_energy_mj() > (1.0 - 1e-9) * summary.ledger().work_external_mj();
   const double to = std::min(0.5, summary.has_valid_to_strain() ? summary.valid_to_strain() : 0.5);
@@ -177,6 +187,20 @@ void add_rigid_links_row(Table& table, const v1::Summary& summary) {
   table.add({"rigid links", count_text(summary.rigid_link_count()), "", "beams too short to bend"});
 }
 
+// What instruments at the walls would have shown. A wall that stands still has no stroke.
+std::string rigid_walls_text(const v1::Summary& summary, int width) {
+  if (summary.rigid_walls().empty()) return {};
+  Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right});
+  table.add({"rigid walls", "peak force", "deceleration", "stroke", "end velocity", "impulse", "work"});
+  for (const v1::RigidWallSummary& wall : summary.rigid_walls()) {
+    table.add({"  " + printable(wall.wall()), quantity_text(wall.peak_force_n(), "N"),
+               number_text(wall.peak_deceleration_m_per_s2()) + " m/s2", number_text(wall.stroke_mm()) + " mm",
+               number_text(wall.end_velocity_m_per_s()) + " m/s", number_text(wall.impulse_n_s()) + " N s",
+               quantity_text(wall.work_mj(), "mJ")});
+  }
+  return '\n' + table.text(2, width);
+}
+
 void add_overlaps_row(Table& table, const v1::Summary& summary) {
   if (summary.start_overlap_count() == 0) return;
   table.add({"overlaps before loading", count_text(summary.start_overlap_count()), "", "pairs of walls"});
@@ -216,7 +240,7 @@ std::string summary_text(const v1::Job& job, int width) {
   const bool plates = has_strain(job.words());
   Table table({Align::left, Align::right, Align::right, Align::left});
   if (plates) {
-    if (job.words().rigid_wall_plates()) table.add({"impact plate", "", "", "the rigid wall that moves"});
+    if (job.words().rigid_wall_plates()) table.add({"impact plate", "", "", "the rigid wall that moves, or stands alone"});
     add_plateau_rows(table, summary);
     add_quasi_static_rows(table, summary);
     add_inertia_row(table, summary);
@@ -237,6 +261,7 @@ std::string summary_text(const v1::Job& job, int width) {
   if (!note.empty() && plates) text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
   for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning, width);
   if (plates && summary.has_front()) text += '\n' + front_text(summary.front(), width);
+  text += rigid_walls_text(summary, width);
   if (summary.has_ledger()) text += '\n' + ledger_text(summary.ledger(), width);
   return text;
 }

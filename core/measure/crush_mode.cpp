@@ -8,6 +8,7 @@
 
 #include "contact/repeated_mesh.h"
 #include "contact/topology/face_loops.h"
+#include "push/crush.h"
 
 namespace cellcrush {
 namespace {
@@ -263,7 +264,7 @@ Cells find_cells(const Scene& scene) {
   const Scene& mesh = scene.repeated != nullptr ? *scene.repeated : scene;
   cells.faces = trace_faces(mesh.position, mesh.elements);
   if (scene.repeated != nullptr) cells.faces = of_one_period(scene, cells.faces);
-  const int axis = scene.plates.axis;
+  const int axis = crush_axis_of(scene);
   Vector2 low = scene.position.front();
   Vector2 high = low;
   for (const Vector2& position : scene.position) {

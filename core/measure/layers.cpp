@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measure/theory.h"
+#include "push/crush.h"
 #include "push/push.h"
 
 namespace cellcrush {
@@ -161,7 +162,7 @@ double width_of(const std::vector<Layer>& layers, std::size_t at, std::size_t re
 }  // namespace
 
 Columns divide_into_columns(const Scene& scene, double pitch) {
-  const int axis = scene.plates.axis;
+  const int axis = crush_axis_of(scene);
   const auto [low, high] = std::minmax_element(scene.position.begin(), scene.position.end(),
                                                [&](const Vector2& a, const Vector2& b) { return a[axis] < b[axis]; });
   const double extent = (*high)[axis] - (*low)[axis];
@@ -238,7 +239,7 @@ LayerSize size_of_layers(const Scene& scene, double pitch) {
 }
 
 DensestLayer find_densest_layer(const Scene& scene, const State& state, const LayerSize& size) {
-  const int axis = scene.plates.axis;
+  const int axis = crush_axis_of(scene);
   const auto before = [axis](const Vector2& a, const Vector2& b) { return a[axis] < b[axis]; };
   const auto [first, last] = std::minmax_element(state.position.begin(), state.position.end(), before);
   const double begin = (*first)[axis];

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cellcrush/simulation.h"
+#include "push/crush.h"
 
 namespace cellcrush {
 namespace {
@@ -46,7 +47,7 @@ LocalStrain::LocalStrain(const Scene& scene, const Faces& faces) : wall_count_(s
       squares += from_centre * from_centre.transpose();
     }
     if (squares.determinant() > kOnALine * squares.trace() * squares.trace()) {
-      const Vector2 column = squares.inverse().col(scene.plates.axis);
+      const Vector2 column = squares.inverse().col(crush_axis_of(scene));
       for (const int corner : corners) joints_.push_back({corner, (mesh.position[corner] - centre).dot(column)});
       for (const int element : faces.elements_of(face))
         walls_.push_back(wall_of[element % static_cast<int>(scene.element_count())]);

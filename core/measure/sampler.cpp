@@ -18,6 +18,7 @@
 #include "measure/warnings.h"
 #include "motion/grips.h"
 #include "push/crush.h"
+#include "push/half_planes.h"
 #include "scene/solid_area.h"
 
 namespace cellcrush {
@@ -87,24 +88,31 @@ ReactionImpulse impulse_at(const Scene& scene, const State& state, int node) {
   return sum;
 }
 
+/// Between rigid walls that face each other, or of a lattice at an only wall.
+double solid_fraction_by_walls(const Scene& scene, std::span<const Vector2> position,
+                               std::span<const RigidWallMotion> motions, double strain) {
+  return is_crushed(scene) && !has_support(scene) ? solid_fraction_at(scene, strain)
+                                                  : solid_fraction_between_walls(scene, position, motions);
+}
+
 }  // namespace
 
 Sampler::Sampler(const Scene& scene)
     : last_reaction_impulse_(scene.watched.size()),
-      last_wall_impulse_(scene.rigid_walls.size()),
+      last_wall_totals_(scene.rigid_walls.size()),
       last_grip_impulse_(scene.grips.size(), Vector2(0.0, 0.0)),
       next_check_(kModeFrom) {
-  if (scene.plates.present) {
+  if (is_crushed(scene)) {
     cells_ = find_cells(scene);
     local_strain_ = LocalStrain(scene, cells_.faces);
-  } else {
-    const double fraction = solid_fraction_between_walls(scene, scene.position, {});
-    can_close_between_walls_ = fraction > 0.0 && fraction < kClosed;  // a column fills them from the first
-  }
-  if (is_crushed(scene)) {
     side_pairs_ =
         find_side_pairs(scene, cells_.faces.count() > 0 ? cells_.field.pitch : scene.length / kRowsWithoutCells);
   }
+  if (!scene.plates.present) {
+    const double fraction = solid_fraction_by_walls(scene, scene.position, {}, 0.0);
+    can_close_by_walls_ = fraction > 0.0 && fraction < kClosed;  // a column fills them from the first
+  }
+  for (const RigidWall& wall : scene.rigid_walls) last_wall_speed_.push_back(wall.kind->start(scene, wall).speed);
   if (cells_.faces.count() > 0) {
     columns_ = divide_into_columns(scene, cells_.field.pitch);
     layer_size_ = size_of_layers(scene, cells_.field.pitch);
@@ -131,10 +139,13 @@ void Sampler::measure_watched(const Scene& scene, const State& state, Sample& sa
 void Sampler::measure_rigid_walls(const Scene& scene, const State& state, Sample& sample) {
   const double interval = state.time - last_time_;
   for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
-    RigidWallSample of_wall = {state.rigid_wall_motion[wall].travel, 0.0, 0.0};
+    const RigidWallMotion& motion = state.rigid_wall_motion[wall];
+    const RigidWallTotals& now = state.rigid_wall_totals[wall];
+    RigidWallSample of_wall = {.displacement = motion.travel, .speed = motion.speed, .impulse = now.normal,
+                               .work = now.work};
     if (interval > 0.0) {
-      const RigidWallImpulse now = state.rigid_wall_impulse[wall];
-      const RigidWallImpulse before = std::exchange(last_wall_impulse_[wall], now);
+      const RigidWallTotals before = std::exchange(last_wall_totals_[wall], now);
+      of_wall.acceleration = (motion.speed - std::exchange(last_wall_speed_[wall], motion.speed)) / interval;
       of_wall.normal_force = (now.normal - before.normal) / interval;
       of_wall.tangential_force = (now.tangential - before.tangential) / interval;
     }
@@ -170,10 +181,11 @@ void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sam
   last_support_impulse_ = support_impulse;
 }
 
-/// The curve is that of the mean of both plates, smoothed over the last Summary::kPeakWindow of strain, or over all of
+/// The curve is that of the mean of both plates, or of the impact plate without a support, smoothed over the last Summary::kPeakWindow of strain, or over all of
 /// it before the first window is complete.
-void Sampler::measure_efficiency(Sample& sample) {
-  const double stress = 0.5 * (sample.stress_impact + sample.stress_support);
+void Sampler::measure_efficiency(const Scene& scene, Sample& sample) {
+  const double stress =
+      has_support(scene) ? 0.5 * (sample.stress_impact + sample.stress_support) : sample.stress_impact;
   const Absorbed& before = absorbed_.back();
   const Absorbed now = {sample.strain, before.energy + stress * (sample.strain - before.strain)};
   absorbed_.push_back(now);
@@ -191,8 +203,8 @@ void Sampler::measure_closing(const Scene& scene, const State& state, Sample& sa
   if (scene.plates.present) {
     sample.solid_fraction = solid_fraction_at(scene, sample.strain);
     is_closed = is_past_closing(scene, sample.strain);
-  } else if (can_close_between_walls_) {
-    sample.solid_fraction = solid_fraction_between_walls(scene, state.position, state.rigid_wall_motion);
+  } else if (can_close_by_walls_) {
+    sample.solid_fraction = solid_fraction_by_walls(scene, state.position, state.rigid_wall_motion, sample.strain);
     is_closed = sample.solid_fraction > kClosed;
   }
   if (is_closed && !has_warned_of_closing_) {
@@ -212,7 +224,7 @@ void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& s
     sample.crush_mode = find_crush_mode(field);
     next_check_ = sample.collapsed_fraction + kCheckEvery;
   }
-  sample.front = find_front(columns_, scene, state);
+  if (scene.plates.present) sample.front = find_front(columns_, scene, state);
   if (sample.strain >= next_layer_strain_ && all_finite(state.position)) {
     densest_layer_ = find_densest_layer(scene, state, layer_size_);
     next_layer_strain_ = sample.strain + kLayerEvery;
@@ -250,7 +262,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   if (is_crushed(scene)) {
     sample.strain = crush_strain_of(scene, state);
     measure_stress(scene, state, sample);
-    measure_efficiency(sample);
+    measure_efficiency(scene, sample);
     sample.lateral_strain = state.sides.empty() ? lateral_strain_of(side_pairs_, scene, state)
                                                 : state.sides.front().width / scene.period.length - 1.0;
     measure_collapse(scene, state, sample);

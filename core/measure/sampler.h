@@ -34,7 +34,8 @@ class Sampler {
     visitor(last_impact_impulse_);
     visitor(last_support_impulse_);
     visitor(last_reaction_impulse_);
-    visitor(last_wall_impulse_);
+    visitor(last_wall_totals_);
+    visitor(last_wall_speed_);
     visitor(last_grip_impulse_);
     visitor(has_warned_of_depth_);
     visitor(has_warned_of_search_);
@@ -53,14 +54,14 @@ class Sampler {
   void measure_grips(const Scene& scene, const State& state, Sample& sample);
   void measure_closing(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
-  void measure_efficiency(Sample& sample);
+  void measure_efficiency(const Scene& scene, Sample& sample);
   void measure_collapse(const Scene& scene, const State& state, Sample& sample);
   void find_warnings(const Scene& scene, const State& state, Sample& sample);
 
   /// Energy that a volume of the lattice has absorbed by a sample.
   struct Absorbed {
     double strain = 0.0;  ///< nominal
-    double energy = 0.0;  ///< N mm / mm^3, from the mean stress of both plates
+    double energy = 0.0;  ///< N mm / mm^3, of its curve
   };
 
   Cells cells_;
@@ -72,7 +73,8 @@ class Sampler {
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;
   std::vector<ReactionImpulse> last_reaction_impulse_;  ///< of the watched particles
-  std::vector<RigidWallImpulse> last_wall_impulse_;     ///< of the rigid walls
+  std::vector<RigidWallTotals> last_wall_totals_;       ///< of the rigid walls
+  std::vector<double> last_wall_speed_;                 ///< mm/s
   std::vector<Vector2> last_grip_impulse_;              ///< of the grips
   bool has_warned_of_depth_ = false;
   bool has_warned_of_search_ = false;
@@ -82,7 +84,7 @@ class Sampler {
   double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
   std::vector<Absorbed> absorbed_ = std::vector<Absorbed>(1);  ///< the first at or before the window of the efficiency
-  bool can_close_between_walls_ = false;  ///< rigid walls face each other, with gaps between them before loading
+  bool can_close_by_walls_ = false;  ///< rigid walls crush, with gaps in what is between them before loading
   double next_check_;                     ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 

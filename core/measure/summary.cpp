@@ -142,6 +142,26 @@ std::optional<double> find_poissons_ratio(std::span<const Sample> samples) {
   return last.strain > 0.0 ? std::optional(last.lateral_strain / last.strain) : std::nullopt;
 }
 
+std::vector<RigidWallSummary> summarize_rigid_walls(std::span<const Sample> samples) {
+  std::vector<RigidWallSummary> walls(samples.front().rigid_walls.size());
+  for (const Sample& sample : samples) {
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      const RigidWallSample& now = sample.rigid_walls[i];
+      RigidWallSummary& wall = walls[i];
+      if (now.normal_force > wall.peak_force) {
+        wall.peak_force = now.normal_force;
+        wall.peak_time = sample.time;
+      }
+      wall.peak_deceleration = std::max(wall.peak_deceleration, -now.acceleration);
+      wall.stroke = std::max(wall.stroke, now.displacement);
+      wall.speed = now.speed;
+      wall.impulse = now.impulse;
+      wall.work = now.work;
+    }
+  }
+  return walls;
+}
+
 /// The samples at which the strain is greater than ever before: a mass between rigid walls rebounds.
 std::vector<Sample> while_strain_grows(std::span<const Sample> samples) {
   std::vector<Sample> growing;
@@ -248,6 +268,7 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
   summary.energy_error_relative = energy_error_of(all);
   summary.warnings = collect_warnings(scene, all);
   summary.inertia_share = find_inertia_share(scene, all);
+  summary.rigid_walls = summarize_rigid_walls(all);
   std::optional<std::int64_t> closed_step;
   const auto closed = std::ranges::find(summary.warnings, Warning::Kind::closed, &Warning::kind);
   if (!scene.plates.present && closed != summary.warnings.end()) {
@@ -264,7 +285,13 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
   const Curve impact(samples, &Sample::stress_impact);
   const Curve support(samples, &Sample::stress_support);
   summary.plateau_stress_impact = impact.mean(Summary::kPlateauLow, Summary::kPlateauHigh);
-  summary.plateau_stress_support = support.mean(Summary::kPlateauLow, Summary::kPlateauHigh);
+  if (has_support(scene)) {
+    summary.plateau_stress_support = support.mean(Summary::kPlateauLow, Summary::kPlateauHigh);
+    summary.quasi_static = find_quasi_static(samples, impact, support);
+    // Without a support the lattice moves as a whole: force over shortening is not what it absorbs.
+    summary.absorbed_energy = scene.length * scene.width * scene.depth *
+                              impact.integral(std::min(kAbsorbedTo, samples.back().strain));
+  }
   if (summary.plateau_stress_support) {
     summary.front = summarize_front(scene, samples, *summary.plateau_stress_support);
   }
@@ -277,13 +304,12 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     summary.solid_fraction_at_densification = solid_fraction_at(scene, *summary.densification_strain);
   }
   summary.peak = find_peak(scene.plates.present ? all : valid, summary.densification_strain.value_or(1.0));
-  summary.crush_forces =
-      find_crush_forces(scene, impact, summary.peak, summary.densification_strain.value_or(samples.back().strain));
+  if (has_support(scene)) {
+    summary.crush_forces =
+        find_crush_forces(scene, impact, summary.peak, summary.densification_strain.value_or(samples.back().strain));
+  }
   summary.poissons_ratio = find_poissons_ratio(samples);
   set_crush_mode(samples, summary);
-  summary.quasi_static = find_quasi_static(samples, impact, support);
-  const double volume = scene.length * scene.width * scene.depth;
-  summary.absorbed_energy = volume * impact.integral(std::min(kAbsorbedTo, samples.back().strain));
   return summary;
 }
 

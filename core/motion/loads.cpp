@@ -62,19 +62,6 @@ void share_contact_forces(const Pins& pins, State& state) {
 
 }  // namespace
 
-double TimeFunction::value_at(double time) const {
-  const auto after = std::ranges::upper_bound(points, time, {}, &std::pair<double, double>::first);
-  if (after == points.begin()) {
-    return points.front().second;
-  }
-  if (after == points.end()) {
-    return points.back().second;
-  }
-  const auto& [t0, v0] = *(after - 1);
-  const auto& [t1, v1] = *after;
-  return v0 + (v1 - v0) * (time - t0) / (t1 - t0);
-}
-
 void evaluate_loads(const Scene& scene, State& state) {
   if (!scene.is_loaded()) {
     return;

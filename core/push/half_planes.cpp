@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "contact/thickening.h"
@@ -9,12 +10,13 @@
 namespace cellcrush {
 
 extern const HalfPlaneKind kStrikers;
+extern const HalfPlaneKind kPacedWalls;
 extern const HalfPlaneKind kRigidWalls;
 extern const HalfPlaneKind kSideWalls;
 
 namespace {
 
-constexpr std::array kKinds = {&kStrikers, &kRigidWalls, &kSideWalls};
+constexpr std::array kKinds = {&kStrikers, &kPacedWalls, &kRigidWalls, &kSideWalls};
 
 /// Depth to which a ball may stand in a half plane at first, as a fraction of its radius: where it is placed on an
 /// oblique one, it does so by round-off.
@@ -24,6 +26,42 @@ std::string path_of(std::size_t wall) { return "loading.rigid_walls[" + std::to_
 
 const HalfPlaneKind& kind_of(const LoadsSpec::RigidWall& wall) {
   return **std::ranges::find_if(kKinds, [&](const HalfPlaneKind* kind) { return kind->takes(wall); });
+}
+
+/// A wall stands at an edge of the lattice, or at a point with a normal.
+void check_place(const std::string& path, const LoadsSpec::RigidWall& wall, FieldChecker& check) {
+  check.within_limits(path + "x_mm", wall.x_mm);
+  check.within_limits(path + "y_mm", wall.y_mm);
+  check.within_limits(path + "normal_x", wall.normal_x);
+  check.within_limits(path + "normal_y", wall.normal_y);
+  const bool has_normal = wall.normal_x != 0.0 || wall.normal_y != 0.0;
+  if (wall.edge && (has_normal || wall.x_mm != 0.0 || wall.y_mm != 0.0)) {
+    check.add(path + "edge", "", "tells where the wall stands, but a point or a normal is given too.",
+              "Remove x_mm, y_mm, normal_x and normal_y, or edge.");
+  } else if (!wall.edge && !has_normal) {
+    check.add(path + "normal_x", "0", "and normal_y give no direction.",
+              "Give the direction out of the wall, towards the lattice, or the edge at which it stands.");
+  }
+}
+
+/// A kind has fields that others have not.
+void check_belongs(const std::string& field, const std::string& value, const HalfPlaneKind& kind,
+                   std::string_view name, FieldChecker& check) {
+  if (std::ranges::find(kind.fields, name) != kind.fields.end()) return;
+  check.add(field, value, std::string(kind.misfit), std::string(kind.remedy));
+}
+
+/// Particles that are looked at together.
+constexpr int kTile = 64;
+
+/// Whether any of the balls from `first` to `end` may reach the face: none is larger than `reach`.
+bool may_reach(const State& state, const Face& face, double reach, int first, int end) {
+  const double place = face.normal.dot(face.point) + reach;
+  int reaching = 0;  // without a branch, so that the compiler makes vectors of it
+  for (int particle = first; particle < end; ++particle) {
+    reaching |= static_cast<int>(face.normal.dot(state.position[particle]) < place);
+  }
+  return reaching != 0;
 }
 
 void press(const Scene& scene, State& state, std::size_t wall, int first, int end, ContactSums& sums) {
@@ -37,16 +75,22 @@ void press(const Scene& scene, State& state, std::size_t wall, int first, int en
                      of.friction,
                      of.friction > 0.0 ? &state.rigid_wall_friction[wall * scene.particle_count()] : nullptr,
                      !state.radius_growth.empty()};
+  constexpr double kRounding = 1e-9;  // mm
+  const double reach = scene.greatest_radius() + kRounding;
   RigidWallForce& of_wall = sums.rigid_walls[wall];
-  for (int particle = first; particle < end; ++particle) {
-    const double radius = radius_now(scene, state, particle);
-    const bool rubbed = face.friction_of != nullptr && face.friction_of[particle] != 0.0;
-    if (face.distance_of(state.position[particle]) < radius || rubbed) {
-      const FaceForce force = push_by_face(scene, state, face, particle, radius);
-      of_wall.normal.elastic += force.elastic;
-      of_wall.normal.viscous += force.viscous;
-      of_wall.tangential += force.tangential;
-      sums.walls.stored += force.stored;
+  for (int tile = first; tile < end; tile += kTile) {
+    const int tile_end = std::min(tile + kTile, end);
+    if (face.friction_of == nullptr && !may_reach(state, face, reach, tile, tile_end)) continue;
+    for (int particle = tile; particle < tile_end; ++particle) {
+      const double radius = radius_now(scene, state, particle);
+      const bool rubbed = face.friction_of != nullptr && face.friction_of[particle] != 0.0;
+      if (face.distance_of(state.position[particle]) < radius || rubbed) {
+        const FaceForce force = push_by_face(scene, state, face, particle, radius);
+        of_wall.normal.elastic += force.elastic;
+        of_wall.normal.viscous += force.viscous;
+        of_wall.tangential += force.tangential;
+        sums.walls.stored += force.stored;
+      }
     }
   }
 }
@@ -58,7 +102,7 @@ void place_half_planes(const Scene& scene, State& state) {
     state.rigid_wall_friction.assign(count * scene.particle_count(), 0.0);
   }
   state.rigid_wall_force.resize(count);
-  state.rigid_wall_impulse.resize(count);
+  state.rigid_wall_totals.resize(count);
   for (const RigidWall& wall : scene.rigid_walls) {
     state.rigid_wall_motion.push_back(wall.kind->start(scene, wall));
   }
@@ -92,13 +136,13 @@ void press_by_half_planes(const Scene& scene, State& state, const PlateStep& /*p
   }
 }
 
-/// The works of the newest forces over a way along the normal, mm; friction does none on the half plane. A mass belongs
-/// to what the ledger has: of the forces on it, those of the lattice do not come from outside.
-MotionWorks works_over(const Scene& scene, const State& state, std::size_t wall, double way) {
+/// The works of the newest forces, which are those of a time, over a way along the normal, mm; friction does none on the
+/// half plane. A mass belongs to what the ledger has: of the forces on it, those of the lattice do not come from outside.
+MotionWorks works_over(const Scene& scene, const State& state, std::size_t wall, double time, double way) {
   const RigidWall& of = scene.rigid_walls[wall];
   MotionWorks works = face_works(state.rigid_wall_force[wall].normal, way);
   if (of.mass > 0.0) {
-    works.external = of.mass * of.kind->drive(scene, of, state.rigid_wall_motion[wall]) * way;
+    works.external = of.mass * of.kind->drive(scene, of, time) * way;
   }
   return works;
 }
@@ -106,10 +150,13 @@ MotionWorks works_over(const Scene& scene, const State& state, std::size_t wall,
 void accumulate_half_planes(const Scene& scene, const PlateStep& /*plates*/, State& state) {
   const double step = scene.schedule.time_step;
   for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
-    works_over(scene, state, wall, state.rigid_wall_motion[wall].way).accumulate(state.ledger);
+    const double way = state.rigid_wall_motion[wall].way;
+    works_over(scene, state, wall, state.time - step, way).accumulate(state.ledger);
     const RigidWallForce& force = state.rigid_wall_force[wall];
-    state.rigid_wall_impulse[wall].normal += step * force.normal.total();
-    state.rigid_wall_impulse[wall].tangential += step * force.tangential;
+    RigidWallTotals& totals = state.rigid_wall_totals[wall];
+    totals.normal += step * force.normal.total();
+    totals.tangential += step * force.tangential;
+    totals.work += way * force.normal.total();
   }
 }
 
@@ -118,7 +165,7 @@ MotionWorks half_step_works_of_half_planes(const Scene& scene, const State& stat
   MotionWorks works;
   for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
     const double speed = state.rigid_wall_motion[wall].speed;
-    works.add(works_over(scene, state, wall, 0.5 * step * speed));
+    works.add(works_over(scene, state, wall, state.time, 0.5 * step * speed));
     if (const double mass = scene.rigid_walls[wall].mass; mass > 0.0) {
       works.twice_kinetic += mass * speed * (speed + step * acceleration_of(scene, state, wall));
     }
@@ -159,31 +206,45 @@ extern const Pusher kHalfPlanes = {.place = place_half_planes,
 
 double acceleration_of(const Scene& scene, const State& state, std::size_t wall) {
   const RigidWall& of = scene.rigid_walls[wall];
-  return of.kind->drive(scene, of, state.rigid_wall_motion[wall]) -
-         state.rigid_wall_force[wall].normal.total() / of.mass;
+  return of.kind->drive(scene, of, state.time) - state.rigid_wall_force[wall].normal.total() / of.mass;
 }
 
-void check_half_planes(const LoadsSpec& loads, FieldChecker& check) {
-  for (std::size_t i = 0; i < loads.rigid_walls.size(); ++i) {
-    const LoadsSpec::RigidWall& wall = loads.rigid_walls[i];
+Vector2 normal_at(LoadsSpec::Edge edge) {
+  using Edge = LoadsSpec::Edge;
+  const bool is_low = edge == Edge::left || edge == Edge::bottom;
+  return (is_low ? 1.0 : -1.0) * Vector2::Unit(edge == Edge::left || edge == Edge::right ? 0 : 1);
+}
+
+double outermost_along(const Scene& scene, const Vector2& direction) {
+  double least = scene.position.empty() ? -1.0 : std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    least = std::min(least, direction.dot(scene.position[i]) - scene.radius[i]);
+  }
+  return least;
+}
+
+void check_half_planes(const SceneSpec& spec, FieldChecker& check) {
+  for (std::size_t i = 0; i < spec.loads.rigid_walls.size(); ++i) {
+    const LoadsSpec::RigidWall& wall = spec.loads.rigid_walls[i];
     const std::string path = path_of(i) + ".";
-    check.within_limits(path + "x_mm", wall.x_mm);
-    check.within_limits(path + "y_mm", wall.y_mm);
-    check.within_limits(path + "normal_x", wall.normal_x);
-    check.within_limits(path + "normal_y", wall.normal_y);
+    check_place(path, wall, check);
     check.within_limits(path + "friction", wall.friction);
-    if (wall.normal_x == 0.0 && wall.normal_y == 0.0) {
-      check.add(path + "normal_x", "0", "and normal_y give no direction.",
-                "Give the direction out of the wall, towards the lattice.");
-    }
     if (!wall.points.empty()) {
       check.is_function_of_time(path + "displacement_mm", wall.points);
     }
-    kind_of(wall).check(path, wall, check);
+    const HalfPlaneKind& kind = kind_of(wall);
+    for (const auto& [name, value] : wall.own) {
+      if (check.within_limits(path + name, value)) check_belongs(path + name, to_text(value), kind, name, check);
+    }
+    for (const auto& [name, points] : wall.functions) {
+      check.is_function_of_time(path + name, points);
+      check_belongs(path + name, "", kind, name, check);
+    }
+    if (kind.check != nullptr) kind.check(path, spec, wall, check);
   }
 }
 
-void attach_half_planes(const LoadsSpec& loads, Scene& scene) {
+void attach_half_planes(const LoadsSpec& loads, const Vector2& extent, Scene& scene) {
   for (const LoadsSpec::RigidWall& wall : loads.rigid_walls) {
     const LoadsSpec::TimeFunction still = {{0.0, 0.0}};
     const HalfPlaneKind& kind = kind_of(wall);
@@ -193,8 +254,13 @@ void attach_half_planes(const LoadsSpec& loads, Scene& scene) {
     added.normal = Vector2(wall.normal_x, wall.normal_y).stableNormalized();
     added.friction = wall.friction;
     added.motion = {wall.points.empty() ? still : wall.points};
+    if (wall.edge) {
+      added.at_edge = true;
+      added.normal = normal_at(*wall.edge);
+      added.point = outermost_along(scene, added.normal) * added.normal;
+    }
     if (kind.fill != nullptr) {
-      kind.fill(wall, added);
+      kind.fill(wall, {scene.gravity, scene.depth * added.tangent().cwiseAbs().dot(extent)}, added);
     }
   }
 }

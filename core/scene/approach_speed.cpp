@@ -72,8 +72,16 @@ double diameter_of(std::vector<Vector2>& points) {
   return std::sqrt(greatest);
 }
 
-/// Greatest difference of the velocities that are given, mm/s.
+/// Greatest difference of the velocities that are given, mm/s. A force on a wall acts over at most the diagonal of all
+/// particles.
 double speed_of_given_velocities(const Scene& scene) {
+  Vector2 low = scene.position.front();
+  Vector2 high = low;
+  for (const Vector2& place : scene.position) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  const double length = (high - low).norm();
   std::vector<Vector2> velocities;
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
     const Vector2 initial = scene.initial_velocity.empty() ? Vector2(0.0, 0.0) : scene.initial_velocity[i];
@@ -86,7 +94,8 @@ double speed_of_given_velocities(const Scene& scene) {
   }
   for (const RigidWall& wall : scene.rigid_walls) {
     velocities.emplace_back(0.0, 0.0);
-    velocities.emplace_back(wall.speed * wall.normal);
+    velocities.emplace_back((wall.speed + wall.speed_by_force(length)) * wall.normal);
+    for (const auto& [time, speed] : wall.velocity.points) velocities.emplace_back(speed * wall.normal);
     const auto& points = wall.motion.points;
     for (std::size_t k = 1; k < points.size(); ++k) {
       const double speed = (points[k].second - points[k - 1].second) / (points[k].first - points[k - 1].first);
@@ -134,7 +143,7 @@ double speed_of_fall(const Scene& scene) {
 double speed_of_fall_on_walls(const Scene& scene) {
   double square = 0.0;
   for (const RigidWall& wall : scene.rigid_walls) {
-    const double towards = wall.mass > 0.0 ? std::abs(wall.kind->drive(scene, wall, {0.0, wall.speed}))
+    const double towards = wall.mass > 0.0 ? std::abs(scene.gravity.dot(wall.normal))
                                            : std::max(0.0, -scene.gravity.dot(wall.normal));
     const auto lowest = std::ranges::min(wall.motion.points, {}, [](const auto& point) { return point.second; });
     for (const Vector2& place : scene.position) {

@@ -228,7 +228,9 @@ void check_loading(const SceneSpec& spec, FieldChecker& check) {
   check.within_limits("loading.end_at_rest", loading.end_at_rest, " (0: it does not end at rest)");
   check.within_limits("loading.gravity_x_m_per_s2", spec.loads.gravity_x_m_per_s2);
   check.within_limits("loading.gravity_y_m_per_s2", spec.loads.gravity_y_m_per_s2);
-  check_half_planes(spec.loads, check);
+  check.within_limits("loading.velocity_x_m_per_s", spec.loads.velocity_x_m_per_s);
+  check.within_limits("loading.velocity_y_m_per_s", spec.loads.velocity_y_m_per_s);
+  check_half_planes(spec, check);
   check_sides(spec, check);
   check_grips(spec, check);
 }

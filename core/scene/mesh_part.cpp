@@ -84,6 +84,23 @@ void attach_period(const SceneSpec& part, const Layout& layout, Scene& scene) {
   scene.smallest_radius = 0.0;
 }
 
+/// Of the envelope along x and y, mm; 0 of a frame.
+Vector2 lattice_extent_of(const SceneSpec& part, const Scene& scene) {
+  return crush_axis_of(part) == 0 ? Vector2(scene.length, scene.width) : Vector2(scene.width, scene.length);
+}
+
+/// Adds the velocity of all walls to those of nodes, in what is not held.
+void throw_lattice(const LoadsSpec& loads, Scene& scene) {
+  const Vector2 velocity = Vector2(loads.velocity_x_m_per_s, loads.velocity_y_m_per_s) * kMmPerM;
+  if (velocity.isZero(0.0)) return;
+  scene.initial_velocity.resize(scene.particle_count(), Vector2::Zero());
+  scene.initial_spin.resize(scene.particle_count(), 0.0);
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const Support held = scene.supports.empty() ? Support() : scene.supports[i];
+    scene.initial_velocity[i] += Vector2(held.x.held ? 0.0 : velocity.x(), held.y.held ? 0.0 : velocity.y());
+  }
+}
+
 /// Of a particle, or of a joint and its image together, tonne.
 double lightest_mass_of(const Scene& scene) {
   std::vector<double> mass = scene.mass;
@@ -182,12 +199,13 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
     attach_to_frame(*frame, part.loads, *scene);
   }
   scene->gravity = Vector2(part.loads.gravity_x_m_per_s2, part.loads.gravity_y_m_per_s2) * kMmPerM;
-  attach_half_planes(part.loads, *scene);
   attach_grips(part, layout.envelope, *scene);
   scene->mass_scaling = {part.numerics.mass_scaling, part.numerics.rotary_scaling};
   lump_masses(*scene);
   attach_period(part, layout, *scene);
+  attach_half_planes(part.loads, lattice_extent_of(part, *scene), *scene);
   attach_side_walls(part.loading, *scene);
+  throw_lattice(part.loads, *scene);
   lump_rigid_bodies(*scene);
   link_elements(*scene);
   scene->solid_area = solid_area_of(*scene);

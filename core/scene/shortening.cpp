@@ -105,8 +105,9 @@ double driven_share(const Scene& scene, const Vector2& extent) {
   }
   for (const RigidWall& wall : scene.rigid_walls) {
     if (wall.mass == 0.0) continue;
-    speed.include(wall.mass / (wall.mass + scene.total_mass / 2.0) * wall.speed * wall.normal);
-    energy += wall.mass * wall.speed * wall.speed / 2.0;
+    const double fastest = wall.speed + wall.speed_by_force(extent.norm());
+    speed.include(wall.mass / (wall.mass + scene.total_mass / 2.0) * fastest * wall.normal);
+    energy += wall.mass * fastest * fastest / 2.0;
   }
   const double surplus = work_of_loads(scene, extent) - work_to_fold(scene);
   const double of_loads = std::sqrt(std::max(0.0, surplus) / scene.total_mass) / extent.maxCoeff();

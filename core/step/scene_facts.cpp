@@ -6,6 +6,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "measure/theory.h"
+#include "push/crush.h"
 #include "push/half_planes.h"
 #include "scene/check_spec.h"
 #include "scene/rigid_links.h"
@@ -238,7 +239,7 @@ MeshView mesh_of(const Scene& scene) {
   mesh.width = scene.width;
   mesh.impact_plate = scene.plates.impact_face;
   mesh.support_plate = scene.plates.support_face;
-  mesh.along_y = scene.plates.axis == 1;
+  mesh.along_y = is_crushed(scene) && crush_axis_of(scene) == 1;
   if (const auto sides = side_walls_of(scene); sides.size() == 2) {
     const int across = sides[0].normal.x() != 0.0 ? 0 : 1;
     mesh.side_low = sides[0].point[across];

@@ -126,6 +126,8 @@ void write_collapse(hid_t file, const v1::Summary& summary) {
   }
   if (summary.has_crush_forces()) write_numbers(file, "crush_forces_", summary.crush_forces());
   if (summary.has_quasi_static()) write_numbers(file, "quasi_static_", summary.quasi_static());
+  for (const v1::RigidWallSummary& wall : summary.rigid_walls())
+    write_numbers(file, "rigid_wall_" + wall.wall() + "_", wall);
 }
 
 void write_warnings(hid_t file, const v1::Summary& summary) {

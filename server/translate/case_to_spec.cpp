@@ -13,6 +13,7 @@
 #include "translate/loads_places.h"
 #include "translate/materials.h"
 #include "translate/network_lists.h"
+#include "translate/read_choice.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -80,22 +81,6 @@ static_assert(ends_alike(v1::Loading::Grip::FixedTo_MAX, v1::Loading::Grip::SUPP
 static_assert(ends_alike(v1::Numerics::FibrePrecision_MAX, v1::Numerics::DOUBLE, Precision::double_precision));
 static_assert(ends_alike(v1::Numerics::Fidelity_MAX, v1::Numerics::REFERENCE, NumericsSpec::Fidelity::reference,
                          NumericsSpec::Fidelity::draft));
-
-// Sets `out` to the meaning of the wire value; 0 (unspecified) leaves it unchanged. The enum of the spec lists the same
-// values in the same order, from `first` on.
-template <class Wire, class Out>
-void read_choice(Wire in, const std::string& field, Out& out, Problems& problems, Out first = Out()) {
-  const auto& values = *google::protobuf::GetEnumDescriptor<Wire>();
-  if (static_cast<int>(in) == 0) return;
-  if (values.FindValueByNumber(in) != nullptr) {
-    out = static_cast<Out>(static_cast<int>(in) - 1 + static_cast<int>(first));
-    return;
-  }
-  std::string names = values.value(1)->name();
-  for (int i = 2; i < values.value_count(); ++i)
-    names += (i + 1 < values.value_count() ? ", " : " or ") + values.value(i)->name();
-  problems.push_back({field, std::to_string(in), "is not a valid value.", "Use " + names + "."});
-}
 
 VoronoiWalls read_voronoi(const v1::Lattice::Voronoi& in) {
   VoronoiWalls out;
@@ -192,6 +177,8 @@ void read_loading(const v1::Loading& in, SceneSpec& spec, Problems& problems) {
   if (in.has_end_at_rest()) out.end_at_rest = in.end_at_rest();
   spec.loads.gravity_x_m_per_s2 = in.gravity_x_m_per_s2();
   spec.loads.gravity_y_m_per_s2 = in.gravity_y_m_per_s2();
+  spec.loads.velocity_x_m_per_s = in.velocity_x_m_per_s();
+  spec.loads.velocity_y_m_per_s = in.velocity_y_m_per_s();
   spec.loads.rigid_walls = read_rigid_walls(in, problems);
   read_choice(in.sides().kind(), "loading.sides.kind", out.sides.kind, problems);
   if (in.sides().has_friction()) out.sides.friction = in.sides().friction();

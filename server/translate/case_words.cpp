@@ -11,17 +11,12 @@
 
 #include "cellcrush/lattice_words.h"
 #include "translate/case_to_spec.h"
+#include "translate/fact_words.h"
 #include "translate/loads_places.h"
 #include "translate/network_lists.h"
 
 namespace cellcrush::translate {
 namespace {
-
-void add_fact(v1::CaseWords& words, const std::string& heading, std::string text) {
-  auto& fact = *words.add_facts();
-  fact.set_heading(heading);
-  fact.set_text(std::move(text));
-}
 
 std::string plural(int count, const char* noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
 
@@ -29,16 +24,6 @@ template <typename Values>
 std::string range_text(const Values& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *low == *high ? fmt::format("{:.6g}", *low) : fmt::format("{:.6g} to {:.6g}", *low, *high);
-}
-
-// The first names of a list, and how many more there are.
-template <typename Names>
-std::string names_text(const Names& names) {
-  constexpr int kShown = 6;
-  const auto count = static_cast<int>(names.size());
-  std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + std::min(count, kShown), ", "));
-  if (count > kShown) text += fmt::format(" and {} more", count - kShown);
-  return text;
 }
 
 std::string support_text(const v1::Frame::Support& support) {
@@ -56,14 +41,6 @@ const char* component_text(v1::Frame::Component component) {
     case v1::Frame::COMPONENT_ROTATION: return "rotation";
     default: return "?";
   }
-}
-
-// A fact for a list that has entries: the first ones, each as `text` has it.
-template <typename Range, typename Text>
-void add_list(v1::CaseWords& words, const char* heading, const Range& range, Text text) {
-  std::vector<std::string> texts;
-  for (const auto& item : range) texts.push_back(text(item));
-  if (!texts.empty()) add_fact(words, heading, names_text(texts));
 }
 
 void describe_masses(const v1::Frame& frame, v1::CaseWords& words) {
@@ -195,70 +172,6 @@ void describe_changes(const v1::Lattice& lattice, v1::CaseWords& words) {
   add_fact(words, "inclusions", std::move(text));
   words.set_theory_note(words.theory_note() + (words.theory_note().empty() ? "" : " ") +
                         "The theory ignores the stiff cells.");
-}
-
-std::string rigid_wall_text(const std::string& id, const LoadsSpec::RigidWall& wall) {
-  std::vector<std::string> texts;
-  for (const auto& [name, value] : wall.own) texts.push_back(fmt::format("{} {}", name, value));
-  if (!wall.points.empty()) texts.emplace_back("moves");
-  return texts.empty() ? id : fmt::format("{} ({})", id, fmt::join(texts, ", "));
-}
-
-std::string grip_text(const v1::Loading::Grip& grip) {
-  using Grip = v1::Loading::Grip;
-  std::string text = fmt::format("{} ({}", grip.id(), Grip::Edge_Name(grip.edge()));
-  if (grip.has_line_mm()) text += fmt::format(" from {} mm", grip.line_mm());
-  if (grip.fixed_to() == Grip::IMPACT_PLATE) text += ", fixed to the impact plate";
-  if (grip.fixed_to() == Grip::SUPPORT_PLATE) text += ", fixed to the support plate";
-  if (grip.has_displacement_x_mm() || grip.has_displacement_y_mm()) text += ", moves";
-  return text + ")";
-}
-
-void note_free_sides(v1::CaseWords& words) {
-  words.set_theory_note(words.theory_note() + (words.theory_note().empty() ? "" : " ") +
-                        "The theory is that of free sides.");
-}
-
-void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
-  if (loading.gravity_x_m_per_s2() != 0.0 || loading.gravity_y_m_per_s2() != 0.0) {
-    add_fact(
-        words, "gravity",
-        fmt::format("{} m/s2 along x, {} m/s2 along y", loading.gravity_x_m_per_s2(), loading.gravity_y_m_per_s2()));
-  }
-  Problems ignored;
-  const auto walls = read_rigid_walls(loading, ignored);
-  words.set_rigid_wall_plates(!words.plates() && has_crushing_walls(walls));
-  add_list(words, "rigid walls", loading.rigid_walls(),
-           [&, i = 0](const auto& wall) mutable { return rigid_wall_text(wall.id(), walls[i++]); });
-  if (loading.sides().kind() == v1::Loading::Sides::RIGID) {
-    add_fact(
-        words, "side walls",
-        loading.sides().friction() > 0.0 ? fmt::format("rigid, friction {}", loading.sides().friction()) : "rigid");
-    note_free_sides(words);
-  }
-  if (loading.sides().kind() == v1::Loading::Sides::PERIODIC) {
-    const bool fixed = loading.sides().fixed_width();
-    add_fact(words, "sides", fixed ? "periodic, of fixed width" : "periodic");
-    if (fixed) note_free_sides(words);
-  }
-  add_list(words, "grips", loading.grips(), grip_text);
-  std::string text;
-  if (loading.has_end_time_s()) {
-    add_fact(words, "end time", fmt::format("{} s", loading.end_time_s()));
-    text = fmt::format("loaded for {} s", loading.end_time_s());
-  }
-  if (words.plates()) {
-    const std::string pace =
-        loading.quasi_static() ? "quasi-statically" : fmt::format("at {} m/s", loading.speed_m_per_s());
-    text += fmt::format("{}crushed along {} {}", text.empty() ? "" : ", ",
-                        loading.direction() == v1::Loading::Y ? 'Y' : 'X', pace);
-    if (loading.has_end_strain()) text += fmt::format(" to strain {:.4g}", loading.end_strain());
-  }
-  if (loading.end_at_rest() > 0.0) {
-    add_fact(words, "end at rest", fmt::format("at {} of the greatest kinetic energy", loading.end_at_rest()));
-    text += ", or until at rest";
-  }
-  words.set_loading(std::move(text));
 }
 
 std::string words_of(const HardeningTable& table) {

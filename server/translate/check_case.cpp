@@ -46,7 +46,11 @@ class ListChecker {
     for (const auto& motion : frame.motions()) points += motion.displacement_mm_or_rad().points_size();
     for (const auto& grip : submitted.loading().grips())
       points += grip.displacement_x_mm().points_size() + grip.displacement_y_mm().points_size();
-    for (const auto& wall : rigid_walls_of(submitted)) points += wall.displacement_mm().points_size();
+    for (const auto& wall : rigid_walls_of(submitted)) {
+      for (const auto* function :
+           {&wall.displacement_mm(), &wall.velocity_m_per_s(), &wall.force_n(), &wall.pressure_mpa()})
+        points += function->points_size();
+    }
     for (const auto& load : frame.distributed_loads())
       points += load.x_n_per_mm().points_size() + load.y_n_per_mm().points_size();
     if (points <= kMostPoints) return;
@@ -180,11 +184,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   v1::Case& completed = *out.response.mutable_completed_case();
   if (submitted.lattice().has_network())
     restore_lists(submitted.lattice().network(), *completed.mutable_lattice()->mutable_network());
-  auto& walls = completed.lattice().has_frame() ? *completed.mutable_lattice()->mutable_frame()->mutable_rigid_walls()
-                                                : *completed.mutable_loading()->mutable_rigid_walls();
-  for (int i = 0; i < walls.size(); ++i) walls[i].set_id(rigid_walls_of(submitted)[i].id());
-  auto& grips = *completed.mutable_loading()->mutable_grips();
-  for (int i = 0; i < grips.size(); ++i) grips[i].set_id(submitted.loading().grips(i).id());
+  restore_ids(submitted, completed);
   out.wall_count = facts.wall_count;
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;

@@ -10,6 +10,7 @@
 
 #include "columns/sample_parts.h"
 #include "translate/case_to_spec.h"
+#include "translate/read_choice.h"
 
 namespace cellcrush::translate {
 namespace {
@@ -194,18 +195,32 @@ FrameWalls to_spec(const v1::Frame& in, LoadsSpec& loads, Problems& problems) {
 namespace {
 
 LoadsSpec::RigidWall read_rigid_wall(const v1::Frame::RigidWall& in, const std::string& path, Problems& problems) {
-  if (!in.has_x_mm()) problems.push_back(missing(path + ".x_mm"));
-  if (!in.has_y_mm()) problems.push_back(missing(path + ".y_mm"));
+  const bool at_edge = in.edge() != v1::Loading::Grip::EDGE_UNSPECIFIED;
+  if (!at_edge && !in.has_x_mm()) problems.push_back(missing(path + ".x_mm"));
+  if (!at_edge && !in.has_y_mm()) problems.push_back(missing(path + ".y_mm"));
   LoadsSpec::RigidWall out = {in.x_mm(), in.y_mm(), in.normal_x(), in.normal_y(), in.friction()};
-  if (in.has_displacement_mm()) {
-    out.points = read_function(path + ".displacement_mm", in.displacement_mm(), problems);
-    if (out.points.empty()) problems.push_back(missing(path + ".displacement_mm.points"));
+  if (at_edge) {
+    out.edge = LoadsSpec::Edge::left;
+    read_choice(in.edge(), path + ".edge", *out.edge, problems);
   }
+  const auto read = [&](const std::string& name, const v1::Frame::TimeFunction& function) {
+    LoadsSpec::TimeFunction points = read_function(path + "." + name, function, problems);
+    if (points.empty()) problems.push_back(missing(path + "." + name + ".points"));
+    return points;
+  };
+  if (in.has_displacement_mm()) out.points = read("displacement_mm", in.displacement_mm());
+  const auto& reflection = *in.GetReflection();
   std::vector<const google::protobuf::FieldDescriptor*> given;
-  in.GetReflection()->ListFields(in, &given);
+  reflection.ListFields(in, &given);
   for (const auto* field : given) {
-    if (field->number() > v1::Frame::RigidWall::kDisplacementMmFieldNumber)  // those after it are of one kind only
-      out.own[std::string(field->name())] = in.GetReflection()->GetDouble(in, field);
+    if (field->number() <= v1::Frame::RigidWall::kDisplacementMmFieldNumber) continue;  // of every kind of wall
+    const std::string name(field->name());
+    if (field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE) {
+      out.own[name] = reflection.GetDouble(in, field);
+    } else if (field->message_type() == v1::Frame::TimeFunction::descriptor()) {
+      const auto& function = static_cast<const v1::Frame::TimeFunction&>(reflection.GetMessage(in, field));
+      if (auto points = read(name, function); !points.empty()) out.functions[name] = std::move(points);
+    }
   }
   return out;
 }

@@ -83,4 +83,16 @@ const google::protobuf::RepeatedPtrField<v1::Frame::RigidWall>& rigid_walls_of(c
   return scene.loading().rigid_walls().empty() ? scene.lattice().frame().rigid_walls() : scene.loading().rigid_walls();
 }
 
+void restore_ids(const v1::Case& submitted, v1::Case& completed) {
+  for (int i = 0; i < rigid_walls_of(submitted).size(); ++i) {
+    auto* const wall = completed.lattice().has_frame()
+                           ? completed.mutable_lattice()->mutable_frame()->mutable_rigid_walls(i)
+                           : completed.mutable_loading()->mutable_rigid_walls(i);
+    wall->set_id(rigid_walls_of(submitted)[i].id());
+  }
+  for (int i = 0; i < submitted.loading().grips_size(); ++i) {
+    completed.mutable_loading()->mutable_grips(i)->set_id(submitted.loading().grips(i).id());
+  }
+}
+
 }  // namespace cellcrush::translate

@@ -23,4 +23,7 @@ v1::Loading loading_of(const v1::Case& scene);
 /// The rigid walls of a case, wherever they stand.
 const google::protobuf::RepeatedPtrField<v1::Frame::RigidWall>& rigid_walls_of(const v1::Case& scene);
 
+/// Gives the rigid walls and grips of a completed case the ids that they have in the submitted one.
+void restore_ids(const v1::Case& submitted, v1::Case& completed);
+
 }  // namespace cellcrush::translate

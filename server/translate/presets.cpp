@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "translate/case_to_spec.h"
+#include "translate/loads_places.h"
 #include "translate/spec_to_case.h"
 
 namespace cellcrush::translate {
@@ -18,7 +19,10 @@ std::vector<Preset> read_presets() {
   std::vector<Preset> out;
   for (v1::Preset& message : *texts.mutable_presets()) {
     SceneSpec spec = to_spec(message.case_()).spec;
-    *message.mutable_case_() = to_case(spec);
+    v1::Case completed = to_case(spec);
+    restore_ids(message.case_(), completed);
+    if (!message.case_().material().named().empty()) *completed.mutable_material() = message.case_().material();
+    *message.mutable_case_() = std::move(completed);
     out.push_back({std::move(message), std::move(spec)});
   }
   return out;

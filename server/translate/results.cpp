@@ -122,6 +122,19 @@ v1::StageTimes to_proto(const std::array<double, kStageCount>& seconds) {
   return out;
 }
 
+v1::RigidWallSummary to_proto(const RigidWallSummary& wall, const std::string& id) {
+  v1::RigidWallSummary out;
+  out.set_wall(id);
+  out.set_peak_force_n(wall.peak_force);
+  out.set_peak_force_time_s(wall.peak_time);
+  out.set_peak_deceleration_m_per_s2(wall.peak_deceleration / kMmPerM);
+  out.set_stroke_mm(wall.stroke);
+  out.set_end_velocity_m_per_s(wall.speed / kMmPerM);
+  out.set_impulse_n_s(wall.impulse);
+  out.set_work_mj(wall.work);
+  return out;
+}
+
 // A term X_mj of the ledger is the sample's energy_X_mj or X_mj.
 v1::Ledger ledger_of(const Sample& sample) {
   v1::Ledger out;
@@ -155,6 +168,10 @@ v1::Sample to_proto(const Sample& sample, const v1::Case& scene) {
     wall.set_displacement_mm(sample.rigid_walls[i].displacement);
     wall.set_normal_force_n(sample.rigid_walls[i].normal_force);
     wall.set_tangential_force_n(sample.rigid_walls[i].tangential_force);
+    wall.set_velocity_m_per_s(sample.rigid_walls[i].speed / kMmPerM);
+    wall.set_acceleration_m_per_s2(sample.rigid_walls[i].acceleration / kMmPerM);
+    wall.set_impulse_n_s(sample.rigid_walls[i].impulse);
+    wall.set_work_mj(sample.rigid_walls[i].work);
   }
   for (std::size_t i = 0; i < sample.grips.size(); ++i) {
     auto& grip = *out.mutable_grips(static_cast<int>(i));
@@ -242,7 +259,7 @@ v1::Summary::End to_proto(RunEnd end) {
   return v1::Summary::END_UNSPECIFIED;
 }
 
-v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& time) {
+v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& time, const v1::Case& scene) {
   v1::Summary out;
   if (summary.valid_to_strain) out.set_valid_to_strain(*summary.valid_to_strain);
   if (summary.valid_to_time) out.set_valid_to_time_s(*summary.valid_to_time);
@@ -284,6 +301,10 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& 
     out.set_solid_fraction_at_densification(*summary.solid_fraction_at_densification);
   if (summary.fibre_strain) *out.mutable_fibre_strain() = to_proto(*summary.fibre_strain);
   if (summary.quasi_static) *out.mutable_quasi_static() = to_proto(*summary.quasi_static);
+  const v1::Sample names = sample_parts_of(scene);
+  for (std::size_t i = 0; i < summary.rigid_walls.size(); ++i) {
+    *out.add_rigid_walls() = to_proto(summary.rigid_walls[i], names.rigid_walls(static_cast<int>(i)).wall());
+  }
   *out.mutable_ledger() = ledger_of(last);
   *out.mutable_stage_times() = to_proto(time.stages);
   return out;

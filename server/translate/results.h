@@ -30,7 +30,7 @@ struct RunTime {
   double processor = 0.0;
   std::array<double, kStageCount> stages{};  ///< in the order of kStageNames
 };
-/// `last`: the last sample of the run, for the ledger.
-v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& time);
+/// `last`: the last sample of the run, for the ledger; `scene`: as above.
+v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& time, const v1::Case& scene);
 
 }  // namespace cellcrush::translate

@@ -210,18 +210,28 @@ void write_loads(const SceneSpec& spec, v1::Case& out) {
   if (spec.loading.end_at_rest > 0.0) loading.set_end_at_rest(spec.loading.end_at_rest);
   if (listed || spec.loads.gravity_x_m_per_s2 != 0.0) loading.set_gravity_x_m_per_s2(spec.loads.gravity_x_m_per_s2);
   if (listed || spec.loads.gravity_y_m_per_s2 != 0.0) loading.set_gravity_y_m_per_s2(spec.loads.gravity_y_m_per_s2);
+  if (spec.loads.velocity_x_m_per_s != 0.0) loading.set_velocity_x_m_per_s(spec.loads.velocity_x_m_per_s);
+  if (spec.loads.velocity_y_m_per_s != 0.0) loading.set_velocity_y_m_per_s(spec.loads.velocity_y_m_per_s);
   for (std::size_t i = 0; i < spec.loads.rigid_walls.size(); ++i) {
     const LoadsSpec::RigidWall& wall = spec.loads.rigid_walls[i];
     v1::Frame::RigidWall& added = *loading.add_rigid_walls();
     added.set_id(std::to_string(i));
-    added.set_x_mm(wall.x_mm);
-    added.set_y_mm(wall.y_mm);
-    added.set_normal_x(wall.normal_x);
-    added.set_normal_y(wall.normal_y);
+    if (wall.edge) {
+      added.set_edge(wire_of<v1::Loading::Grip::Edge>(*wall.edge));
+    } else {
+      added.set_x_mm(wall.x_mm);
+      added.set_y_mm(wall.y_mm);
+      added.set_normal_x(wall.normal_x);
+      added.set_normal_y(wall.normal_y);
+    }
     added.set_friction(wall.friction);
     if (!wall.points.empty()) write_function(wall.points, *added.mutable_displacement_mm());
     for (const auto& [name, value] : wall.own)
       added.GetReflection()->SetDouble(&added, added.GetDescriptor()->FindFieldByName(name), value);
+    for (const auto& [name, points] : wall.functions) {
+      auto* function = added.GetReflection()->MutableMessage(&added, added.GetDescriptor()->FindFieldByName(name));
+      write_function(points, static_cast<v1::Frame::TimeFunction&>(*function));
+    }
   }
   if (spec.loading.sides.kind != LoadingSpec::Sides::Kind::free) {
     loading.mutable_sides()->set_kind(wire_of<v1::Loading::Sides::Kind>(spec.loading.sides.kind));

@@ -93,23 +93,33 @@ TEST(JobPicture, OfAWidthInPrintFitsOnAPage) {
 TEST(RigidWalls, AreWhereTheSamplesHaveMovedThem) {
   const auto submitted = cellcrush::testing::from_text<v1::Case>(R"(
     lattice { frame { rigid_walls { id: "top" y_mm: 40 normal_y: -2 } } }
-    loading { rigid_walls { id: "turned" x_mm: 1 normal_x: 3 normal_y: 4 } })");
+    loading {
+      rigid_walls { id: "turned" x_mm: 1 normal_x: 3 normal_y: 4 }
+      rigid_walls { id: "at_edge" edge: RIGHT }
+    })");
+  v1::Mesh mesh;  // a bar from 0 to 8 mm
+  for (const float place : {0.0F, 0.0F, 8.0F, 0.0F}) mesh.add_position_mm(place);
+  for (const int node : {0, 1}) mesh.add_element_nodes(node);
+  mesh.add_thickness_mm(2.0F);
   std::vector<v1::Sample> samples;
   for (const double time : {0.001, 0.003}) {
     v1::Sample& sample = samples.emplace_back();
     sample.set_time_s(time);
     sample.add_rigid_walls()->set_displacement_mm(1e4 * time);
     sample.add_rigid_walls()->set_displacement_mm(0.0);
+    sample.add_rigid_walls()->set_displacement_mm(1.0);
   }
   const RigidWalls walls(submitted, samples);
   for (const auto& [time, y] : {std::pair(0.0, 40.0), {0.001, 30.0}, {0.002, 20.0}, {0.003, 10.0}, {0.004, 10.0}}) {
-    const std::vector<WallFace> faces = walls.at(time);
-    ASSERT_EQ(faces.size(), 2u);
+    const std::vector<WallFace> faces = walls.at(time, mesh);
+    ASSERT_EQ(faces.size(), 3u);
     EXPECT_NEAR(faces[0].y, y, 1e-9) << time;
     EXPECT_NEAR(faces[1].normal_x, 0.6, 1e-12);
     EXPECT_EQ(faces[1].x, 1.0);
+    EXPECT_EQ(faces[2].normal_x, -1.0);
+    EXPECT_NEAR(faces[2].x, 9.0 - (time > 0.0009 ? 1.0 : 0.0), 1e-6);
   }
-  EXPECT_TRUE(RigidWalls({}, samples).at(0.002).empty());
+  EXPECT_TRUE(RigidWalls({}, samples).at(0.002, mesh).empty());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "scenes/crushes.h"
 
+#include "scenes/experiments.h"
 #include "scenes/frames.h"
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
@@ -36,6 +37,46 @@ SceneSpec uneven_cells() {
   cells.seed = 1;
   cells.wall_thickness_mm = 0.3464;
   spec.lattice = cells;
+  return spec;
+}
+
+/// Type I whose walls have a law of their own, with the numbers of named materials.
+SceneSpec with_law(void (*put)(MaterialSpec& material)) {
+  SceneSpec spec = scenes::preset("type-i");
+  put(spec.material);
+  return spec;
+}
+
+void put_table(MaterialSpec& material) {
+  material.hardening_table = {{0.0, 0.002, 0.01, 0.05}, {76.0, 90.0, 105.0, 130.0}};
+}
+void put_voce(MaterialSpec& material) {
+  material.voce_stress_mpa = 60.0;
+  material.voce_exponent = 40.0;
+}
+void put_ludwik(MaterialSpec& material) {
+  material.ludwik_stress_mpa = 114.0;
+  material.ludwik_exponent = 0.42;
+}
+void put_johnson_cook(MaterialSpec& material) {
+  put_ludwik(material);
+  material.johnson_cook_coefficient = 0.014;
+}
+void put_cowper_symonds(MaterialSpec& material) {
+  material.cowper_symonds_rate_per_s = 6500.0;
+  material.cowper_symonds_exponent = 4.0;
+}
+
+/// Type I between rigid walls in place of its plates; by a striker of as much mass as it has.
+SceneSpec by_rigid_walls(bool strikes) {
+  SceneSpec spec = scenes::preset("type-i");
+  const double speed = *spec.loading.speed_m_per_s;
+  spec.loading.speed_m_per_s.reset();
+  spec.loading.end_time_s = 0.8 * 512.7e-3 / speed;
+  LoadsSpec::RigidWall striker = striker_at(LoadsSpec::Edge::left, 71.0, speed);
+  LoadsSpec::RigidWall plate = wall_at(LoadsSpec::Edge::left);
+  plate.functions = {{"velocity_m_per_s", {{0.0, speed}}}};
+  spec.loads.rigid_walls = {strikes ? striker : plate, wall_at(LoadsSpec::Edge::right)};
   return spec;
 }
 
@@ -80,6 +121,13 @@ std::vector<Crush> crushes() {
           {"voronoi", uneven_cells(), {0.20, 0.45}},
           {"friction", with_friction(), {0.45}},
           {"hardening", with_hardening(), {0.45}},
+          {"hardening-table", with_law(put_table), {0.20}},
+          {"voce", with_law(put_voce), {0.20}},
+          {"ludwik", with_law(put_ludwik), {0.20}},
+          {"johnson-cook", with_law(put_johnson_cook), {0.20}},
+          {"cowper-symonds", with_law(put_cowper_symonds), {0.20}},
+          {"rigid-walls", by_rigid_walls(false), {0.20}},
+          {"striker", by_rigid_walls(true), {0.20}},
           {"four-elements", with_elements(4, 52, 15), {0.20}},
           {"ten-elements", with_elements(10, 33, 9), {0.20}}};
 }

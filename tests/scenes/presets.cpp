@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenes/experiments.h"
 #include "scenes/lattices.h"
 
 namespace cellcrush::scenes {
@@ -129,6 +130,11 @@ std::span<const NamedSpec> presets() {
       {"zheng-2005", zheng()},
       {"ajdari-2011-graded", ajdari()},
       {"gibson-1982-reentrant", gibson()},
+      {"struck-block", struck_block()},
+      {"thrown-block", thrown_block()},
+      {"pressure-pulse", pressure_pulse()},
+      {"dropped-weight", dropped_weight()},
+      {"loaded-and-unloaded", loaded_and_unloaded()},
   };
   return kPresets;
 }

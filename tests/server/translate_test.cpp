@@ -404,7 +404,7 @@ TEST(Translate, ACompletedFrameKeepsItsNodesNames) {
 TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {
   Summary summary;
   summary.plateau_stress_impact = 3.5;
-  const auto out = translate::to_proto(summary, Sample(), {1.5});
+  const auto out = translate::to_proto(summary, Sample(), {1.5}, v1::Case());
   EXPECT_EQ(out.plateau_stress_impact_mpa(), 3.5);
   EXPECT_FALSE(out.has_densification_strain());
   EXPECT_FALSE(out.has_plateau_stress_support_mpa());
@@ -468,7 +468,7 @@ TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
   last.energies.mass_damping = 1.0;
   last.energies.contact_damping = 2.0;
   last.energies.residual = -0.5;
-  const auto out = translate::to_proto(summary, last, {1.5, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}});
+  const auto out = translate::to_proto(summary, last, {1.5, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}}, v1::Case());
   EXPECT_EQ(out.crush_mode(), v1::Summary::CRUSH_MODE_V);
   EXPECT_EQ(out.crush_mode_strain(), 0.12);
   EXPECT_EQ(out.other_rise(), v1::Summary::OTHER_RISE_SECOND_COLLAPSE);

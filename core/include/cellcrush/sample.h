@@ -23,11 +23,16 @@ struct WatchedNode {
   double reaction_moment = 0.0;
 };
 
-/// A rigid wall of a frame (E9f). Its forces on the frame are means over the interval since the previous sample.
+/// A rigid wall (E9f). Its forces on the lattice and its acceleration are means over the interval since the previous
+/// sample.
 struct RigidWallSample {
   double displacement = 0.0;      ///< mm along its normal
   double normal_force = 0.0;      ///< N along its normal, away from the wall; at least 0
   double tangential_force = 0.0;  ///< N along its tangent, the normal turned clockwise: friction
+  double speed = 0.0;             ///< mm/s along its normal, half a step before
+  double acceleration = 0.0;      ///< mm/s^2 along its normal
+  double impulse = 0.0;           ///< N s on the lattice since the start, along its normal
+  double work = 0.0;              ///< N mm on the lattice since the start
 };
 
 /// A grip (E15a). Its forces on the lattice are means over the interval since the previous sample.
@@ -236,6 +241,17 @@ struct LargestFibreStrain {
   double time = 0.0;    ///< s
 };
 
+/// A rigid wall in a whole run, from the samples.
+struct RigidWallSummary {
+  double peak_force = 0.0;         ///< N, greatest mean between two samples
+  double peak_time = 0.0;          ///< s, of the sample that has it
+  double peak_deceleration = 0.0;  ///< mm/s^2, the same of the acceleration against the normal
+  double stroke = 0.0;             ///< mm, greatest displacement
+  double speed = 0.0;              ///< mm/s at the end; below 0 of a mass that has rebounded
+  double impulse = 0.0;            ///< N s
+  double work = 0.0;               ///< N mm
+};
+
 /// The forces of a crush at the impact plate up to `stroke`.
 struct CrushForces {
   double mean = 0.0;             ///< N, work over stroke
@@ -276,13 +292,14 @@ struct Summary {
   std::optional<double> plateau_stress_support;
   /// Up to the onset of densification, or to the end without one; absent before the first window is complete.
   std::optional<PeakStress> peak;
-  std::optional<CrushForces> crush_forces;     ///< absent without a peak
+  std::optional<CrushForces> crush_forces;     ///< absent without a peak or a support
   std::optional<double> poissons_ratio;        ///< lateral strain over strain, at the end of the plateau range
   std::optional<double> densification_strain;  ///< onset; absent without a lasting rise of a dense lattice
   std::optional<LastingRise> other_rise;       ///< one that is not densification
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate
   std::optional<double> solid_fraction_at_densification;  ///< Sample::solid_fraction there
-  double absorbed_energy = 0.0;  ///< N mm, work of the impact plate up to 50 % strain or valid_to_strain
+  /// N mm, work of the impact plate up to 50 % strain or valid_to_strain; 0 without a support.
+  double absorbed_energy = 0.0;
   /// Greatest |residual| over the energy turned over by then: the work done, or the energy that was there at the start.
   double energy_error_relative = 0.0;
   double deepest_penetration = 0.0;
@@ -295,6 +312,7 @@ struct Summary {
   std::optional<FrontSummary> front;        ///< absent unless half of the samples in the plateau range have a front
   std::optional<QuasiStatic> quasi_static;  ///< absent if the run ended before the end of its first window
   std::optional<LargestFibreStrain> fibre_strain;  ///< absent if no wall was strained
+  std::vector<RigidWallSummary> rigid_walls;       ///< in the order of the samples
   Theory theory;
   std::vector<Warning> warnings;  ///< of all samples and of the ledger, in order of steps
 

@@ -87,10 +87,11 @@ struct PlateDrive {
   double rate = 0.0;   ///< mm/s^2
 };
 
-/// Impulse of a rigid wall on the lattice since the start, N s.
-struct RigidWallImpulse {
-  double normal = 0.0;
-  double tangential = 0.0;
+/// What a rigid wall has done to the lattice since the start.
+struct RigidWallTotals {
+  double normal = 0.0;      ///< N s, impulse along its normal
+  double tangential = 0.0;  ///< N s
+  double work = 0.0;        ///< N mm
 };
 
 /// Impulse of a support on a particle since the start: N s along x and y, and N mm s (E15).
@@ -127,7 +128,7 @@ struct State {
   double impact_impulse = 0.0;                       ///< N s, of the impact plate on the lattice
   double support_impulse = 0.0;                      ///< N s, of the support plate on the lattice
   std::vector<RigidWallMotion> rigid_wall_motion;    ///< one for each of Scene::rigid_walls
-  std::vector<RigidWallImpulse> rigid_wall_impulse;  ///< one for each of Scene::rigid_walls
+  std::vector<RigidWallTotals> rigid_wall_totals;    ///< one for each of Scene::rigid_walls
 
   // Written by evaluate_internal_forces.
   LaneVector<Vector2> axis;             ///< E, unit vector from start to end
@@ -195,7 +196,7 @@ struct State {
 template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-         reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
+         reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_totals, axis,
          length, inverse_length, shortening, thickening, thickening_slope, radius_growth, fibres, single_fibres,
          wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
          parted, contact_force, contact_moment, friction_force, impact_friction, support_friction, impact_force,
@@ -209,7 +210,7 @@ void visit_fields(S& state, Visitor&& visit) {
          end_force, owed);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-       reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_impulse, axis,
+       reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_totals, axis,
        length, inverse_length, shortening, thickening, thickening_slope, radius_growth);
   list_fibres(fibres);
   list_fibres(single_fibres);

@@ -81,7 +81,7 @@ TEST(RigidWall, GivesTheFrameItsImpulseAsMomentum) {
   const double tangential = along(wall.tangent());
   simulation.advance(scene->schedule.step_count);
   EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
-  const RigidWallImpulse impulse = simulation.state().rigid_wall_impulse.at(0);
+  const RigidWallTotals impulse = simulation.state().rigid_wall_totals.at(0);
   const double time = simulation.time();
   const double fall = time * scene->total_mass * scene->gravity.dot(wall.normal);
   const double slip = time * scene->total_mass * scene->gravity.dot(wall.tangent());
@@ -113,7 +113,7 @@ TEST(RigidWall, ThatMovesDoesTheWorkThatTheLedgerHas) {
   for (std::size_t i = 0; i < scene->particle_count(); ++i) {
     fall += scene->mass[i] * scene->gravity.dot(simulation.state().position[i] - scene->position[i]);
   }
-  const double of_wall = TossedFrame::kWallSpeed * simulation.state().rigid_wall_impulse[0].normal;
+  const double of_wall = TossedFrame::kWallSpeed * simulation.state().rigid_wall_totals[0].normal;
   EXPECT_GT(of_wall, 0.1 * energies.initial);
   EXPECT_GT(energies.plastic, 0.1 * energies.initial);
   EXPECT_GT(energies.friction, 0.05 * energies.initial);

@@ -85,7 +85,7 @@ Kept strike(SceneSpec spec) {
   const State& state = simulation.state();
   const RigidWall& wall = scene->rigid_walls.at(0);
   const RigidWallMotion& motion = state.rigid_wall_motion.at(0);
-  EXPECT_GT(state.rigid_wall_impulse.at(0).normal, 0.0);
+  EXPECT_GT(state.rigid_wall_totals.at(0).normal, 0.0);
   const double momentum = scenes::momentum_of(*scene, state).linear.y() - wall.mass * motion.speed;
   // Velocities are half a step old, and so is gravity's part.
   const double fall = mass_of(*scene) * scene->gravity.y() * (state.time - 0.5 * step);

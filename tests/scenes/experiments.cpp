@@ -1,0 +1,99 @@
+#include "scenes/experiments.h"
+
+#include <utility>
+
+#include "scenes/lattices.h"
+
+namespace cellcrush::scenes {
+namespace {
+
+using Edge = LoadsSpec::Edge;
+
+/// Hexagons of aluminium with a small imperfection, without plates.
+SceneSpec block(const char* title, int columns, int rows, double thickness) {
+  SceneSpec spec;
+  spec.title = title;
+  spec.lattice = hexagons(columns, rows, 4.0, thickness, thickness);
+  spec.imperfection = {0.01, 1};
+  spec.depth_mm = 4.0;
+  spec.material.youngs_modulus_mpa = 69000.0;
+  spec.material.yield_stress_mpa = 76.0;
+  spec.material.density_kg_per_m3 = 2700.0;
+  return spec;
+}
+
+}  // namespace
+
+LoadsSpec::RigidWall wall_at(Edge edge) {
+  LoadsSpec::RigidWall wall;
+  wall.edge = edge;
+  return wall;
+}
+
+LoadsSpec::RigidWall striker_at(Edge edge, double mass_g, double speed_m_per_s) {
+  LoadsSpec::RigidWall wall = wall_at(edge);
+  wall.own = {{"mass_g", mass_g}, {"speed_m_per_s", speed_m_per_s}};
+  return wall;
+}
+
+SceneSpec struck_block() {
+  SceneSpec spec = block("Hexagons struck by a mass", 20, 8, 0.3464);
+  spec.loads.rigid_walls = {striker_at(Edge::left, 4.5, 60.0), wall_at(Edge::right)};
+  spec.loading.end_time_s = 0.004;
+  spec.loading.end_at_rest = 0.001;
+  return spec;
+}
+
+SceneSpec thrown_block() {
+  SceneSpec spec = block("Hexagons thrown at a wall", 20, 8, 0.3464);
+  spec.loads.velocity_x_m_per_s = 60.0;
+  spec.loads.rigid_walls = {wall_at(Edge::right)};
+  spec.loading.end_time_s = 0.003;
+  return spec;
+}
+
+SceneSpec pressure_pulse() {
+  SceneSpec spec = block("Hexagons under a pressure pulse", 20, 8, 0.3464);
+  LoadsSpec::RigidWall plate = wall_at(Edge::left);
+  plate.own = {{"mass_g", 2.3}};
+  plate.functions = {{"pressure_mpa", {{0.0, 2.4}, {3.5e-4, 2.4}, {3.50001e-4, 0.0}}}};
+  spec.loads.rigid_walls = {plate, wall_at(Edge::right)};
+  spec.loading.end_time_s = 0.004;
+  spec.loading.end_at_rest = 0.001;
+  return spec;
+}
+
+SceneSpec dropped_weight() {
+  SceneSpec spec = block("Steel hexagons under a dropped weight", 8, 9, 0.1);
+  spec.material.youngs_modulus_mpa = 207000.0;
+  spec.material.yield_stress_mpa = 250.0;
+  spec.material.density_kg_per_m3 = 7850.0;
+  spec.material.cowper_symonds_rate_per_s = 40.4;
+  spec.material.cowper_symonds_exponent = 5.0;
+  spec.loading.direction = LoadingSpec::Direction::y;
+  spec.loads.gravity_y_m_per_s2 = -9.81;
+  LoadsSpec::RigidWall weight = wall_at(Edge::top);
+  weight.own = {{"mass_g", 60.0}, {"drop_height_mm", 1000.0}};
+  spec.loads.rigid_walls = {weight, wall_at(Edge::bottom)};
+  spec.loading.end_time_s = 0.02;
+  spec.loading.end_at_rest = 0.001;
+  return spec;
+}
+
+SceneSpec loaded_and_unloaded() {
+  SceneSpec spec = block("Hexagons loaded and unloaded", 8, 7, 0.2);
+  spec.material.yield_stress_mpa = 324.0;
+  spec.material.ludwik_stress_mpa = 114.0;
+  spec.material.ludwik_exponent = 0.42;
+  spec.material.johnson_cook_coefficient = 0.002;
+  spec.material.density_kg_per_m3 = 2703.0;
+  LoadsSpec::RigidWall plate = wall_at(Edge::left);
+  plate.functions = {{"velocity_m_per_s",
+                      {{0.0, 0.0}, {5e-4, 2.0}, {4.5e-3, 2.0}, {5e-3, 0.0}, {6e-3, 0.0}, {6.5e-3, -2.0},
+                       {7.5e-3, -2.0}, {8.5e-3, 2.0}, {0.012, 2.0}}}};
+  spec.loads.rigid_walls = {plate, wall_at(Edge::right)};
+  spec.loading.end_time_s = 0.012;
+  return spec;
+}
+
+}  // namespace cellcrush::scenes
