@@ -1,6 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { platesOf, RigidWalls } from "../src/picture/rigid_walls";
+import { Loading_Grip_Edge as Edge } from "../gen/cellcrush/v1/case_pb";
+import { isOverTime } from "../src/jobs/states";
+import { placedFace, platesOf, RigidWalls } from "../src/picture/rigid_walls";
 
 const wall = { xMm: 1, yMm: 2, normalX: 0, normalY: -5 };
 const job = { case: { lattice: { kind: { case: "frame", value: { rigidWalls: [wall] } } } } };
@@ -35,4 +37,23 @@ test("side walls stand beside the plates, across the crush", () => {
   assert.deepEqual([impact.x, support.x], [1, 10]);
   assert.deepEqual([low.y, low.normalY, high.y, high.normalY], [-1, 1, 4, -1]);
   assert.equal(platesOf({ ...lattice, sideLow: 0, sideHigh: 0 }, 0.1).length, 2);
+});
+
+test("a wall at an edge touches the outermost surface of the lattice, and moves from there", () => {
+  const lattice = { undeformed: [0, 0, 8, 3], ends: Uint32Array.of(0, 1), thickness: [2] };
+  const atEdge = { case: { loading: { rigidWalls: [{ edge: Edge.RIGHT }, { edge: Edge.BOTTOM }] } } };
+  const samples = [{ timeS: 0, rigidWalls: [{ displacementMm: 0.5 }, { displacementMm: 0 }] }];
+  const [right, bottom] = new RigidWalls({ job: atEdge, samples }).at(0).map((face) => placedFace(face, lattice));
+  assert.deepEqual([right.x, right.normalX], [9 - 0.5, -1]);
+  assert.deepEqual([bottom.y, bottom.normalY], [-1, 1]);
+});
+
+test("a run is told over time where walls may go back", () => {
+  const job = (loading, words = { rigidWallPlates: true }) => ({ words, case: { loading: { rigidWalls: [], ...loading } } });
+  assert.equal(isOverTime(job({ rigidWalls: [{ massG: 3 }] })), true);
+  assert.equal(isOverTime(job({ rigidWalls: [{ velocityMPerS: { points: [] } }] })), true);
+  assert.equal(isOverTime(job({ velocityXMPerS: 60 })), true);
+  assert.equal(isOverTime(job({ rigidWalls: [{}] })), false);
+  assert.equal(isOverTime(job({ rigidWalls: [{ massG: 3 }] }, { plates: true })), false);
+  assert.equal(isOverTime(job({}, {})), true);
 });

@@ -13,7 +13,7 @@ import { closedBands, forceChart, stressChart } from "../charts/stress";
 import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { QueuePanel } from "../jobs/queue";
-import { hasEnded, hasStrain, sceneWords, titleOf, warningWords } from "../jobs/states";
+import { hasEnded, isOverTime, sceneWords, titleOf, warningWords } from "../jobs/states";
 import { JobStore } from "../jobs/store";
 import { FrameView } from "../picture/frame_view";
 import { colourLegend } from "../picture/colours";
@@ -148,7 +148,7 @@ export class JobPage implements View {
     const { lattice, loading } = job.case ?? {};
     const walls = lattice?.kind.value;
     const ofWalls = walls && "endTimeS" in walls ? walls.endTimeS : undefined;
-    if (hasStrain(job.words)) this.setAxis(strainAxis(loading?.endStrain ?? this.reachedStrain(job)));
+    if (!isOverTime(job)) this.setAxis(strainAxis(loading?.endStrain ?? this.reachedStrain(job)));
     else this.setAxis(timeAxis(loading?.endTimeS ?? ofWalls ?? 1));
     const isLive = !hasEnded(job);
     if (isLive && !this.wasLive && this.player.wanted === undefined) this.player.follow();
@@ -186,9 +186,9 @@ export class JobPage implements View {
     const { samples } = this.data;
     const { job } = this.data;
     const { words } = job ?? {};
-    if (job && words?.rigidWallPlates) this.setAxis(strainAxis(this.reachedStrain(job)));
+    if (job && words?.rigidWallPlates && !isOverTime(job)) this.setAxis(strainAxis(this.reachedStrain(job)));
     this.player.fullEnd = this.axis.end;
-    const isDriven = !hasStrain(words);
+    const isDriven = isOverTime(job);
     const stress = isDriven ? forceChart(samples, this.axis)
       : stressChart(samples, this.axis, this.summary, this.theory, words?.theoryNote ?? "");
     this.stress.setTitle(isDriven ? "Forces of the rigid walls" : "Stress and strain");

@@ -49,6 +49,15 @@ export function warningWords(kind: Warning_Kind): string {
 export const hasStrain = (words: CaseWords | undefined): boolean =>
   words === undefined || words.plates || words.rigidWallPlates;
 
+/** Whether a run is told over time, as experiments are: walls that go back take the strain with them. */
+export function isOverTime(job: Job | undefined): boolean {
+  if (!hasStrain(job?.words)) return true;
+  const loading = job?.case?.loading;
+  if (job?.words?.plates || !loading) return false;
+  return Boolean(loading.velocityXMPerS || loading.velocityYMPerS)
+    || loading.rigidWalls.some((wall) => wall.massG !== undefined || wall.velocityMPerS !== undefined);
+}
+
 export function sceneWords(words: CaseWords | undefined): string {
   return [words?.lattice, words?.loading].filter(Boolean).join(", ");
 }

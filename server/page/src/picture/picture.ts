@@ -10,7 +10,7 @@ import { themeColour } from "./colours";
 import { isDark, onThemeChange } from "../dom/preferences";
 import { addGestures } from "./gestures";
 import { drawOverlay } from "./overlay";
-import type { Face } from "./rigid_walls";
+import { placedFace, type Face } from "./rigid_walls";
 import { fillSegments, findNearest, kRigid, kSegmentFloats, type Segments } from "./segments";
 import { createWalls, type Walls } from "./walls";
 
@@ -101,10 +101,11 @@ export class Picture {
 
   /** `faces` are those of rigid walls. */
   show(fields: Fields, strain: number, faces: Face[] = []): void {
-    if (!this.lattice) return;
-    this.faces = faces;
-    if (this.lattice.plates) this.fitTo(this.lattice, fields.position, strain);
-    this.segments = fillSegments(this.lattice, fields, this.segments);
+    const { lattice } = this;
+    if (!lattice) return;
+    this.faces = faces.map((face) => placedFace(face, lattice));
+    if (lattice.plates) this.fitTo(lattice, fields.position, strain);
+    this.segments = fillSegments(lattice, fields, this.segments);
     this.walls.setSegments(this.segments);
     this.strain = strain;
     this.drawSoon();

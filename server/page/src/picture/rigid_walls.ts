@@ -1,5 +1,5 @@
 // Plates and the rigid walls of a case: where their faces are, and their drawing.
-import type { Case } from "../../gen/cellcrush/v1/case_pb";
+import { Loading_Grip_Edge as Edge, type Case, type Frame_RigidWall } from "../../gen/cellcrush/v1/case_pb";
 import type { Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
 import { indexBefore } from "../charts/curves";
@@ -8,7 +8,34 @@ import type { Camera } from "./camera";
 import { themeColour } from "./colours";
 
 /** A point of the face in mm, and the unit normal out of the wall. */
-export interface Face { x: number; y: number; normalX: number; normalY: number }
+export interface Face {
+  x: number; y: number; normalX: number; normalY: number;
+  /** The point is counted from the outermost surface of the lattice, where the wall touches it before loading. */
+  atEdge?: boolean;
+}
+
+const kNormals: Partial<Record<Edge, [number, number]>> = {
+  [Edge.LEFT]: [1, 0], [Edge.RIGHT]: [-1, 0], [Edge.BOTTOM]: [0, 1], [Edge.TOP]: [0, -1],
+};
+
+function faceOf(wall: Frame_RigidWall): Face {
+  const normal = kNormals[wall.edge];
+  if (normal) return { x: 0, y: 0, normalX: normal[0], normalY: normal[1], atEdge: true };
+  const [x, y] = [wall.normalX ?? 0, wall.normalY ?? 0];
+  const length = Math.hypot(x, y) || 1;
+  return { x: wall.xMm ?? 0, y: wall.yMm ?? 0, normalX: x / length, normalY: y / length };
+}
+
+/** The face where it is in the picture of a lattice. */
+export function placedFace(face: Face, { undeformed, ends, thickness }: Lattice): Face {
+  if (!face.atEdge) return face;
+  let outermost = Infinity;
+  ends.forEach((particle, i) => {
+    const place = undeformed[2 * particle] * face.normalX + undeformed[2 * particle + 1] * face.normalY;
+    outermost = Math.min(outermost, place - 0.5 * thickness[i >> 1]);
+  });
+  return { ...face, x: face.x + outermost * face.normalX, y: face.y + outermost * face.normalY };
+}
 
 /** The faces of the plates at a strain and of the side walls, where there are any. */
 export function platesOf(lattice: Lattice, strain: number): Face[] {
@@ -27,11 +54,7 @@ export function platesOf(lattice: Lattice, strain: number): Face[] {
 export function facesOf(submitted: Case | undefined): Face[] {
   const lattice = submitted?.lattice?.kind.value;
   const ofLattice = lattice && "rigidWalls" in lattice ? lattice.rigidWalls : [];
-  return [...ofLattice, ...submitted?.loading?.rigidWalls ?? []].map((wall) => {
-    const [x, y] = [wall.normalX ?? 0, wall.normalY ?? 0];
-    const length = Math.hypot(x, y) || 1;
-    return { x: wall.xMm ?? 0, y: wall.yMm ?? 0, normalX: x / length, normalY: y / length };
-  });
+  return [...ofLattice, ...submitted?.loading?.rigidWalls ?? []].map(faceOf);
 }
 
 /** The rigid walls of a job, moved by the displacements of its samples. */
