@@ -48,7 +48,7 @@ ExitCode run_preview(Session& session, PreviewOptions options) {
   if (title.empty()) title = request.case_().title().empty() ? options.scene.source : request.case_().title();
   auto preview = connection.call(connection.cases(), &v1::Cases::Stub::PreviewCase, request, kCheckPatience);
   add_left_out(report, preview);
-  write_file(options.file, render_preview_picture(format, title, preview));
+  write_file(options.file, render_preview_picture(format, title, preview, RigidWalls(request.case_(), {})));
   preview.clear_mesh();
   if (session.json) {
     print_json(preview);

@@ -16,6 +16,7 @@
 #include "results/energy_terms.h"
 #include "results/field_value.h"
 #include "results/sweep_results.h"
+#include "terminal/case_text.h"
 #include "terminal/number_text.h"
 
 namespace cellcrush::client {
@@ -273,10 +274,12 @@ Chart build_job_chart(const JobHistory& history) {
     bool has_plateau;
     double plateau;
   };
-  const Plate plates[] = {{"impact plate", raw.impact, smooth.impact, kImpactColour,
-                           summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa()},
-                          {"support plate", raw.support, smooth.support, kSupportColour,
-                           summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa()}};
+  std::vector<Plate> plates = {
+      {"impact plate", raw.impact, smooth.impact, kImpactColour, summary.has_plateau_stress_impact_mpa(),
+       summary.plateau_stress_impact_mpa()},
+      {"support plate", raw.support, smooth.support, kSupportColour, summary.has_plateau_stress_support_mpa(),
+       summary.plateau_stress_support_mpa()}};
+  if (!has_support(summary)) plates.pop_back();
   for (const Plate& plate : plates) {
     Colour faint = plate.colour;
     faint.opacity = 0.28;
@@ -369,7 +372,7 @@ Chart build_node_chart(const JobHistory& history) {
     add_energy(chart, history, &v1::Sample::energy_kinetic_mj, "kinetic");
     add_energy(chart, history, &v1::Sample::energy_elastic_mj, "elastic");
     add_energy(chart, history, &v1::Sample::energy_plastic_mj, "plastic");
-    add_energy(chart, history, &v1::Sample::work_external_mj, "work done on the frame");
+    add_energy(chart, history, &v1::Sample::work_external_mj, "work of loads");
     fit_axes(chart);
     const ShownUnit unit = unit_by_size("mJ", chart.y.high);
     chart.y.label = fmt::format("energy ({})", unit.name);

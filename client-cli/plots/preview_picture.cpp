@@ -113,12 +113,13 @@ std::string lattice_size_text(const v1::Mesh& mesh) {
 }  // namespace
 
 std::string render_preview_picture(PictureFormat format, const std::string& title,
-                                   const v1::PreviewCaseResponse& preview, const PrintSize& print) {
+                                   const v1::PreviewCaseResponse& preview, const RigidWalls& rigid_walls,
+                                   const PrintSize& print) {
   const v1::Mesh& mesh = preview.mesh();
   v1::FieldFrame field;
   *field.mutable_position_mm() = mesh.position_mm();
   field.mutable_plastic_fraction()->Resize(mesh.thickness_mm_size(), 0.0F);
-  const LatticeStage stage = lattice_stage({field, mesh});
+  const LatticeStage stage = lattice_stage({field, mesh}, rigid_walls);
   const double width = print.width(kPreviewWidth);
   const bool has_title = print.width_mm == 0.0;
   const double top = kPreviewEdge + (has_title ? kPreviewTitleRoom : 0.0);

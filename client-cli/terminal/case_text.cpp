@@ -5,6 +5,7 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -114,6 +115,11 @@ std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
     text += wrapped(unknown_text(check), width, "  ", "  ");
   }
   return text;
+}
+
+bool has_support(const v1::Summary& summary) {
+  const auto is_side = [](const v1::RigidWallSummary& wall) { return wall.wall().starts_with("side_"); };
+  return std::ranges::count_if(summary.rigid_walls(), std::not_fn(is_side)) != 1;
 }
 
 std::string scene_text(const v1::CaseWords& words) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string_view>
 
 #include "results/energy_terms.h"
@@ -30,12 +29,6 @@ bool has_closed(const v1::Summary& summary) {
   return summary.end() == v1::Summary::END_CLOSED || std::ranges::any_of(summary.warnings(), [](const auto& warning) {
            return warning.kind() == v1::Warning::CLOSED;
          });
-}
-
-// Whether a lattice is crushed against something: one rigid wall alone crushes against nothing.
-bool has_support(const v1::Summary& summary) {
-  const auto is_side = [](const v1::RigidWallSummary& wall) { return wall.wall().starts_with("side_"); };
-  return std::ranges::count_if(summary.rigid_walls(), std::not_fn(is_side)) != 1;
 }
 
 void add_plateau_rows(Table& table, const v1::Summary& summary) {

@@ -79,8 +79,14 @@ void check_other_loads(const SceneSpec& spec, FieldChecker& check) {
   }
   for (std::size_t i = 0; i < spec.loads.rigid_walls.size(); ++i) {
     const LoadsSpec::RigidWall& wall = spec.loads.rigid_walls[i];
-    if (const double across = axis_across(spec) == 0 ? wall.normal_x : wall.normal_y; across != 0.0) {
-      check.add("loading.rigid_walls[" + std::to_string(i) + "].normal_" + (axis_across(spec) == 0 ? "x" : "y"),
+    const int axis = axis_across(spec);
+    if (wall.edge && axis_of(*wall.edge) == axis) {
+      check.add("loading.rigid_walls[" + std::to_string(i) + "].edge", "",
+                "is across the crush, where the lattice repeats without end.",
+                "Give the wall an edge along the crush, or set loading.sides.kind to FREE or RIGID.");
+    }
+    if (const double across = axis == 0 ? wall.normal_x : wall.normal_y; across != 0.0) {
+      check.add("loading.rigid_walls[" + std::to_string(i) + "].normal_" + (axis == 0 ? "x" : "y"),
                 to_text(across), "is across the crush, where the lattice repeats without end.",
                 "Set it to 0, or loading.sides.kind to FREE or RIGID.");
     }

@@ -263,7 +263,8 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
   summary.start_overlap_count = std::ssize(scene.start_overlaps.walls());
   const bool has_travelled = scene.plates.kinetic_share > 0.0 ? all.back().travel >= scene.plates.end_travel
                                                               : all.back().step >= scene.schedule.step_count;
-  summary.end = has_travelled ? scene.schedule.end : RunEnd::at_rest;
+  const bool is_crushed_enough = scene.schedule.end_strain > 0.0 && all.back().strain >= scene.schedule.end_strain;
+  summary.end = is_crushed_enough ? RunEnd::strain : has_travelled ? scene.schedule.end : RunEnd::at_rest;
   summary.deepest_penetration = all.back().deepest_penetration;
   summary.energy_error_relative = energy_error_of(all);
   summary.warnings = collect_warnings(scene, all);

@@ -212,7 +212,7 @@ double acceleration_of(const Scene& scene, const State& state, std::size_t wall)
 Vector2 normal_at(LoadsSpec::Edge edge) {
   using Edge = LoadsSpec::Edge;
   const bool is_low = edge == Edge::left || edge == Edge::bottom;
-  return (is_low ? 1.0 : -1.0) * Vector2::Unit(edge == Edge::left || edge == Edge::right ? 0 : 1);
+  return (is_low ? 1.0 : -1.0) * Vector2::Unit(axis_of(edge));
 }
 
 double outermost_along(const Scene& scene, const Vector2& direction) {

@@ -112,6 +112,7 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
     put_crushing_walls(*scene);
   }
   scene->schedule = plan.schedule;
+  if (scene->crushing_walls) scene->schedule.end_strain = spec.loading.end_strain.value_or(0.0);
   scene->start_overlaps = measures.start_overlaps;
   prepare_search(spec, between_stages, *scene);
   between_stages();

@@ -222,6 +222,14 @@ void check_loading(const SceneSpec& spec, FieldChecker& check) {
   } else if (!loading.end_time_s) {
     check.within_limits("loading.end_time_s", {});
   }
+  if (!has_plates(spec) && loading.end_strain) {
+    if (has_crushing_walls(spec.loads.rigid_walls)) {
+      check.within_limits("loading.end_strain", loading.end_strain);
+    } else {
+      check.add("loading.end_strain", to_text(*loading.end_strain), "is that of a crush, but nothing crushes.",
+                "Remove it, or give loading.speed_m_per_s or rigid walls in place of the plates.");
+    }
+  }
   if (loading.end_time_s) {
     check.within_limits("loading.end_time_s", loading.end_time_s);
   }
@@ -233,6 +241,19 @@ void check_loading(const SceneSpec& spec, FieldChecker& check) {
   check_half_planes(spec, check);
   check_sides(spec, check);
   check_grips(spec, check);
+}
+
+/// A mass that meets the lattice, or a lattice in flight, exchanges momentum: fictitious masses would change it.
+void check_real_masses(const SceneSpec& spec, FieldChecker& check) {
+  const bool strikes = std::ranges::any_of(
+      spec.loads.rigid_walls, [](const LoadsSpec::RigidWall& wall) { return wall.own.contains("mass_g"); });
+  const bool flies = spec.loads.velocity_x_m_per_s != 0.0 || spec.loads.velocity_y_m_per_s != 0.0;
+  if (spec.numerics.mass_scaling != 1.0 && (strikes || flies)) {
+    check.add("numerics.mass_scaling", to_text(spec.numerics.mass_scaling),
+              strikes ? "makes the lattice heavier than it is for the rigid wall with a mass that meets it."
+                      : "gives the lattice more kinetic energy than its real mass has.",
+              "Set it to 1.");
+  }
 }
 
 void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
@@ -306,6 +327,7 @@ Problems check_spec(const SceneSpec& spec) {
   check.within_limits("plates.friction", spec.plates.friction);
   check_loading(spec, check);
   check_numerics(spec.numerics, check);
+  check_real_masses(spec, check);
   check.within_limits("output.sample_count", spec.output.sample_count);
   check.within_limits("output.frame_count", spec.output.frame_count);
   Problems problems = check.take();

@@ -72,7 +72,7 @@ std::vector<GripLine> grip_lines_of(const SceneSpec& spec, const Bounds& envelop
   std::vector<GripLine> lines;
   for (const LoadsSpec::Grip& grip : spec.loads.grips) {
     GripLine& line = lines.emplace_back();
-    line.axis = grip.edge == Edge::left || grip.edge == Edge::right ? 0 : 1;
+    line.axis = axis_of(grip.edge);
     const bool is_high = grip.edge == Edge::right || grip.edge == Edge::top;
     line.outward = is_high ? 1.0 : -1.0;
     line.place = grip.line_mm.value_or((is_high ? envelope.high : envelope.low)[line.axis]);

@@ -64,7 +64,7 @@ SceneSpec pressure_pulse() {
 }
 
 SceneSpec dropped_weight() {
-  SceneSpec spec = block("Steel hexagons under a dropped weight", 8, 9, 0.1);
+  SceneSpec spec = block("Steel hexagons under a dropped weight", 6, 7, 0.1);
   spec.material.youngs_modulus_mpa = 207000.0;
   spec.material.yield_stress_mpa = 250.0;
   spec.material.density_kg_per_m3 = 7850.0;
@@ -73,9 +73,9 @@ SceneSpec dropped_weight() {
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.loads.gravity_y_m_per_s2 = -9.81;
   LoadsSpec::RigidWall weight = wall_at(Edge::top);
-  weight.own = {{"mass_g", 60.0}, {"drop_height_mm", 1000.0}};
+  weight.own = {{"mass_g", 30.0}, {"drop_height_mm", 1000.0}};
   spec.loads.rigid_walls = {weight, wall_at(Edge::bottom)};
-  spec.loading.end_time_s = 0.02;
+  spec.loading.end_time_s = 0.015;
   spec.loading.end_at_rest = 0.001;
   return spec;
 }

@@ -87,6 +87,11 @@ struct LoadsSpec {
   bool operator==(const LoadsSpec&) const = default;
 };
 
+/// Axis to which an edge is perpendicular, 0: x, 1: y.
+inline int axis_of(LoadsSpec::Edge edge) {
+  return edge == LoadsSpec::Edge::left || edge == LoadsSpec::Edge::right ? 0 : 1;
+}
+
 /// Whether rigid walls take the part of the plates in a spec that has none: two that face each other, of which one alone
 /// moves, the impact plate of all measures, if no other two do; or one alone, if it stands at an edge of the lattice.
 bool has_crushing_walls(const std::vector<LoadsSpec::RigidWall>& walls);

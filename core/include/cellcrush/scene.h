@@ -123,6 +123,7 @@ struct Schedule {
   RunEnd end = RunEnd::time;    ///< at step_count
   std::int64_t sample_interval = 0;
   std::int64_t frame_interval = 0;
+  double end_strain = 0.0;   ///< of a crush by rigid walls, whose strain is not known beforehand; 0: no end
   double end_at_rest = 0.0;  ///< fraction of the greatest kinetic energy (RestWatch in step/rest_watch.h); 0: no end
 };
 

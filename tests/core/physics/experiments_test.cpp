@@ -324,5 +324,26 @@ TEST(Experiment, WallsAreRefusedByTheFieldsThatDoNotGoTogether) {
   EXPECT_EQ(field_of(apart), "pressure_mpa");
 }
 
+TEST(Experiment, EndsAtAStrainIfOneIsGiven) {
+  SceneSpec spec = scenes::struck_block();
+  spec.loading.end_strain = 0.3;
+  const auto scene = scenes::build(spec);
+  const std::vector<Sample> samples = samples_of(spec);
+  EXPECT_GE(samples.back().strain, 0.3);
+  EXPECT_LT(samples.back().strain, 0.31);
+  EXPECT_EQ(summarize(*scene, samples).end, RunEnd::strain);
+  spec.loads.rigid_walls = {wall_at(Edge::left), wall_at(Edge::right)};  // which stand still
+  EXPECT_EQ(build_scene(spec).problems.at(0).field, "loading.end_strain");
+}
+
+TEST(Experiment, HasRealMasses) {
+  SceneSpec struck = scenes::struck_block();
+  struck.numerics.mass_scaling = 2.0;
+  EXPECT_EQ(build_scene(struck).problems.at(0).field, "numerics.mass_scaling");
+  SceneSpec thrown = scenes::thrown_block();
+  thrown.numerics.mass_scaling = 2.0;
+  EXPECT_EQ(build_scene(thrown).problems.at(0).field, "numerics.mass_scaling");
+}
+
 }  // namespace
 }  // namespace cellcrush::experiments
