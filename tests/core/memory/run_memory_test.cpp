@@ -151,7 +151,7 @@ TEST_P(RunMemory, AndCheckpointAreWithin15Percent) {
 }
 
 const Crush kCrushes[] = {
-    {"hexagons", "type-i", 40, 60},
+    {"hexagons", "type-i", 20, 60},
     {"hexagons_to_half", "type-i", 30, 80, 0.5},
     {"hexagons_hardening_double", "type-i", 30, 60, 0.8,
      [](SceneSpec& spec) {
@@ -163,7 +163,7 @@ const Crush kCrushes[] = {
     {"hexagons_buckets", "type-i", 30, 60, 0.8,
      [](SceneSpec& spec) { spec.contact.search = ContactSpec::Search::buckets; }},
     {"hexagons_in_bands_papers_rule", "type-i", 12, 720, 0.8, with_papers_rule},
-    {"squares", "type-ii-as-counted", 30, 80, 0.8, [](SceneSpec& spec) { spec.elements_per_wall = 2; }},
+    {"squares", "type-ii-as-counted", 15, 80, 0.8, [](SceneSpec& spec) { spec.elements_per_wall = 2; }},
     {"triangles_papers_rule", "type-iii-as-counted", 30, 50, 0.8, with_papers_rule},
     {"frame_between_rigid_walls", "type-i", 30, 60, 0.4, between_rigid_walls},
     {"frame_struck", "type-i", 30, 60, 0.8, struck},
