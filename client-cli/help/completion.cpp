@@ -16,12 +16,11 @@ namespace {
 
 // The server's presets, for completion without a server; a test compares them with `cellcrush presets`.
 constexpr std::array kPresetNames = {
-    "hexagon-small",     "papka-kyriakides-1", "papka-kyriakides-2",   "type-i",
-    "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated",   "type-iii-as-counted",
-    "inclusions-0",      "inclusions-2",       "inclusions-6",         "ruan-2003",
-    "zheng-2005",        "ajdari-2011-graded", "gibson-1982-reentrant",
-    "struck-block",      "thrown-block",       "pressure-pulse",       "dropped-weight",
-    "loaded-and-unloaded"};
+    "hexagon-small",     "papka-kyriakides-1", "papka-kyriakides-2",    "type-i",
+    "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated",    "type-iii-as-counted",
+    "inclusions-0",      "inclusions-2",       "inclusions-6",          "ruan-2003",
+    "zheng-2005",        "ajdari-2011-graded", "gibson-1982-reentrant", "struck-block",
+    "thrown-block",      "pressure-pulse",     "dropped-weight",        "loaded-and-unloaded"};
 
 // The values of an option, or prefixes if they end in "="; empty: a file.
 std::vector<std::string> words_of(const OptionEntry& option) {

@@ -274,11 +274,10 @@ Chart build_job_chart(const JobHistory& history) {
     bool has_plateau;
     double plateau;
   };
-  std::vector<Plate> plates = {
-      {"impact plate", raw.impact, smooth.impact, kImpactColour, summary.has_plateau_stress_impact_mpa(),
-       summary.plateau_stress_impact_mpa()},
-      {"support plate", raw.support, smooth.support, kSupportColour, summary.has_plateau_stress_support_mpa(),
-       summary.plateau_stress_support_mpa()}};
+  std::vector<Plate> plates = {{"impact plate", raw.impact, smooth.impact, kImpactColour,
+                                summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa()},
+                               {"support plate", raw.support, smooth.support, kSupportColour,
+                                summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa()}};
   if (!has_support(summary)) plates.pop_back();
   for (const Plate& plate : plates) {
     Colour faint = plate.colour;

@@ -8,7 +8,8 @@
 
 namespace cellcrush::client {
 
-/// The specimen between its plates and rigid walls before loading, with a scale bar, its marks and what they mean. REQUIRES: a mesh.
+/// The specimen between its plates and rigid walls before loading, with a scale bar, its marks and what they mean.
+/// REQUIRES: a mesh.
 std::string render_preview_picture(PictureFormat format, const std::string& title,
                                    const v1::PreviewCaseResponse& preview, const RigidWalls& rigid_walls,
                                    const PrintSize& print = {});

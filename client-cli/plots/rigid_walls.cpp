@@ -41,8 +41,7 @@ double outermost_along(const v1::Mesh& mesh, const WallFace& face) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < mesh.element_nodes_size(); ++i) {
     const int particle = 2 * mesh.element_nodes(i);
-    const double place =
-        mesh.position_mm(particle) * face.normal_x + mesh.position_mm(particle + 1) * face.normal_y;
+    const double place = mesh.position_mm(particle) * face.normal_x + mesh.position_mm(particle + 1) * face.normal_y;
     least = std::min(least, place - 0.5 * mesh.thickness_mm(i / 2));
   }
   return least;

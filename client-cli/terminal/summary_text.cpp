@@ -233,7 +233,8 @@ std::string summary_text(const v1::Job& job, int width) {
   const bool plates = has_strain(job.words());
   Table table({Align::left, Align::right, Align::right, Align::left});
   if (plates) {
-    if (job.words().rigid_wall_plates()) table.add({"impact plate", "", "", "the rigid wall that moves, or stands alone"});
+    if (job.words().rigid_wall_plates())
+      table.add({"impact plate", "", "", "the rigid wall that moves, or stands alone"});
     add_plateau_rows(table, summary);
     add_quasi_static_rows(table, summary);
     add_inertia_row(table, summary);

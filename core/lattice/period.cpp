@@ -86,8 +86,8 @@ void check_other_loads(const SceneSpec& spec, FieldChecker& check) {
                 "Give the wall an edge along the crush, or set loading.sides.kind to FREE or RIGID.");
     }
     if (const double across = axis == 0 ? wall.normal_x : wall.normal_y; across != 0.0) {
-      check.add("loading.rigid_walls[" + std::to_string(i) + "].normal_" + (axis == 0 ? "x" : "y"),
-                to_text(across), "is across the crush, where the lattice repeats without end.",
+      check.add("loading.rigid_walls[" + std::to_string(i) + "].normal_" + (axis == 0 ? "x" : "y"), to_text(across),
+                "is across the crush, where the lattice repeats without end.",
                 "Set it to 0, or loading.sides.kind to FREE or RIGID.");
     }
   }

@@ -141,8 +141,8 @@ void Sampler::measure_rigid_walls(const Scene& scene, const State& state, Sample
   for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
     const RigidWallMotion& motion = state.rigid_wall_motion[wall];
     const RigidWallTotals& now = state.rigid_wall_totals[wall];
-    RigidWallSample of_wall = {.displacement = motion.travel, .speed = motion.speed, .impulse = now.normal,
-                               .work = now.work};
+    RigidWallSample of_wall = {
+        .displacement = motion.travel, .speed = motion.speed, .impulse = now.normal, .work = now.work};
     if (interval > 0.0) {
       const RigidWallTotals before = std::exchange(last_wall_totals_[wall], now);
       of_wall.acceleration = (motion.speed - std::exchange(last_wall_speed_[wall], motion.speed)) / interval;
@@ -181,8 +181,8 @@ void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sam
   last_support_impulse_ = support_impulse;
 }
 
-/// The curve is that of the mean of both plates, or of the impact plate without a support, smoothed over the last Summary::kPeakWindow of strain, or over all of
-/// it before the first window is complete.
+/// The curve is that of the mean of both plates, or of the impact plate without a support, smoothed over the last
+/// Summary::kPeakWindow of strain, or over all of it before the first window is complete.
 void Sampler::measure_efficiency(const Scene& scene, Sample& sample) {
   const double stress =
       has_support(scene) ? 0.5 * (sample.stress_impact + sample.stress_support) : sample.stress_impact;

@@ -85,7 +85,7 @@ class Sampler {
   DensestLayer densest_layer_;
   std::vector<Absorbed> absorbed_ = std::vector<Absorbed>(1);  ///< the first at or before the window of the efficiency
   bool can_close_by_walls_ = false;  ///< rigid walls crush, with gaps in what is between them before loading
-  double next_check_;                     ///< fraction of collapsed cells at which the crush mode is next evaluated
+  double next_check_;                ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 
 }  // namespace cellcrush

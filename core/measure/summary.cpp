@@ -290,8 +290,8 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
     summary.plateau_stress_support = support.mean(Summary::kPlateauLow, Summary::kPlateauHigh);
     summary.quasi_static = find_quasi_static(samples, impact, support);
     // Without a support the lattice moves as a whole: force over shortening is not what it absorbs.
-    summary.absorbed_energy = scene.length * scene.width * scene.depth *
-                              impact.integral(std::min(kAbsorbedTo, samples.back().strain));
+    summary.absorbed_energy =
+        scene.length * scene.width * scene.depth * impact.integral(std::min(kAbsorbedTo, samples.back().strain));
   }
   if (summary.plateau_stress_support) {
     summary.front = summarize_front(scene, samples, *summary.plateau_stress_support);

@@ -45,8 +45,8 @@ void check_place(const std::string& path, const LoadsSpec::RigidWall& wall, Fiel
 }
 
 /// A kind has fields that others have not.
-void check_belongs(const std::string& field, const std::string& value, const HalfPlaneKind& kind,
-                   std::string_view name, FieldChecker& check) {
+void check_belongs(const std::string& field, const std::string& value, const HalfPlaneKind& kind, std::string_view name,
+                   FieldChecker& check) {
   if (std::ranges::find(kind.fields, name) != kind.fields.end()) return;
   check.add(field, value, std::string(kind.misfit), std::string(kind.remedy));
 }
@@ -136,8 +136,9 @@ void press_by_half_planes(const Scene& scene, State& state, const PlateStep& /*p
   }
 }
 
-/// The works of the newest forces, which are those of a time, over a way along the normal, mm; friction does none on the
-/// half plane. A mass belongs to what the ledger has: of the forces on it, those of the lattice do not come from outside.
+/// The works of the newest forces, which are those of a time, over a way along the normal, mm; friction does none on
+/// the half plane. A mass belongs to what the ledger has: of the forces on it, those of the lattice do not come from
+/// outside.
 MotionWorks works_over(const Scene& scene, const State& state, std::size_t wall, double time, double way) {
   const RigidWall& of = scene.rigid_walls[wall];
   MotionWorks works = face_works(state.rigid_wall_force[wall].normal, way);

@@ -1,5 +1,5 @@
-// Half planes that stand still or move as prescribed, whatever the lattice does (E9f): by a displacement, or by a velocity
-// over time.
+// Half planes that stand still or move as prescribed, whatever the lattice does (E9f): by a displacement, or by a
+// velocity over time.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::array<std::string_view, 1> kVelocity = {"velocity_m_per_s"};
 constexpr std::string_view kNeedsMass = "is that of a rigid wall with a mass, but mass_g is missing.";
-constexpr std::string_view kGiveMass = "Give mass_g too, or the motion of the wall as displacement_mm or velocity_m_per_s.";
+constexpr std::string_view kGiveMass =
+    "Give mass_g too, or the motion of the wall as displacement_mm or velocity_m_per_s.";
 
 /// Where a wall is at a time, with its mean speed over the step before.
 RigidWallMotion motion_at(const Scene& scene, const RigidWall& wall, double time) {

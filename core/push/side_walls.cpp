@@ -24,8 +24,9 @@ extern const HalfPlaneKind kSideWalls = {.plural = "Side walls",
                                          .fill = nullptr,
                                          .start = start_still,
                                          .move = stay_still,
-                                         .note = " They stand at the sides of the lattice and suppress its strain "
-                                                 "across the crush, so that no Poisson's ratio shows."};
+                                         .note =
+                                             " They stand at the sides of the lattice and suppress its strain "
+                                             "across the crush, so that no Poisson's ratio shows."};
 
 void attach_side_walls(const LoadingSpec& loading, Scene& scene) {
   if (loading.sides.kind != LoadingSpec::Sides::Kind::rigid) {

@@ -1,5 +1,5 @@
-// Half planes with a mass, which the lattice, gravity and a force slow down or speed up (E9g), by the central differences
-// of the particles (E2).
+// Half planes with a mass, which the lattice, gravity and a force slow down or speed up (E9g), by the central
+// differences of the particles (E2).
 #include <array>
 #include <cmath>
 
@@ -38,7 +38,8 @@ void check_drop(const std::string& field, const SceneSpec& spec, const LoadsSpec
   }
   const Vector2 gravity(spec.loads.gravity_x_m_per_s2, spec.loads.gravity_y_m_per_s2);
   if (normal_of_wall(wall).dot(gravity) <= 0.0) {
-    check.add(field, to_text(height), "is the height of a fall, but gravity does not pull the wall towards the lattice.",
+    check.add(field, to_text(height),
+              "is the height of a fall, but gravity does not pull the wall towards the lattice.",
               "Give loading.gravity_y_m_per_s2, -9.81 for a wall at the TOP.");
   }
 }

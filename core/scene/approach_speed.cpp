@@ -143,8 +143,8 @@ double speed_of_fall(const Scene& scene) {
 double speed_of_fall_on_walls(const Scene& scene) {
   double square = 0.0;
   for (const RigidWall& wall : scene.rigid_walls) {
-    const double towards = wall.mass > 0.0 ? std::abs(scene.gravity.dot(wall.normal))
-                                           : std::max(0.0, -scene.gravity.dot(wall.normal));
+    const double towards =
+        wall.mass > 0.0 ? std::abs(scene.gravity.dot(wall.normal)) : std::max(0.0, -scene.gravity.dot(wall.normal));
     const auto lowest = std::ranges::min(wall.motion.points, {}, [](const auto& point) { return point.second; });
     for (const Vector2& place : scene.position) {
       square = std::max(square, 2.0 * towards * (wall.normal.dot(place - wall.point) - lowest.second));

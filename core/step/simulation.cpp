@@ -90,8 +90,7 @@ struct Simulation::Impl {
   }
 
   [[nodiscard]] bool has_ended() const {
-    return state.step >= most_steps_of(*scene) || rest.is_at_rest() || is_crushed_enough ||
-           has_arrived(*scene, state);
+    return state.step >= most_steps_of(*scene) || rest.is_at_rest() || is_crushed_enough || has_arrived(*scene, state);
   }
 
   /// Frames kept over a run in case it fails: often enough to see it come, seldom enough to take less than a hundredth

@@ -89,8 +89,15 @@ SceneSpec loaded_and_unloaded() {
   spec.material.density_kg_per_m3 = 2703.0;
   LoadsSpec::RigidWall plate = wall_at(Edge::left);
   plate.functions = {{"velocity_m_per_s",
-                      {{0.0, 0.0}, {5e-4, 2.0}, {4.5e-3, 2.0}, {5e-3, 0.0}, {6e-3, 0.0}, {6.5e-3, -2.0},
-                       {7.5e-3, -2.0}, {8.5e-3, 2.0}, {0.012, 2.0}}}};
+                      {{0.0, 0.0},
+                       {5e-4, 2.0},
+                       {4.5e-3, 2.0},
+                       {5e-3, 0.0},
+                       {6e-3, 0.0},
+                       {6.5e-3, -2.0},
+                       {7.5e-3, -2.0},
+                       {8.5e-3, 2.0},
+                       {0.012, 2.0}}}};
   spec.loads.rigid_walls = {plate, wall_at(Edge::right)};
   spec.loading.end_time_s = 0.012;
   return spec;

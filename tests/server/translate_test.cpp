@@ -10,12 +10,12 @@
 #include "scenes/lattices.h"
 #include "scenes/presets.h"
 #include "server/brick_network.h"
+#include "server/problem_fields.h"
 #include "server/small_case.h"
 #include "translate/case_checker.h"
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
 #include "translate/measured_errors.h"
-#include "translate/results.h"
 #include "translate/spec_to_case.h"
 
 namespace cellcrush {
@@ -25,23 +25,12 @@ using google::protobuf::util::MessageDifferencer;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using testing::fields_of;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
-
-std::vector<std::string> fields_of(const Problems& problems) {
-  std::vector<std::string> out;
-  for (const auto& problem : problems) out.push_back(problem.field);
-  return out;
-}
-
-std::vector<std::string> fields_of(const v1::CheckCaseResponse& response) {
-  std::vector<std::string> out;
-  for (const auto& problem : response.problems()) out.push_back(problem.field());
-  return out;
-}
 
 v1::Case frame_case(const std::string& more = "") {
   v1::Case out = testing::small_case();
@@ -298,71 +287,6 @@ TEST(Translate, ARigidWallsMissingOrDoubleIdAndPlaceAreProblemsWithTheirPaths) {
                           "lattice.frame.rigid_walls[3].id"));
 }
 
-TEST(Translate, LoadsAndEndOfAnyLatticeStandInTheLoading) {
-  v1::Case given = testing::small_case();
-  given.clear_loading();
-  given = testing::with_text(given, R"(loading { end_time_s: 1e-3 end_at_rest: 0.01 gravity_y_m_per_s2: -9.81
-    rigid_walls { id: "hammer" x_mm: 0 y_mm: 100 normal_y: -1 mass_g: 3 speed_m_per_s: 2 } })");
-  const SceneSpec spec = translate::to_spec(given).spec;
-  EXPECT_EQ(spec.loading.end_time_s, 1e-3);
-  EXPECT_EQ(spec.loading.end_at_rest, 0.01);
-  EXPECT_EQ(spec.loads.gravity_y_m_per_s2, -9.81);
-  const std::map<std::string, double> own = {{"mass_g", 3.0}, {"speed_m_per_s", 2.0}};
-  EXPECT_EQ(spec.loads.rigid_walls.at(0).own, own);
-  const auto check = translate::check_case(given);
-  ASSERT_THAT(fields_of(check.response), IsEmpty());
-  const v1::Loading& completed = check.response.completed_case().loading();
-  EXPECT_EQ(completed.end_time_s(), 1e-3);
-  EXPECT_EQ(completed.rigid_walls(0).id(), "hammer");
-  EXPECT_EQ(completed.rigid_walls(0).mass_g(), 3.0);
-  EXPECT_EQ(translate::to_spec(check.response.completed_case()).spec.loads, spec.loads);
-  given.mutable_loading()->mutable_rigid_walls(0)->set_mass_g(0.0);
-  EXPECT_THAT(fields_of(translate::check_case(given).response), ElementsAre("loading.rigid_walls[0].mass_g"));
-}
-
-TEST(Translate, SidesAndGripsComeThroughBothWays) {
-  v1::Case given = testing::small_case();
-  given.mutable_loading()->clear_speed_m_per_s();
-  given.mutable_loading()->clear_end_strain();
-  given.mutable_loading()->clear_ramp_strain();
-  given = testing::with_text(given, R"(loading { end_time_s: 1e-3 sides { kind: RIGID friction: 0.2 }
-    grips { id: "jaw" edge: RIGHT line_mm: 3 displacement_x_mm { points { time_s: 0 value: 0 }
-                                                                points { time_s: 1 value: 2 } } }
-    grips { id: "foot" edge: LEFT } })");
-  const SceneSpec spec = translate::to_spec(given).spec;
-  EXPECT_EQ(spec.loading.sides, (LoadingSpec::Sides{LoadingSpec::Sides::Kind::rigid, 0.2, false, {}}));
-  using Grip = LoadsSpec::Grip;
-  const Grip jaw = {Grip::Edge::right, 3.0, Grip::FixedTo::ground, {{0.0, 0.0}, {1.0, 2.0}}, {}};
-  EXPECT_EQ(spec.loads.grips, (std::vector{jaw, Grip{}}));
-  const v1::Case once = translate::to_case(spec);
-  given.mutable_loading()->mutable_grips(1)->clear_id();
-  const auto reading = translate::to_spec(given);
-  EXPECT_THAT(fields_of(reading.problems), ElementsAre("loading.grips[1].id"));
-  EXPECT_EQ(once.loading().grips(0).edge(), v1::Loading::Grip::RIGHT);
-  EXPECT_EQ(once.loading().grips(1).fixed_to(), v1::Loading::Grip::GROUND);
-  EXPECT_EQ(once.loading().sides().friction(), 0.2);
-}
-
-TEST(Translate, PeriodicSidesComeThroughBothWays) {
-  const v1::Case given = testing::with_text(testing::small_case(),
-                                            "loading { sides { kind: PERIODIC fixed_width: true period_mm: 12.5 } }");
-  const SceneSpec spec = translate::to_spec(given).spec;
-  EXPECT_EQ(spec.loading.sides, (LoadingSpec::Sides{LoadingSpec::Sides::Kind::periodic, 0.0, true, 12.5}));
-  const v1::Loading::Sides once = translate::to_case(spec).loading().sides();
-  EXPECT_EQ(once.kind(), v1::Loading::Sides::PERIODIC);
-  EXPECT_TRUE(once.fixed_width());
-  EXPECT_EQ(once.period_mm(), 12.5);
-}
-
-TEST(Translate, AGripWithoutEdgeOrWithANameTwiceAndARigidWallNamedAsASideAreProblems) {
-  const v1::Case given = testing::with_text(testing::small_case(), R"(loading { sides { kind: RIGID }
-    rigid_walls { id: "side_low" x_mm: 0 y_mm: -9 normal_y: 1 }
-    grips { id: "jaw" } grips { id: "jaw" edge: LEFT displacement_x_mm {} } })");
-  EXPECT_THAT(fields_of(translate::to_spec(given).problems),
-              ::testing::UnorderedElementsAre("loading.rigid_walls[0].id", "loading.grips[0].edge",
-                                              "loading.grips[1].id", "loading.grips[1].displacement_x_mm.points"));
-}
-
 TEST(Translate, WhatAFrameHasAtTwoPlacesIsNamedAsGiven) {
   v1::Case given = frame_case();
   given.mutable_lattice()->mutable_frame()->set_end_time_s(-1.0);
@@ -399,95 +323,6 @@ TEST(Translate, ACompletedFrameKeepsItsNodesNames) {
   EXPECT_EQ(frame.watched_nodes(0), "right");
   EXPECT_EQ(frame.beams(0).end(), "right");
   EXPECT_EQ(frame.rigid_walls(0).id(), "ceiling");
-}
-
-TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {
-  Summary summary;
-  summary.plateau_stress_impact = 3.5;
-  const auto out = translate::to_proto(summary, Sample(), {1.5}, v1::Case());
-  EXPECT_EQ(out.plateau_stress_impact_mpa(), 3.5);
-  EXPECT_FALSE(out.has_densification_strain());
-  EXPECT_FALSE(out.has_plateau_stress_support_mpa());
-  EXPECT_FALSE(out.has_front());
-  EXPECT_FALSE(out.has_quasi_static());
-  EXPECT_FALSE(out.has_crush_mode_strain());
-  EXPECT_FALSE(out.has_shock_error_relative());
-  EXPECT_EQ(out.crush_mode(), v1::Summary::CRUSH_MODE_NONE);
-  EXPECT_EQ(out.solver_seconds(), 1.5);
-}
-
-// Each number gets the number of the field of its name, in the unit of the field. Two terms of the ledger have none.
-auto numberer_of(const google::protobuf::Descriptor& message) {
-  return [&message](const char* name, auto& number, double scale) {
-    const auto* field = message.FindFieldByName(name);
-    const std::string_view of = name;
-    ASSERT_EQ(field == nullptr, of == "energy_initial_mj" || of == "energy_mass_damping_mj") << name;
-    if (field != nullptr) number = static_cast<std::remove_reference_t<decltype(number)>>(field->number() / scale);
-  };
-}
-
-// How many fields are numbers, each equal to its own number.
-int count_numbered(const google::protobuf::Message& message) {
-  int count = 0;
-  for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
-    const auto* field = message.GetDescriptor()->field(i);
-    const auto& reflection = *message.GetReflection();
-    if (field->is_repeated() || field->message_type() != nullptr) continue;
-    const bool is_count = field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_INT64;
-    const double value =
-        is_count ? static_cast<double>(reflection.GetInt64(message, field)) : reflection.GetDouble(message, field);
-    EXPECT_NEAR(value, field->number(), 1e-12) << field->name();
-    ++count;
-  }
-  return count;
-}
-
-TEST(Translate, EveryFieldOfASampleGoesOver) {
-  Sample sample;
-  visit_columns(sample, numberer_of(*v1::Sample::descriptor()));
-  sample.energies.mass_damping = 12.0 - 16.0;  // energy_damping_mj less energy_contact_damping_mj
-  visit_columns_of_front(sample.front.emplace(), numberer_of(*v1::Front::descriptor()));
-  const auto out = translate::to_proto(sample, {});
-  EXPECT_GE(count_numbered(out), 20);
-  EXPECT_GE(count_numbered(out.front()), 7);
-  sample.front.reset();
-  EXPECT_FALSE(translate::to_proto(sample, {}).has_front());
-}
-
-TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
-  Summary summary;
-  summary.plateau_stress_impact = 2.0;
-  summary.theory.shock = 2.2;
-  summary.crush_mode = CrushMode::v;
-  summary.crush_mode_strain = 0.12;
-  summary.other_rise = LastingRise{RiseKind::second_collapse, 0.71};
-  summary.front = FrontSummary{{0.0, 0.9, 0.1, 1e5, 2e3, 1.1, 1.05}, 0.4, 1.9, 0.75};
-  summary.quasi_static = QuasiStatic{0.01, 0.02, 0.003};
-  Sample last;
-  last.energies.external = 10.0;
-  last.energies.mass_damping = 1.0;
-  last.energies.contact_damping = 2.0;
-  last.energies.residual = -0.5;
-  const auto out = translate::to_proto(summary, last, {1.5, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}}, v1::Case());
-  EXPECT_EQ(out.crush_mode(), v1::Summary::CRUSH_MODE_V);
-  EXPECT_EQ(out.crush_mode_strain(), 0.12);
-  EXPECT_EQ(out.other_rise(), v1::Summary::OTHER_RISE_SECOND_COLLAPSE);
-  EXPECT_EQ(out.other_rise_strain(), 0.71);
-  EXPECT_NEAR(out.shock_error_relative(), 0.1, 1e-12);
-  EXPECT_NEAR(out.front().shock_error_relative(), -0.05, 1e-12);
-  EXPECT_EQ(out.front().velocity_behind_m_per_s(), 100.0);
-  EXPECT_EQ(out.front().stress_ahead_mpa(), 0.4);
-  EXPECT_EQ(out.front().window_share(), 0.75);
-  EXPECT_EQ(out.quasi_static().plate_difference_greatest(), 0.02);
-  EXPECT_EQ(out.ledger().contact_damping_mj(), 2.0);
-  EXPECT_EQ(out.ledger().mass_damping_mj(), 1.0);
-  EXPECT_EQ(out.ledger().residual_mj(), -0.5);
-  EXPECT_EQ(out.stage_times().integrate_motion_s(), 1.0);
-  EXPECT_EQ(out.stage_times().evaluate_internal_forces_s(), 2.0);
-  EXPECT_EQ(out.stage_times().find_contacts_s(), 3.0);
-  EXPECT_EQ(out.stage_times().evaluate_contact_forces_s(), 4.0);
-  EXPECT_EQ(out.stage_times().evaluate_plate_forces_s(), 5.0);
-  EXPECT_EQ(out.stage_times().evaluate_loads_s(), 6.0);
 }
 
 TEST(SharedCheckers, KnowTheMeshesOfSmallCasesAndForgetThoseOfLargeOnes) {

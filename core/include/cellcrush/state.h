@@ -115,20 +115,20 @@ struct State {
   double time = 0.0;
 
   // Written by integrate_motion.
-  LaneVector<Vector2> position;                      ///< N
-  LaneVector<Vector2> velocity;                      ///< N, half a step before `time`
-  LaneVector<double> rotation;                       ///< N, since the start; for output only
-  LaneVector<double> spin;                           ///< N, rad/s, half a step before `time`
-  std::vector<Vector2> rigid_centre;                 ///< B rigid bodies, centre of mass
-  std::vector<Vector2> rigid_velocity;               ///< B, half a step before `time`
-  std::vector<double> rigid_rotation;                ///< B, since the start
-  std::vector<double> rigid_spin;                    ///< B, half a step before `time`
-  std::vector<ReactionImpulse> reaction_impulse;     ///< N; empty if nothing is held
-  double impact_travel = 0.0;                        ///< of the impact plate
-  double impact_impulse = 0.0;                       ///< N s, of the impact plate on the lattice
-  double support_impulse = 0.0;                      ///< N s, of the support plate on the lattice
-  std::vector<RigidWallMotion> rigid_wall_motion;    ///< one for each of Scene::rigid_walls
-  std::vector<RigidWallTotals> rigid_wall_totals;    ///< one for each of Scene::rigid_walls
+  LaneVector<Vector2> position;                    ///< N
+  LaneVector<Vector2> velocity;                    ///< N, half a step before `time`
+  LaneVector<double> rotation;                     ///< N, since the start; for output only
+  LaneVector<double> spin;                         ///< N, rad/s, half a step before `time`
+  std::vector<Vector2> rigid_centre;               ///< B rigid bodies, centre of mass
+  std::vector<Vector2> rigid_velocity;             ///< B, half a step before `time`
+  std::vector<double> rigid_rotation;              ///< B, since the start
+  std::vector<double> rigid_spin;                  ///< B, half a step before `time`
+  std::vector<ReactionImpulse> reaction_impulse;   ///< N; empty if nothing is held
+  double impact_travel = 0.0;                      ///< of the impact plate
+  double impact_impulse = 0.0;                     ///< N s, of the impact plate on the lattice
+  double support_impulse = 0.0;                    ///< N s, of the support plate on the lattice
+  std::vector<RigidWallMotion> rigid_wall_motion;  ///< one for each of Scene::rigid_walls
+  std::vector<RigidWallTotals> rigid_wall_totals;  ///< one for each of Scene::rigid_walls
 
   // Written by evaluate_internal_forces.
   LaneVector<Vector2> axis;             ///< E, unit vector from start to end

@@ -1,6 +1,8 @@
 // Loads as experiments have them, on walls at the edges of a lattice: strikers, pulses, a thrown lattice, loading and
 // unloading, against the theory of a rigid, perfectly plastic, locking block and against elastic blocks. Blind to:
 // frames, friction at the walls, and lattices other than hexagons along their rows.
+#include "scenes/experiments.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +18,6 @@
 #include "push/crush.h"
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
-#include "scenes/experiments.h"
 #include "scenes/frames.h"
 #include "scenes/state_hash.h"
 
@@ -165,8 +166,12 @@ SceneSpec pressed_and_released(double strain) {
   const double speed = strain * scenes::build(spec)->length / (kTime - kRamp) / kMmPerM;
   LoadsSpec::RigidWall wall = wall_at(Edge::left);
   wall.functions = {{"velocity_m_per_s",
-                     {{0.0, 0.0}, {kRamp, speed}, {kTime - kRamp, speed}, {kTime + kRamp, -speed},
-                      {2.0 * kTime - kRamp, -speed}, {2.0 * kTime + kRamp, speed}}}};
+                     {{0.0, 0.0},
+                      {kRamp, speed},
+                      {kTime - kRamp, speed},
+                      {kTime + kRamp, -speed},
+                      {2.0 * kTime - kRamp, -speed},
+                      {2.0 * kTime + kRamp, speed}}}};
   spec.loads.rigid_walls = {wall, wall_at(Edge::right)};
   spec.numerics.mass_damping_per_s = 1e4;
   return spec;
@@ -192,8 +197,7 @@ TEST(Experiment, AnElasticBlockThrowsAStrikerBack) {
   slow.material.yield_stress_mpa = 1e9;
   const auto scene = scenes::build(slow);
   const std::vector<Sample> pressed = samples_of(slow);
-  const double stiffness =
-      slope_of(pressed, greatest_stress(pressed)) * scene->width * scene->depth / scene->length;
+  const double stiffness = slope_of(pressed, greatest_stress(pressed)) * scene->width * scene->depth / scene->length;
 
   constexpr double kShare = 30.0;  // of the block's mass
   const double mass = kShare * scene->total_mass;
@@ -228,8 +232,8 @@ TEST(Experiment, AForceGivesItsImpulse) {
     impulse += step * scene->rigid_walls[0].force.value_at(state.time - step);
   });
   const State& state = simulation.state();
-  const double momentum = scenes::momentum_of(*scene, state).linear.y() +
-                          scene->rigid_walls[0].mass * state.rigid_wall_motion.at(0).speed;
+  const double momentum =
+      scenes::momentum_of(*scene, state).linear.y() + scene->rigid_walls[0].mass * state.rigid_wall_motion.at(0).speed;
   EXPECT_NEAR(impulse, 0.075, 1e-5);
   scenes::record_bound("momentum error", std::abs(momentum / impulse - 1.0), 1e-9);
   EXPECT_GT(crush_travel_of(*scene, state), 0.0);  // the lattice alone is shorter
@@ -276,7 +280,8 @@ TEST(Experiment, APressureActsOnTheWidthOfTheLatticeAtItsEdge) {
 
 TEST(Experiment, AWallAtAnEdgeTouchesTheLattice) {
   SceneSpec spec = block(4, 3, 1e-4);
-  for (const Edge edge : {Edge::left, Edge::right, Edge::bottom, Edge::top}) spec.loads.rigid_walls.push_back(wall_at(edge));
+  for (const Edge edge : {Edge::left, Edge::right, Edge::bottom, Edge::top})
+    spec.loads.rigid_walls.push_back(wall_at(edge));
   const auto scene = scenes::build(spec);
   for (const RigidWall& wall : scene->rigid_walls) {
     double gap = 1e9;

@@ -1,6 +1,6 @@
-// Rings between two flat plates, with the hardening curve of the metal: one that was pressed in a testing machine, and a
-// thick pipe that Abaqus computed with solids. Blind to: lattices, friction, and what a curve is beyond tension tests but
-// for the power through its end.
+// Rings between two flat plates, with the hardening curve of the metal: one that was pressed in a testing machine, and
+// a thick pipe that Abaqus computed with solids. Blind to: lattices, friction, and what a curve is beyond tension tests
+// but for the power through its end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +68,10 @@ std::vector<double> ratios(const PressedRing& ring, MaterialSpec::Plane plane, i
 // compmod of the Universite Savoie: inner radius 45.96, outer 50.00, width 15.0 mm, E from the slope of the tension
 // curve, which ends at a strain of .04.
 const PressedRing kAluminiumRing = {
-    47.98, 4.04, 15.0, 64000.0,
+    47.98,
+    4.04,
+    15.0,
+    64000.0,
     {{0.0, 1e-4, 2e-4, 4e-4, 7e-4, 1e-3, 1.5e-3, 2e-3, 3e-3, 5e-3, 8e-3, 0.012, 0.018, 0.025, 0.031, 0.036},
      {90.0, 93.2, 106.3, 120.4, 130.2, 135.4, 140.4, 143.6, 147.1, 150.7, 154.0, 158.0, 163.4, 168.9, 172.8, 175.3},
      HardeningTable::Beyond::power_law}};
@@ -91,14 +94,23 @@ TEST(MeasuredRing, FlowsAsInPlaneStrainAndBendsAsInPlaneStress) {
 
 // Cardiff et al. 2017, read off a picture to 4 N/mm: radii 48.28, 57.15 mm. Half of the force at half of the approach.
 TEST(MeasuredRing, OfAThickPipeBearsWhatSolidsDo) {
-  const PressedRing pipe = {0.5 * (48.28 + 57.15), 57.15 - 48.28, 1.0, 186000.0,
+  const PressedRing pipe = {0.5 * (48.28 + 57.15),
+                            57.15 - 48.28,
+                            1.0,
+                            186000.0,
                             {{0.0, 0.0035, 0.0083, 0.0133, 0.0182, 0.0281, 0.0380, 1.0},
                              {241.32, 275.79, 301.65, 318.88, 344.74, 361.98, 379.21, 1482.37},
                              HardeningTable::Beyond::last_slope}};
   std::vector<Measured> solids;
-  for (const auto& [way, force] :
-       {Measured{2, 274.9}, {4, 301.0}, {7, 320.6}, {10.4, 339.2}, {15.4, 373.3}, {20.4, 418.3}, {25.4, 481.8},
-        {30.4, 571.0}, {34, 683.2}}) {
+  for (const auto& [way, force] : {Measured{2, 274.9},
+                                   {4, 301.0},
+                                   {7, 320.6},
+                                   {10.4, 339.2},
+                                   {15.4, 373.3},
+                                   {20.4, 418.3},
+                                   {25.4, 481.8},
+                                   {30.4, 571.0},
+                                   {34, 683.2}}) {
     solids.push_back({2.0 * way, 2.0 * force});
   }
   double worst = 0.0;
