@@ -227,8 +227,9 @@ TEST(Fetch, WritesTheWatchedNodesAndRigidWallsOfSamplesThatHaveAny) {
             "0.001,tip,0.1,-0.25,0.001,4,-5,6.5\n0.001,\"a,b\",0.1,0,0,0,0,0\n"
             "0.002,tip,0.1,-0.25,0.001,4,-5,6.5\n0.002,\"a,b\",0.1,0,0,0,0,0\n");
   EXPECT_EQ(text_of_file(folder / "rigid_walls.csv"),
-            "time_s,wall,displacement_mm,normal_force_n,tangential_force_n\n"
-            "0.001,floor,0.5,12.25,-3\n0.002,floor,0.5,12.25,-3\n");
+            "time_s,wall,displacement_mm,normal_force_n,tangential_force_n,velocity_m_per_s,acceleration_m_per_s2,"
+            "impulse_n_s,work_mj\n"
+            "0.001,floor,0.5,12.25,-3,0,0,0,0\n0.002,floor,0.5,12.25,-3,0,0,0,0\n");
 }
 
 TEST(Plot, AJobsPngHasTheRightSize) {

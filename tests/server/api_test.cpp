@@ -285,8 +285,8 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "UpdateSweepRequest.previous_note",
       // Of a job to be updated: of these, the daemon reads its name only.
       "Job.name", "Job.LabelsEntry.key", "Job.LabelsEntry.value", "Job.cause_message", "Job.executor", "Job.owner",
-      "Job.place", "Job.remedy", "Job.retry_of", "Job.sweep", "Job.title", "Summary.crush_mode_words",
-      "Summary.end_words", "Summary.other_rise_words", "Warning.message", "Warning.remedy",
+      "Job.place", "Job.remedy", "Job.retry_of", "Job.sweep", "Job.title", "RigidWallSummary.wall",
+      "Summary.crush_mode_words", "Summary.end_words", "Summary.other_rise_words", "Warning.message", "Warning.remedy",
       // Of a sweep: paths of fields in a case, and what the daemon writes itself and takes from nobody.
       "SweepAxis.field", "SweepPoint.FieldsEntry.key", "Sweep.name", "Sweep.jobs", "Sweep.owner",
       "Sweep.StateCountsEntry.key", "Problem.field", "Problem.value", "Problem.message", "Problem.remedy",
