@@ -87,7 +87,9 @@ class UnitResponse {
   using T = hn::TFromD<D>;
 
  public:
-  HWY_INLINE UnitResponse(const Rule& rule, double step) : rule_(rule), step_(step), sections_(rule) {}
+  /// Keeps references.
+  HWY_INLINE UnitResponse(const Rule& rule, double step, const ElasticElement<D>& elastic)
+      : rule_(rule), step_(step), sections_(rule, elastic) {}
 
   /// `material` must outlive the unit. `compressed`: whether the materials of any lanes are softened; `modulus` is E of
   /// the wall.
@@ -111,16 +113,23 @@ class UnitResponse {
     }
   }
 
+  /// Of an element that shears: what its shear bears. Updated by advance().
+  HWY_INLINE void set_shear(int e, T* shear) {
+    shear_[e] = shear;
+    sections_.sheared[e] = Lane<D>::load(shear);
+  }
+
   /// Updates the memories of the elements and returns their sums.
   HWY_INLINE void advance(ElementSums<D> (&sums)[kElements]) {
     const LaneMask<D> unsettled = bits().lanes();
     const LaneMask<D> soft = bits().without_mark().lanes();
     UnitForces<kElements, D> forces = sections_.elastic_change(strains_);
     if (any(unsettled)) {
-      UnitForces<kElements, D> whole = sections_.solve_elastic(strains_);
+      const UnitStrains<kElements, D> strains = sections_.with_shear(strains_);
+      UnitForces<kElements, D> whole = sections_.solve_elastic(strains);
       if (any(soft)) {
         soften_ahead(whole);
-        whole = select(soft, sections_.solve(strains_), whole);
+        whole = select(soft, sections_.solve(strains), whole);
       }
       forces = select(unsettled, whole, forces);
     }
@@ -211,12 +220,15 @@ class UnitResponse {
       keep_yields<Law>(yields, memory_[e].fibres);
       gained = fma(sections_.compression[e], of_element, gained);
     }
+    if (HWY_UNLIKELY(sections_.shears())) {
+      gained += sections_.take_shear(forces, unsettled);
+    }
     return gained;
   }
 
   /// Forces that the sections can bear together, with no strain.
   [[nodiscard]] HWY_INLINE UnitForces<kElements, D> corrected() {
-    const auto none = UnitStrains<kElements, D>::none();
+    const UnitStrains<kElements, D> none = sections_.with_shear(UnitStrains<kElements, D>::none());
     const UnitForces<kElements, D> forces = sections_.solve_elastic(none);
     const LaneMask<D> yields = bits().lanes();
     if (!any(yields)) {
@@ -294,6 +306,9 @@ class UnitResponse {
         sections_.force[e][i].axial.store(memory_[e].axial + i * memory_[e].fibres.stride);
         sections_.force[e][i].moment.store(memory_[e].moment + i * memory_[e].fibres.stride);
       }
+      if (HWY_UNLIKELY(sections_.shears())) {
+        sections_.sheared[e].store(shear_[e]);
+      }
       yielding_[e].mark(soft);
       yielding_[e].store(memory_[e].yielding);
     }
@@ -306,6 +321,7 @@ class UnitResponse {
   const LaneMaterial<D>* material_[kElements];
   ElementMemory<T> memory_[kElements];
   FibreBits<D> yielding_[kElements];
+  T* shear_[kElements];  // only if the elements shear
 };
 
 /// Strain increments of the elements of a row (E5), passed from the first loop over a chunk to the second.

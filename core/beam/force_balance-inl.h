@@ -8,6 +8,7 @@
 
 #include <cstddef>
 
+#include "beam/elastic_element-inl.h"
 #include "law/fibre_law-inl.h"
 #include "section/return_mapping-inl.h"
 #include "simd/lane-inl.h"
@@ -144,7 +145,8 @@ class UnitSections {
   static constexpr int kRoom = Rule::kSectionRoom;
 
  public:
-  HWY_INLINE explicit UnitSections(const Rule& rule) : rule_(rule) {}
+  /// Keeps references.
+  HWY_INLINE UnitSections(const Rule& rule, const ElasticElement<D>& elastic) : rule_(rule), elastic_(elastic) {}
 
   SectionForce<D> force[kElements][kRoom];
   /// Only of the sections that are marked in `soft`; the others are elastic in all lanes.
@@ -152,6 +154,34 @@ class UnitSections {
   unsigned soft[kElements] = {};
   /// E / E_l of the elements: above 1 where they are compressed (E5c).
   Lane<D> compression[kElements];
+  /// Outer moment less the shared one that the shear of an element bears (E5i); only if it shears.
+  Lane<D> sheared[kElements];
+
+  [[nodiscard]] HWY_INLINE bool shears() const { return elastic_.shears; }
+
+  /// The elements take up the shear under the forces of the unit, which are whole in unsettled lanes and otherwise
+  /// changes. Returns twice the work of that, less that of what they were to bear: over V_0 and times E.
+  HWY_INLINE Lane<D> take_shear(const UnitForces<kElements, D>& forces, LaneMask<D> unsettled) {
+    Lane<D> gained = 0;
+    for (int e = 0; e < kElements; ++e) {
+      const Lane<D> change = forces.outer[e] - forces.shared - masked(unsettled, sheared[e]);
+      sheared[e] += change;
+      gained = fnma(compression[e] * elastic_.shear, change * change, gained);
+    }
+    return gained;
+  }
+
+  /// Strains, and if the elements shear the turns that they bear by shear: the strains for which the forces are whole.
+  [[nodiscard]] HWY_INLINE UnitStrains<kElements, D> with_shear(UnitStrains<kElements, D> strains) const {
+    if (HWY_UNLIKELY(shears())) {
+      for (int e = 0; e < kElements; ++e) {
+        const Lane<D> turn = elastic_.shear * sheared[e];
+        strains.outer[e] += turn;
+        strains.shared = fnma(compression[e], turn, strains.shared);
+      }
+    }
+    return strains;
+  }
 
   [[nodiscard]] HWY_INLINE bool is_soft(int e, int i) const { return (soft[e] >> i & 1U) != 0; }
 
@@ -173,7 +203,7 @@ class UnitSections {
   }
 
   /// Forces with which the sections take up the strains, if all of them are elastic; these also correct what the
-  /// sections are out of balance.
+  /// sections are out of balance. The strains are those with_shear.
   [[nodiscard]] HWY_INLINE UnitForces<kElements, D> solve_elastic(const UnitStrains<kElements, D>& strains) const {
     Lane<D> axial[kElements];
     Turns turns;
@@ -228,26 +258,25 @@ class UnitSections {
 
   [[nodiscard]] HWY_INLINE UnitForces<kElements, D> solve_elastic(const Lane<D> (&axial)[kElements], const Turns& turns,
                                                                   Lane<D> shared_turn) const {
-    const Lane<D> half = hn::TFromD<D>(0.5);
     UnitForces<kElements, D> forces;
     Lane<D> compressions = 0;
     for (int e = 0; e < kElements; ++e) {
-      shared_turn = fma(compression[e], fnma(half, turns.outer[e], turns.shared[e]), shared_turn);
+      shared_turn = fma(compression[e], fnma(elastic_.carried, turns.outer[e], turns.shared[e]), shared_turn);
       compressions += compression[e];
     }
-    forces.shared = Lane<D>(4) / compressions * shared_turn;
+    forces.shared = elastic_.far_held / compressions * shared_turn;
     for (int e = 0; e < kElements; ++e) {
       forces.axial[e] = axial[e];
-      forces.outer[e] = fnma(half, forces.shared, Lane<D>(3) * turns.outer[e]);
+      forces.outer[e] = fnma(elastic_.carried, forces.shared, elastic_.far_free * turns.outer[e]);
     }
     return forces;
   }
 
   [[nodiscard]] HWY_INLINE ElementEquations<D> elastic_equations(const UnitStrains<kElements, D>& strains,
                                                                  int e) const {
-    using T = hn::TFromD<D>;
     const auto& factors = rule_.moments[e];
-    ElementEquations<D> of = {1, 0, 0, T(1.0 / 3.0), T(1.0 / 6.0), T(1.0 / 3.0), strains.axial[e], strains.outer[e], 0};
+    ElementEquations<D> of = {
+        1, 0, 0, elastic_.near, elastic_.far, elastic_.near, strains.axial[e], strains.outer[e], 0};
     for (int i = 0; i < rule_.sections(); ++i) {
       of.of_n = fma(Lane<D>(rule_.along_weight[i]), force[e][i].axial, of.of_n);
       of.of_o = fma(Lane<D>(factors.weighted_outer[i]), force[e][i].moment, of.of_o);
@@ -282,6 +311,7 @@ class UnitSections {
   }
 
   const Rule& rule_;
+  const ElasticElement<D>& elastic_;
 };
 
 }  // namespace cellcrush::HWY_NAMESPACE

@@ -80,6 +80,7 @@ class WallChunk {
         internal_force_(state.internal_force.data()),
         internal_moment_(state.internal_moment.data()),
         stress_(memory.stress.data()),
+        shear_(scene.walls.shear.empty() ? nullptr : scene.walls.shear.data()),
         inverse_modulus_(1.0 / scene.materials.front().youngs_modulus),
         prefetches_(memory.stress.size() * sizeof(T) > last_cache_bytes() / kCacheShareOfFibres),
         uniform_(LaneMaterials<F>(scene.materials.front())) {}
@@ -98,7 +99,12 @@ class WallChunk {
   /// work to that of the lanes.
   HWY_INLINE void respond(bool is_squashed, double* HWY_RESTRICT plastic_work) {
     is_squashed_ = is_squashed;
-    visit_lanes<F>([&](const WallBlock& block, int lane) HWY_ATTR { return_map_fibres(block, lane); });
+    visit_lanes<F>([&](const WallBlock& block, int lane) HWY_ATTR {
+      if (HWY_UNLIKELY(shear_ != nullptr)) {
+        elastic_ = ElasticElement<F>(load_shear(block.first_wall + lane));
+      }
+      return_map_fibres(block, lane);
+    });
     visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
   }
 
@@ -273,7 +279,7 @@ class WallChunk {
   template <int kElements>
   HWY_INLINE void advance_unit(const WallBlock& block, int lane, int j, const LaneMaterial<F>& material) const {
     const int walls = walls_of(block);
-    UnitResponse<Law, kElements, Rule, F> unit(rule_, step_);
+    UnitResponse<Law, kElements, Rule, F> unit(rule_, step_, elastic_);
     LaneMaterial<F> soft[kElements];
     for (int e = 0; e < kElements; ++e) {
       const std::ptrdiff_t row = row_of(block, j + e);
@@ -283,12 +289,24 @@ class WallChunk {
       }
       unit.set(e, is_squashed_ ? soft[e] : material, material.modulus, is_squashed_, memory_of(row, lane, walls),
                load_strains(strains));
+      if (HWY_UNLIKELY(shear_ != nullptr)) {
+        unit.set_shear(e, &memory_.shear[row + lane]);
+      }
     }
     ElementSums<F> sums[kElements];
     unit.advance(sums);
     for (int e = 0; e < kElements; ++e) {
       put_sums(sums[e], scratch_.sums(row_of(block, j + e), lane, walls));
     }
+  }
+
+  /// phi of the walls of the lanes (E5i).
+  HWY_INLINE Stress load_shear(int wall) const {
+    T phi[Stress::kWidth];
+    for (std::size_t i = 0; i < Stress::kWidth; ++i) {
+      phi[i] = static_cast<T>(shear_[wall + static_cast<int>(i)]);
+    }
+    return Stress::load(phi);
   }
 
   HWY_INLINE LaneMaterial<F> softened(const LaneMaterial<F>& material, const RowStrains<T>& strains) const {
@@ -386,7 +404,10 @@ class WallChunk {
     now.store(shortening_ + element);
     const Real left = Real::load(sums.moment_start);  // over A h: their squares are a twelfth of those over A gamma
     const Real right = -Real::load(sums.moment_end);
-    const Real squares = fma(Real(4), fma(left, left, fma(left, right, right * right)), axial * axial);
+    Real squares = fma(Real(4), fma(left, left, fma(left, right, right * right)), axial * axial);
+    if (shear_ != nullptr) {
+      squares = fma(Real(12) * Real::load(shear_ + section.wall), (left - right) * (left - right), squares);
+    }
     const Real inverse_now = select(section.is_squashed(now),
                                     of_stiffness * section.stiffness(now, section.thickening(now)), inverse_modulus);
     work = fnma(Real(0.5) * section.volume() * (inverse_now - inverse), squares, work);
@@ -427,10 +448,12 @@ class WallChunk {
   Vector2* const internal_force_;
   double* const internal_moment_;
   T* const stress_;
+  const double* const shear_;  // null unless the walls shear
 
   const Real inverse_modulus_;  // of one material
   const bool prefetches_;
   const LaneMaterial<F> uniform_;
+  ElasticElement<F> elastic_;  // of walls that shear, of those in the lanes
   bool is_squashed_ = false;
 };
 

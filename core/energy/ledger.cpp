@@ -89,6 +89,10 @@ class LaneEnergy {
     if (HWY_UNLIKELY(any(section.is_squashed(shortening)))) {
       modulus = modulus * section.modulus_share(shortening, section.thickening(shortening));
     }
+    if (!scene_.walls.shear.empty()) {  // E5i
+      const Lane<D> sheared = Lane<D>::load(&memory_.shear[element]);
+      squares = fma(Lane<D>::load(&scene_.walls.shear[section.wall]) * sheared, sheared, squares);
+    }
     return section.volume() * squares / (modulus + modulus);
   }
 

@@ -38,6 +38,7 @@ class BlockStrains {
     double axial;           ///< strain
     double inverse_length;  ///< 1 / L, without elastic strain (E5c)
     double half_thickness;  ///< mm, before loading
+    double sheared;         ///< turn of both ends by shear (E5i)
 
     [[nodiscard]] double outer(double curvature) const {
       return std::abs(axial) + half_thickness * std::abs(curvature);
@@ -52,15 +53,26 @@ class BlockStrains {
     const double inverse_length = shortening / before.norm();
     const double lost = shortening > 1.0 ? std::log(shortening) : 0.0;
     return {index, std::atan2(cross(before, state_.axis[index]), before.dot(state_.axis[index])),
-            state_.length[index] * inverse_length - 1.0 - lost, inverse_length, 0.5 * element.thickness};
+            state_.length[index] * inverse_length - 1.0 - lost, inverse_length, 0.5 * element.thickness,
+            scene_.walls.shear.empty() ? 0.0 : sheared_turn(index, j, w, inverse_length)};
   }
 
-  /// theta_1 and theta_2 of E4, since the start.
+  /// From the left moment less the right one, over A gamma: the outer one is the right one of the second of a pair.
+  [[nodiscard]] double sheared_turn(std::size_t index, int j, int w, double inverse_length) const {
+    const double borne = scene_.single_fibres ? state_.single_fibres.shear[index] : state_.fibres.shear[index];
+    const Element& element = scene_.elements[index];
+    const double gyration = element.thickness / std::sqrt(12.0);
+    const double left_less_right = j % together_ == 0 ? borne : -borne;
+    return scene_.walls.shear[block_.first_wall + w] * left_less_right /
+           (scene_.materials[element.material].youngs_modulus * gyration * inverse_length);
+  }
+
+  /// theta_1 and theta_2 of E4, since the start, without what is shear.
   [[nodiscard]] double turn_at_start(const Strained& of) const {
-    return least_angle(state_.rotation[scene_.elements[of.index].start] - of.turn);
+    return least_angle(state_.rotation[scene_.elements[of.index].start] - of.turn) - of.sheared;
   }
   [[nodiscard]] double turn_at_end(const Strained& of) const {
-    return least_angle(state_.rotation[scene_.elements[of.index].end] - of.turn);
+    return least_angle(state_.rotation[scene_.elements[of.index].end] - of.turn) - of.sheared;
   }
 
   [[nodiscard]] double of_single(const Strained& of) const {
@@ -73,7 +85,7 @@ class BlockStrains {
   [[nodiscard]] double of_pair(const Strained& left, const Strained& right) const {
     const double start = turn_at_start(left);
     const double end = turn_at_end(right);
-    const double between = least_angle(right.turn - left.turn);
+    const double between = least_angle(right.turn - left.turn) + right.sheared - left.sheared;
     const double middle =
         (4.0 * between + 2.0 * (start - end)) / (1.0 / left.inverse_length + 1.0 / right.inverse_length);
     return std::max({left.outer(3.0 * start * left.inverse_length + 0.5 * middle), left.outer(middle),

@@ -31,6 +31,7 @@ void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
     fibres.yielding.assign(elements, 0);
     fibres.end_force.assign(elements * kEndForces, T(0.0));
     fibres.owed.assign(elements, T(0.0));
+    fibres.shear.assign(scene.walls.shear.empty() ? 0 : elements, T(0.0));
   }
 }
 

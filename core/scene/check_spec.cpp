@@ -161,6 +161,11 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
     check.add("section.depth_points", std::to_string(section.depth_count()),
               "is not available in the full-moment rule.", "Give 4 or 6, or section.depth_rule LOBATTO with 2 to 10.");
   }
+  if (section.shear_deformation && !force_based) {
+    check.add("section.shear_deformation", "true", "does not go with displacement-based elements, which do not shear.",
+              "Set section.formulation to FORCE_BASED, or remove it.");
+  }
+  check.in_range("section.shear_factor", section.shear_factor, {0.1, 1.0}, " (shear area over section area)");
 }
 
 /// A quasi-static crush has the speed, the ramp and the end that the solver chooses, and real masses.
@@ -222,7 +227,7 @@ void check_loading(const SceneSpec& spec, FieldChecker& check) {
   } else if (!loading.end_time_s) {
     check.within_limits("loading.end_time_s", {});
   }
-  if (!has_plates(spec) && loading.end_strain) {
+  if (!has_plates(spec) && loading.end_time_s && loading.end_strain) {
     if (has_crushing_walls(spec.loads.rigid_walls)) {
       check.within_limits("loading.end_strain", loading.end_strain);
     } else {

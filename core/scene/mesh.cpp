@@ -169,6 +169,19 @@ void divide_walls(const Layout& layout, Scene& scene) {
   }
 }
 
+void let_walls_shear(const std::vector<MaterialSpec>& materials, Scene& scene) {
+  Walls& walls = scene.walls;
+  if (scene.section.shear_factor == 0.0) return;
+  for (std::size_t w = 0; w < walls.thickness.size(); ++w) {
+    const MaterialSpec& material = materials[walls.material[w]];
+    const double nu = material.poissons_ratio;
+    const bool held = material.plane == MaterialSpec::Plane::strain;
+    const double modulus = held ? 2.0 / (1.0 - nu) : 2.0 * (1.0 + nu);  // of bending, over that of shear
+    const double slenderness = walls.thickness[w] / walls.undeformed_length[w];
+    walls.shear.push_back(modulus / scene.section.shear_factor * slenderness * slenderness / 12.0);
+  }
+}
+
 void link_elements(Scene& scene) {
   const auto visit_elements = [&](const auto& visit) {
     for (std::size_t e = 0; e < scene.element_count(); ++e) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "cellcrush/scene.h"
+#include "cellcrush/scene_spec.h"
 #include "lattice/layout.h"
 
 namespace cellcrush {
@@ -9,6 +12,9 @@ namespace cellcrush {
 /// particles inside the walls, block by block. Consecutive walls with the same number of elements share a block. Each
 /// rigid wall is one element, after all others. REQUIRES: rigid walls are the last ones.
 void divide_walls(const Layout& layout, Scene& scene);
+
+/// Fills the flexibilities in shear (E5i), if the section shears. `materials` are those of the scene.
+void let_walls_shear(const std::vector<MaterialSpec>& materials, Scene& scene);
 
 /// Fills incidence_offset, incidence, wall_end_offset and wall_ends.
 void link_elements(Scene& scene);

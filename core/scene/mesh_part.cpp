@@ -143,7 +143,7 @@ std::vector<MaterialSpec> material_specs_of(const SceneSpec& spec) {
 
 std::optional<LatticeModuli> elastic_moduli_of(const SceneSpec& spec) {
   const LatticeKind* kind = kind_of(spec);
-  if (kind == nullptr || spec.changes != LatticeChanges()) return std::nullopt;
+  if (kind == nullptr || spec.changes != LatticeChanges() || spec.section.shear_deformation) return std::nullopt;
   const double modulus_of_walls = material_of(spec.material).youngs_modulus;
   const auto moduli_in = [&](LoadingSpec::Direction direction) {
     const ClosedForms forms = kind->closed_forms(*regular_lattice_of(spec), direction);
@@ -195,6 +195,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
   scene->list_order = layout.order.after(linked.order);
   scene->rigid.links = static_cast<std::size_t>(linked.links);
   divide_walls(layout, *scene);
+  let_walls_shear(material_specs_of(part), *scene);
   if (const auto* frame = std::get_if<FrameWalls>(&part.lattice)) {
     attach_to_frame(*frame, part.loads, *scene);
   }

@@ -1,4 +1,8 @@
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <variant>
 
 #include "cellcrush/spec_checker.h"
 #include "lattice/lattice.h"
@@ -10,6 +14,7 @@
 namespace cellcrush {
 namespace {
 
+constexpr double kSheared = 0.2;    // of the side
 constexpr double kThickest = 0.25;  // of the side
 constexpr double kThinnest = 5e-4;  // of the side
 
@@ -52,15 +57,70 @@ void check_stiffness(const MaterialSpec& material, FieldChecker& notes) {
   }
 }
 
-void check_walls(const std::string& field, const RegularLattice& lattice, FieldChecker& notes) {
-  const double slenderness = *lattice.wall_thickness_mm / *lattice.side_mm;
-  if (slenderness > kThickest) {
-    notes.add(field, to_text(*lattice.wall_thickness_mm),
-              "is " + percent(slenderness) + " of side_mm: walls are modelled as slender beams without shear.",
-              "Up to a quarter of the side, use the result for trends only.");
-  } else if (slenderness < kThinnest) {
-    notes.add(field, to_text(*lattice.wall_thickness_mm),
-              "is " + to_text(slenderness) + " of side_mm, thinner than any honeycomb.", "Check the units of both.");
+/// A field that says how thick walls are over their length.
+struct Thickness {
+  std::string field;
+  std::string value;
+  double slenderness;
+  std::string words;
+};
+
+std::string of_side(double slenderness) {
+  return "is " + (slenderness < kThinnest ? to_text(slenderness) : percent(slenderness)) + " of side_mm";
+}
+
+/// Of a frame none: its walls are listed in pieces.
+std::optional<Thickness> thickness_of(const SceneSpec& spec) {
+  if (const RegularLattice* lattice = regular_lattice_of(spec)) {
+    const double slenderness = *lattice->wall_thickness_mm / *lattice->side_mm;
+    return Thickness{path_of_lattice(spec) + "wall_thickness_mm", to_text(*lattice->wall_thickness_mm), slenderness,
+                     of_side(slenderness)};
+  }
+  if (const auto* voronoi = std::get_if<VoronoiWalls>(&spec.lattice)) {
+    const std::string path = "lattice.voronoi.";
+    if (voronoi->wall_thickness_mm) {
+      const double slenderness = *voronoi->wall_thickness_mm / *voronoi->side_mm;
+      return Thickness{path + "wall_thickness_mm", to_text(*voronoi->wall_thickness_mm), slenderness,
+                       of_side(slenderness)};
+    }
+    const double slenderness = 0.5 * std::numbers::sqrt3 * *voronoi->relative_density;  // of the regular hexagons
+    return Thickness{path + "relative_density", to_text(*voronoi->relative_density), slenderness,
+                     "makes walls as thick as about " + percent(slenderness) + " of side_mm"};
+  }
+  if (const auto* network = std::get_if<NetworkWalls>(&spec.lattice)) {
+    double length = 0.0;
+    double thickness = 0.0;
+    for (std::size_t w = 0; w < network->wall_count(); ++w) {
+      const double* const start = &network->joints_mm[2 * network->walls[2 * w]];
+      const double* const end = &network->joints_mm[2 * network->walls[2 * w + 1]];
+      length += std::hypot(end[0] - start[0], end[1] - start[1]);
+      thickness += network->thicknesses_mm.empty() ? *network->wall_thickness_mm : network->thicknesses_mm[w];
+    }
+    const std::string mean = to_text(thickness / static_cast<double>(network->wall_count()));
+    return Thickness{"lattice.network.walls", mean, thickness / length,
+                     "mm is the mean thickness, " + percent(thickness / length) + " of the mean length"};
+  }
+  return std::nullopt;
+}
+
+/// Walls that bend are too stiff by 2 (1 + nu) / kappa times the square of h/l without shear (E5i).
+void check_shear(const SceneSpec& spec, const Thickness& walls, FieldChecker& notes) {
+  const double error =
+      2.0 * (1.0 + spec.material.poissons_ratio) / spec.section.shear_factor * walls.slenderness * walls.slenderness;
+  notes.add(walls.field, walls.value,
+            walls.words + ": walls are modelled without shear, so those that bend are about " +
+                to_text(std::round(100.0 * error)) + " % too stiff before they yield.",
+            "Set section.shear_deformation to true, with force-based elements.");
+}
+
+void check_walls(const SceneSpec& spec, const Thickness& walls, FieldChecker& notes) {
+  if (walls.slenderness > kSheared && !spec.section.shear_deformation) check_shear(spec, walls, notes);
+  if (walls.slenderness > kThickest) {
+    notes.add(walls.field, walls.value,
+              walls.words + ": joints are a large part of walls so thick, and have no size in the model.",
+              "Use the result for trends only.");
+  } else if (walls.slenderness < kThinnest) {
+    notes.add(walls.field, walls.value, walls.words + ", thinner than any honeycomb.", "Check the units of both.");
   }
 }
 
@@ -97,9 +157,7 @@ void check_speed(const SceneSpec& spec, FieldChecker& notes) {
 
 Problems find_implausible(const SceneSpec& spec) {
   FieldChecker notes;
-  if (const RegularLattice* lattice = regular_lattice_of(spec)) {
-    check_walls(path_of_lattice(spec) + "wall_thickness_mm", *lattice, notes);
-  }
+  if (const std::optional<Thickness> walls = thickness_of(spec)) check_walls(spec, *walls, notes);
   if (const auto units = find_other_units(spec)) {
     notes.add(units->field, units->value, units->message, units->remedy);
     return notes.take();  // all else follows from them

@@ -111,6 +111,7 @@ void repeat_walls(const Copies& copies, Scene& out) {
   repeat(out.walls.thickness, copies.count());
   repeat(out.walls.undeformed_length, copies.count());
   repeat(out.walls.material, copies.count());
+  repeat(out.walls.shear, copies.count());
   out.rigid.first_element = static_cast<int>(out.elements.size());
 }
 

@@ -124,6 +124,7 @@ SectionRule make_section_rule(const SectionSpec& spec) {
   rule.along_weight = 0.5 * to_array(along.weights);
   rule.offset = 0.5 * to_array(through.points);
   rule.depth_weight = 0.5 * to_array(through.weights);
+  rule.shear_factor = spec.shear_deformation ? spec.shear_factor : 0.0;
   return rule;
 }
 

@@ -142,6 +142,8 @@ void read_section(const v1::Section& in, SectionSpec& out, Problems& problems) {
   read_choice(in.formulation(), "section.formulation", out.formulation, problems);
   read_choice(in.depth_rule(), "section.depth_rule", out.depth_rule, problems);
   read_choice(in.area_rule(), "section.area_rule", out.area_rule, problems);
+  if (in.has_shear_deformation()) out.shear_deformation = in.shear_deformation();
+  if (in.has_shear_factor()) out.shear_factor = in.shear_factor();
 }
 
 void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {

@@ -164,10 +164,11 @@ std::vector<std::string> other_fields(const SceneSpec& spec, const SceneSpec& me
   differencer.ReportDifferencesTo(&collector);
   differencer.Compare(to_case(measured), to_case(spec));
   const bool hardens = spec.material.hardens() || measured.material.hardens();
-  const bool in_plane_strain = spec.material.plane == MaterialSpec::Plane::strain;
+  const bool uses_poisson =
+      spec.material.plane == MaterialSpec::Plane::strain || spec.section.shear_deformation;
   std::erase_if(collector.fields, [&](const std::string& field) {
     return (!hardens && field == "material.isotropic_fraction") ||
-           (!in_plane_strain && field == "material.poissons_ratio");
+           (!uses_poisson && field == "material.poissons_ratio");
   });
   return collector.fields;
 }

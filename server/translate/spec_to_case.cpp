@@ -253,6 +253,10 @@ void write_section(const SectionSpec& in, v1::Section& out) {
   out.set_formulation(wire_of<v1::Section::Formulation>(in.formulation));
   out.set_depth_rule(wire_of<v1::Section::DepthRule>(in.depth_rule));
   out.set_area_rule(wire_of<v1::Section::AreaRule>(in.area_rule));
+  if (in.shear_deformation) {
+    out.set_shear_deformation(true);
+    out.set_shear_factor(in.shear_factor);
+  }
 }
 
 void write_numerics(const NumericsSpec& in, v1::Numerics& out) {

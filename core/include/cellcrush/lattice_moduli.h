@@ -17,8 +17,8 @@ struct LatticeModuli {
   ElasticModuli across;  ///< and across it
 };
 
-/// Those of the lattice of equal cells of a spec, whose walls nothing changes. Empty for any other spec, of which they
-/// are not known. REQUIRES: a spec without problems.
+/// Those of the lattice of equal cells of a spec, whose walls nothing changes and which do not shear. Empty for any
+/// other spec, of which they are not known. REQUIRES: a spec without problems.
 std::optional<LatticeModuli> elastic_moduli_of(const SceneSpec& spec);
 
 }  // namespace cellcrush

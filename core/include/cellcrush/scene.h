@@ -51,6 +51,7 @@ struct SectionRule {
   Eigen::ArrayXd along_weight;  ///< P
   Eigen::ArrayXd offset;        ///< D, y / h of the points; y is the distance from the axis, positive to the left
   Eigen::ArrayXd depth_weight;  ///< D
+  double shear_factor = 0.0;    ///< kappa of E5i; 0: the walls do not shear
 
   [[nodiscard]] std::size_t section_count() const { return static_cast<std::size_t>(along.size()); }
   [[nodiscard]] std::size_t depth_count() const { return static_cast<std::size_t>(offset.size()); }
@@ -259,8 +260,8 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
                single_fibres, slow_loading, constant_area, contact, limited_reaches, start_overlaps, faces, plates,
                rigid_walls, crushing_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, solid_area,
                stable_step, collapse_stress, fidelity, watched] = scene;
-  const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
-      walls;
+  const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material,
+               shear] = walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element, links] = rigid;
   const auto& [listed_joint, listed_wall] = list_order;
   const auto& [pin_offset, pin_joint] = pins;
@@ -272,7 +273,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   list(position, mass, inertia, inverse_mass, inverse_inertia, radius, elements, bands, incidence_offset, incidence,
        wall_end_offset, wall_ends, supports, motions, grips, gripped, loads, element_loads, initial_velocity,
        initial_spin, materials, rigid_walls, watched);
-  list(blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material);
+  list(blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material, shear);
   list(rigid_offset, centre, rigid_mass, rigid_inertia);
   list(listed_joint, listed_wall);
   list(pin_offset, pin_joint);

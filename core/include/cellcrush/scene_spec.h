@@ -42,7 +42,9 @@ struct MaterialSpec : LawParameters {
   /// 2 / sqrt 3 of the yield stress.
   enum class Plane { stress, strain };
   Plane plane = Plane::stress;
-  double poissons_ratio = 0.33;  ///< plane strain only: replaces E by E / (1 - nu^2)
+  /// In plane strain it replaces E by E / (1 - nu^2); of walls that shear it gives the shear modulus (E5i). Otherwise
+  /// not used.
+  double poissons_ratio = 0.33;
   std::optional<double> density_kg_per_m3;
 
   bool operator==(const MaterialSpec&) const = default;
@@ -192,6 +194,11 @@ struct SectionSpec {
   AreaRule area_rule = AreaRule::constant_volume;
   std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
   std::optional<int> depth_points;  ///< default: 6 (full-moment: 4 or 6, Lobatto: 2 to 10)
+  /// Whether walls shear, elastically (E5i): Timoshenko beams, for walls thicker than a fifth of their length.
+  /// Force-based only. The shear modulus follows from material.poissons_ratio.
+  bool shear_deformation = false;
+  /// kappa: shear area over section area. 5/6 is that of a parabolic shear stress over a rectangle.
+  double shear_factor = 5.0 / 6.0;
 
   [[nodiscard]] int axial_count() const {
     return axial_points.value_or(formulation == Formulation::force_based ? 4 : 2);

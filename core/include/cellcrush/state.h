@@ -35,6 +35,7 @@ struct FibreHistory {
   LaneVector<Bits> yielding;     ///< E, bit f: fibre f yielded in the last step
   LaneVector<T> end_force;       ///< E x kEndForces, of the unit
   LaneVector<T> owed;            ///< E, MPa^2, at the first element of a unit: what its work still misses (E5h)
+  LaneVector<T> shear;           ///< E, outer moment less the shared one that shear bears (E5i); empty without shear
 };
 
 /// Contact force on a particle, N. The two parts stand side by side because the same loops write both.
@@ -205,9 +206,9 @@ void visit_fields(S& state, Visitor&& visit) {
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, tangent, flow, yielded, section_axial, section_moment, yielding,
-           end_force, owed] = history;
+           end_force, owed, shear] = history;
     list(stress, back_stress, plastic_strain, tangent, flow, yielded, section_axial, section_moment, yielding,
-         end_force, owed);
+         end_force, owed, shear);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
        reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_totals, axis,

@@ -51,6 +51,7 @@ struct Walls {
   std::vector<double> thickness;          ///< W, mm
   std::vector<double> undeformed_length;  ///< W, mm, l_0 of one element
   std::vector<int> material;              ///< W, into Scene::materials
+  std::vector<double> shear;              ///< W, phi of E5i; empty if the walls do not shear
 
   [[nodiscard]] int chunk_count() const { return static_cast<int>(chunk_offset.size()) - 1; }
 };

@@ -60,13 +60,18 @@ SceneSpec with_elements_per_wall(SceneSpec spec, int elements) {
   return spec;
 }
 
+SceneSpec with_shear(SceneSpec spec) {
+  spec.section.shear_deformation = true;
+  return spec;
+}
+
 SceneSpec with_a_rigid_row(SceneSpec spec) {
   spec.inclusions.rows = {2};
   return spec;
 }
 
 /// Small specimens crushed to 60 %: lattices, rules, precisions, hardening, friction, damping, rigid cells, two
-/// thicknesses.
+/// thicknesses, shear.
 std::vector<GoldenCrush> whole_crushes() {
   using scenes::in_single_precision;
   using scenes::with_the_papers_elements;
@@ -85,7 +90,8 @@ std::vector<GoldenCrush> whole_crushes() {
            with_a_curve_and_a_rate(with_the_papers_elements(specimen("hexagon")))},
           {"one element a wall", with_elements_per_wall(specimen("triangle"), 1)},
           {"five elements a wall", with_elements_per_wall(specimen("hexagon"), 5)},
-          {"a rigid row", with_a_rigid_row(specimen("hexagon"))}};
+          {"a rigid row", with_a_rigid_row(specimen("hexagon"))},
+          {"walls that shear", with_shear(specimen("hexagon"))}};
 }
 
 Hashes read_hashes() {

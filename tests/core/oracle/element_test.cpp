@@ -33,6 +33,7 @@ struct Rule {
   DepthRule depth_rule;
   int sections;
   int points;
+  double shear_factor = 0.0;  // 0: without shear
 
   friend void PrintTo(const Rule& rule, std::ostream* out) { *out << rule.name; }
 };
@@ -48,6 +49,8 @@ constexpr Rule kRules[] = {
     {"ForceBased4x6Lobatto", Formulation::force_based, DepthRule::lobatto, 4, 6},
     {"ForceBased5x8", Formulation::force_based, DepthRule::lobatto, 5, 8},
     {"ForceBased5x10", Formulation::force_based, DepthRule::lobatto, 5, 10},
+    {"DefaultShearing", Formulation::force_based, DepthRule::full_moment, 4, 6, 0.1},
+    {"ForceBased5x8Shearing", Formulation::force_based, DepthRule::lobatto, 5, 8, 0.1},
 };
 
 struct Hardening {
@@ -96,6 +99,8 @@ SceneSpec spec_of(const Rule& rule, const Hardening& hardening, AreaRule area, P
     beams[w].material = other;
   }
   spec.section = {rule.formulation, rule.depth_rule, area, rule.sections, rule.points};
+  spec.section.shear_deformation = rule.shear_factor > 0.0;
+  if (spec.section.shear_deformation) spec.section.shear_factor = rule.shear_factor;
   spec.numerics.fibre_precision = precision;
   return spec;
 }

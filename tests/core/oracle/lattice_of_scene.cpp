@@ -66,7 +66,12 @@ void read_history(const Scene& scene, const FibreHistory<T>& memory, std::size_t
   if (memory.yielding.empty()) {
     return;
   }
-  for (std::size_t section = 0; section < history.borne.size(); ++section) {
+  const std::size_t place = (row.first - static_cast<std::size_t>(block.first_element)) / row.walls;  // in the wall
+  const bool is_second = block.has_pairs() && place % 2 == 1;                                         // of a pair
+  if (!memory.shear.empty()) {
+    history.borne.back()[1] = is_second ? -memory.shear[element] : memory.shear[element];
+  }
+  for (std::size_t section = 0; section < scene.section.section_count(); ++section) {
     const std::size_t i = row.of(scene.section.section_count(), section);
     history.borne[section] = {memory.section_axial[i], memory.section_moment[i]};
   }
@@ -75,8 +80,7 @@ void read_history(const Scene& scene, const FibreHistory<T>& memory, std::size_t
     history.yields[f] = has_bit(f);
   }
   history.yielded_before = has_bit(8 * sizeof(typename FibreHistory<T>::Bits) - 1);
-  const std::size_t place = (row.first - static_cast<std::size_t>(block.first_element)) / row.walls;  // in the wall
-  if (!block.has_pairs() || place % 2 == 0) {
+  if (!is_second) {
     const std::vector<double> forces = end_forces_of(memory, row, block.has_pairs());
     history.end_forces = Eigen::VectorXd::Map(forces.data(), static_cast<Eigen::Index>(forces.size()));
     history.owed = memory.owed[element] / material_of(scene, scene.elements[element]).modulus;
@@ -98,6 +102,7 @@ reference::ElementRule element_rule_of(const Scene& scene) {
   reference::ElementRule rule;
   rule.force_based = scene.section.force_based;
   rule.constant_area = scene.constant_area;
+  rule.shears = !scene.walls.shear.empty();
   for (Eigen::Index i = 0; i < scene.section.along.size(); ++i) {
     rule.sections.push_back({scene.section.along[i], scene.section.along_weight[i]});
   }
@@ -110,7 +115,14 @@ reference::ElementRule element_rule_of(const Scene& scene) {
 reference::ElementData element_data_of(const Scene& scene, std::size_t element) {
   const Element& given = scene.elements[element];
   const double length = (scene.position[given.end] - scene.position[given.start]).norm();
-  return {material_of(scene, given), given.thickness, scene.depth, length, is_in_pair(scene, element)};
+  reference::ElementData data = {material_of(scene, given), given.thickness, scene.depth, length,
+                                 is_in_pair(scene, element)};
+  if (!scene.walls.shear.empty()) {
+    // In plane stress, the moduli of bending and shear are E and E / 2 (1 + nu).
+    constexpr double kPoissonsRatio = 0.33;
+    data.shear = std::pow(given.thickness / length, 2) * (1.0 + kPoissonsRatio) / (6.0 * scene.section.shear_factor);
+  }
+  return data;
 }
 
 reference::ElementHistory element_history_of(const Scene& scene, const State& state, std::size_t element) {

@@ -65,7 +65,8 @@ struct EndStresses {
 ElementForces nodal_forces(const ElementRule& rule, const DeformedElement& element, double axial, double moment_start,
                            double moment_end, const EndStresses& stresses, double plastic_work) {
   const auto& [n, left, right] = stresses;
-  const double squares = n * n + (left * left + left * right + right * right) / 3.0;
+  const double of_shear = element.data.shear * (left - right) * (left - right);  // E5i
+  const double squares = n * n + (left * left + left * right + right * right) / 3.0 + of_shear;
   const double modulus = squashed_modulus(rule, element.data, element.plastic_length);
   const double stored = element.volume * squares / 2.0 * (1.0 / modulus - 1.0 / element.material.modulus);
   const double shear = -(moment_start + moment_end) / element.length;
@@ -116,6 +117,9 @@ class ForceBasedStep {
       for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
         places_.push_back({e, i});
       }
+      if (rule_.shears) {
+        places_.push_back({e, rule_.sections.size()});
+      }
     }
   }
 
@@ -139,7 +143,8 @@ class ForceBasedStep {
   }
 
  private:
-  /// A section of the unit.
+  /// A section of the unit, or after those of an element its shear: the moment of that is the difference of the moments
+  /// at the nodes, its flexibility phi / E_l (E5i).
   struct Place {
     std::size_t element;
     std::size_t section;
@@ -187,10 +192,20 @@ class ForceBasedStep {
     return strains;
   }
 
+  [[nodiscard]] bool is_shear(const Place& at) const { return at.section == rule_.sections.size(); }
+  [[nodiscard]] double weight_of(const Place& at) const {
+    return is_shear(at) ? 1.0 : rule_.sections[at.section].weight;
+  }
+
   /// Forces of a section from those of the unit.
   [[nodiscard]] Shape shape(const Place& at) const {
-    const double s = rule_.sections[at.section].position;
     Shape shape = Shape::Zero(2, no_strains().size());  // b_i
+    if (is_shear(at)) {
+      shape(1, moment(at.element)) = 1.0;
+      shape(1, moment(at.element + 1)) = -1.0;
+      return shape;
+    }
+    const double s = rule_.sections[at.section].position;
     shape(0, static_cast<Eigen::Index>(at.element)) = 1.0;
     shape(1, moment(at.element)) = 1.0 - s;
     shape(1, moment(at.element + 1)) = s;
@@ -210,6 +225,9 @@ class ForceBasedStep {
   template <class IsSoft>
   [[nodiscard]] Eigen::Matrix2d flexibility(const Place& at, const IsSoft& is_soft) const {
     const Material& material = elements_[at.element].material;
+    if (is_shear(at)) {
+      return Eigen::Vector2d(0.0, elements_[at.element].data.shear / material.modulus).asDiagonal();
+    }
     const double hardening = material.hardening_modulus / (material.modulus + material.hardening_modulus);  // E_T / E
     const double tangent = 0.02 + hardening;
     Eigen::Matrix2d stiffness = Eigen::Matrix2d::Identity();
@@ -262,7 +280,7 @@ class ForceBasedStep {
     UnitFlexibility flexibility = UnitFlexibility::Zero(strains.size(), strains.size());
     UnitForces right = strains;
     for (std::size_t k = 0; k < places_.size(); ++k) {
-      const double weight = rule_.sections[places_[k].section].weight;
+      const double weight = weight_of(places_[k]);
       const Shape b = shape(places_[k]);
       flexibility += weight * b.transpose() * sections[k] * b;
       right += weight * b.transpose() * sections[k] * borne[k];
@@ -313,6 +331,10 @@ class ForceBasedStep {
       const Place& at = places_[k];
       ElementHistory& history = *histories_[at.element];
       OfSection& borne = history.borne[at.section];
+      if (is_shear(at)) {
+        borne[1] += strains[k][1] * elements_[at.element].material.modulus / elements_[at.element].data.shear;
+        continue;
+      }
       borne.setZero();
       for (std::size_t j = 0; j < rule_.points.size(); ++j) {
         Fibre& moved = history.fibres[fibre(at, j)];
@@ -333,7 +355,7 @@ class ForceBasedStep {
     const std::vector<OfSection> borne_now = borne();
     double work = 0.0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
-      work += rule_.sections[places_[k].section].weight * (borne_before[k] + borne_now[k]).dot(strains[k]);
+      work += weight_of(places_[k]) * (borne_before[k] + borne_now[k]).dot(strains[k]);
     }
     const UnitForces ends = strains_of_unit();
     const std::vector<OfSection> nothing(places_.size(), OfSection::Zero());
@@ -387,7 +409,7 @@ ElementHistory undeformed(const ElementRule& rule, const Vector& start, const Ve
   history.plastic_length = history.length;
   history.axis = span / span.norm();
   history.fibres.resize(rule.sections.size() * rule.points.size());
-  history.borne.assign(rule.sections.size(), Eigen::Vector2d::Zero());
+  history.borne.assign(rule.sections.size() + (rule.shears ? 1 : 0), Eigen::Vector2d::Zero());
   history.yields.assign(history.fibres.size(), false);
   return history;
 }
@@ -431,6 +453,9 @@ double elastic_energy(const ElementRule& rule, const ElementData& data, const El
     const double weight = rule.sections[f / rule.points.size()].weight * rule.points[f % rule.points.size()].weight;
     const double stress = history.fibres[f].stress;
     energy += weight * volume_of(data) * stress * stress / (2.0 * modulus);  // E10
+  }
+  if (rule.shears) {
+    energy += data.shear * volume_of(data) * std::pow(history.borne.back()[1], 2) / (2.0 * modulus);  // E5i
   }
   return energy;
 }

@@ -47,6 +47,7 @@ struct RulePoint {
 struct ElementRule {
   bool force_based = false;
   bool constant_area = false;
+  bool shears = false;  ///< of force-based elements (E5i)
   std::vector<RulePoint> sections;
   std::vector<RulePoint> points;  ///< of each section
 };
@@ -58,6 +59,7 @@ struct ElementData {
   double depth = 0.0;              ///< b
   double undeformed_length = 0.0;  ///< l_0
   bool in_pair = false;            ///< solved with its neighbour (E5b)
+  double shear = 0.0;              ///< phi of E5i
 };
 
 /// History of an element.
@@ -68,7 +70,9 @@ struct ElementHistory {
   std::vector<Fibre> fibres;    ///< section by section
 
   // Of a force-based element.
-  std::vector<Eigen::Vector2d> borne;  ///< of each section: n = N / A and m = M / (A gamma), MPa
+  /// Of each section: n = N / A and m = M / (A gamma), MPa. Of an element that shears, then 0 and what its shear bears:
+  /// m at its start less that at its end.
+  std::vector<Eigen::Vector2d> borne;
   std::vector<bool> yields;            ///< of each fibre: whether it yielded in the newest step
   bool yielded_before = false;         ///< whether any fibre of the unit did in the step before that
   Eigen::VectorXd end_forces;          ///< of the unit, at its first element (E5h)

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -67,6 +68,17 @@ TEST(CheckSpec, EmptyCaseNamesEverythingThatIsMissing) {
   EXPECT_THAT(fields_of(build_scene({}).problems),
               IsSupersetOf({"lattice", "depth_mm", "material.youngs_modulus_mpa", "material.yield_stress_mpa",
                             "material.density_kg_per_m3", "loading.speed_m_per_s"}));
+}
+
+TEST(CheckSpec, OnlyForceBasedElementsShear) {
+  const Problems problems = problems_with([](SceneSpec& spec) {
+    spec.section.formulation = SectionSpec::Formulation::displacement_based;
+    spec.section.shear_deformation = true;
+    spec.section.shear_factor = 1.2;
+  });
+  ASSERT_THAT(fields_of(problems), ElementsAre("section.shear_deformation", "section.shear_factor"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("FORCE_BASED"));
+  EXPECT_EQ(problems[1].value, "1.2");
 }
 
 TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
@@ -204,8 +216,7 @@ TEST(Plausibility, UnitsThatAreMistakenAndWhatIsBeyondTheModelAreNotedByName) {
   const auto of_walls = [](double share) {
     return fields_noted([share](SceneSpec& spec) { scenes::cells_of(spec).wall_thickness_mm = share * 4.0; });
   };
-  EXPECT_THAT(of_walls(0.26), ElementsAre("lattice.hexagon.wall_thickness_mm"));
-  EXPECT_THAT(of_walls(0.24), IsEmpty());
+  EXPECT_THAT(of_walls(0.19), IsEmpty());
   EXPECT_THAT(of_walls(0.0004), ElementsAre("lattice.hexagon.wall_thickness_mm"));
   const auto at_speed = [](double speed) {
     return fields_noted([speed](SceneSpec& spec) { spec.loading.speed_m_per_s = speed; });
@@ -287,6 +298,29 @@ TEST(OtherUnits, OfFramesAndNetworksAreNamedToo) {
     EXPECT_THAT(asked->remedy, HasSubstr("lengths times 1000"));
   }
   EXPECT_THAT(find_other_units(of_beams)->field, "lattice.frame.beams[0].material.youngs_modulus_mpa");
+}
+
+TEST(Plausibility, ThickWallsAreToldWhatShearIsWorth) {
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
+  scenes::cells_of(spec).own.clear();
+  scenes::cells_of(spec).wall_thickness_mm = 0.24 * 4.0;
+  SceneSpec network = scenes::as_network(spec);
+  SceneSpec voronoi = spec;
+  voronoi.lattice = VoronoiWalls{.columns = 20, .rows = 7, .side_mm = 4.0, .irregularity = 0.5,
+                                 .wall_thickness_mm = {}, .relative_density = 0.24 * 2.0 / std::numbers::sqrt3};
+  for (SceneSpec thick : {spec, network, voronoi}) {
+    const Problems notes = find_implausible(thick);
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_THAT(notes[0].message, HasSubstr("about 18 % too stiff before they yield"));  // 3.192 x 0.24^2
+    EXPECT_THAT(notes[0].remedy, HasSubstr("section.shear_deformation"));
+    thick.section.shear_deformation = true;
+    EXPECT_THAT(find_implausible(thick), IsEmpty());
+  }
+  spec.section.shear_deformation = true;
+  scenes::cells_of(spec).wall_thickness_mm = 0.26 * 4.0;
+  const Problems notes = find_implausible(spec);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0].message, HasSubstr("have no size in the model"));
 }
 
 TEST(Plausibility, ANoteSaysWhatMayBeMeant) {
