@@ -52,8 +52,11 @@ class BlockStrains {
     const double shortening = scene_.constant_area ? 1.0 : state_.shortening[index];
     const double inverse_length = shortening / before.norm();
     const double lost = shortening > 1.0 ? std::log(shortening) : 0.0;
-    return {index, std::atan2(cross(before, state_.axis[index]), before.dot(state_.axis[index])),
-            state_.length[index] * inverse_length - 1.0 - lost, inverse_length, 0.5 * element.thickness,
+    return {index,
+            std::atan2(cross(before, state_.axis[index]), before.dot(state_.axis[index])),
+            state_.length[index] * inverse_length - 1.0 - lost,
+            inverse_length,
+            0.5 * element.thickness,
             scene_.walls.shear.empty() ? 0.0 : sheared_turn(index, j, w, inverse_length)};
   }
 

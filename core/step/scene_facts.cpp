@@ -23,11 +23,11 @@ namespace {
 constexpr double kWorthTelling = 1.1;
 
 std::string walls_text(const Scene& scene) {
-  return (scene.walls.shear.empty() ? "Walls: Euler beams of constant section, large rotation, "
-                                    : "Walls: Timoshenko beams of constant section, large rotation, that shear "
-                                      "elastically with a shear factor of " +
-                                          to_text(scene.section.shear_factor) +
-                                          " (the shear force does not lower the plastic moment), ") +
+  return (scene.walls.shear.empty()
+              ? "Walls: Euler beams of constant section, large rotation, "
+              : "Walls: Timoshenko beams of constant section, large rotation, that shear "
+                "elastically with a shear factor of " +
+                    to_text(scene.section.shear_factor) + " (the shear force does not lower the plastic moment), ") +
          std::string(scene.section.force_based ? "force-based, " : "displacement-based, ") +
          std::to_string(scene.section.section_count()) + " x " + std::to_string(scene.section.depth_count()) +
          " integration points per element" +

@@ -123,8 +123,8 @@ struct RigidWall {
 };
 
 /// Rigid walls in place of the plates: strain, stresses and all that follows from them are theirs (push/crush.h).
-/// Indices into Scene::rigid_walls. Two face each other, and one alone moves; or one stands at an edge, and the strain is
-/// how much shorter the lattice has become.
+/// Indices into Scene::rigid_walls. Two face each other, and one alone moves; or one stands at an edge, and the strain
+/// is how much shorter the lattice has become.
 struct CrushingWalls {
   static constexpr int kNone = -1;
 

@@ -92,7 +92,7 @@ inline int axis_of(LoadsSpec::Edge edge) {
   return edge == LoadsSpec::Edge::left || edge == LoadsSpec::Edge::right ? 0 : 1;
 }
 
-/// Whether rigid walls take the part of the plates in a spec that has none: two that face each other, of which one alone
+/// Whether rigid walls take the part of the plates in a spec that has none: two that face each other, of which one only
 /// moves, the impact plate of all measures, if no other two do; or one alone, if it stands at an edge of the lattice.
 bool has_crushing_walls(const std::vector<LoadsSpec::RigidWall>& walls);
 

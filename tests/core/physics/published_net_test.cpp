@@ -1,7 +1,7 @@
 // A net of hexagons of which others have published the stiffness: Luan, Chen, John and Gaitanaros, data set
-// "2D-Cellular-Metamaterials", tessellation 26, computed with quadratic Timoshenko beams (Abaqus B22). Their net differs
-// from ours by a constant factor, which is how their grips cut struts; what is held is that the factor does not change
-// with the density. Blind to: plastic flow, the size of joints, and nets whose walls stretch.
+// "2D-Cellular-Metamaterials", tessellation 26, computed with quadratic Timoshenko beams (Abaqus B22). Their net
+// differs from ours by a constant factor, which is how their grips cut struts; what is held is that the factor does not
+// change with the density. Blind to: plastic flow, the size of joints, and nets whose walls stretch.
 #include <gtest/gtest.h>
 
 #include <algorithm>

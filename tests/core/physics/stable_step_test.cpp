@@ -28,7 +28,7 @@ bool is_stable(Scene scene, double fraction, int steps) {
   return fastest < 1e-4;  // a hundred times the start; an unstable mode has grown without bound, or to not-a-number
 }
 
-/// The least fraction of the stable step, on a grid of 0.0025 over 0.11 from `from` on, at which the structure is unstable.
+/// The least fraction of the stable step, on a grid of 0.0025 over 0.11 from `from` on, at which it is unstable.
 double first_unstable(const Scene& scene, int steps, double from = 0.95) {
   for (double fraction = from; fraction < from + 0.11; fraction += 0.0025) {
     if (!is_stable(scene, fraction, steps)) {

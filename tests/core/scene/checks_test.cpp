@@ -306,8 +306,12 @@ TEST(Plausibility, ThickWallsAreToldWhatShearIsWorth) {
   scenes::cells_of(spec).wall_thickness_mm = 0.24 * 4.0;
   SceneSpec network = scenes::as_network(spec);
   SceneSpec voronoi = spec;
-  voronoi.lattice = VoronoiWalls{.columns = 20, .rows = 7, .side_mm = 4.0, .irregularity = 0.5,
-                                 .wall_thickness_mm = {}, .relative_density = 0.24 * 2.0 / std::numbers::sqrt3};
+  voronoi.lattice = VoronoiWalls{.columns = 20,
+                                 .rows = 7,
+                                 .side_mm = 4.0,
+                                 .irregularity = 0.5,
+                                 .wall_thickness_mm = {},
+                                 .relative_density = 0.24 * 2.0 / std::numbers::sqrt3};
   for (SceneSpec thick : {spec, network, voronoi}) {
     const Problems notes = find_implausible(thick);
     ASSERT_EQ(notes.size(), 1U);
