@@ -278,7 +278,7 @@ Chart build_job_chart(const JobHistory& history) {
                                 summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa()},
                                {"support plate", raw.support, smooth.support, kSupportColour,
                                 summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa()}};
-  if (!has_support(summary)) plates.pop_back();
+  if (!has_support(history.job)) plates.pop_back();
   for (const Plate& plate : plates) {
     Colour faint = plate.colour;
     faint.opacity = 0.28;

@@ -117,9 +117,9 @@ std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   return text;
 }
 
-bool has_support(const v1::Summary& summary) {
+bool has_support(const v1::Job& job) {
   const auto is_side = [](const v1::RigidWallSummary& wall) { return wall.wall().starts_with("side_"); };
-  return std::ranges::count_if(summary.rigid_walls(), std::not_fn(is_side)) != 1;
+  return job.words().plates() || std::ranges::count_if(job.summary().rigid_walls(), std::not_fn(is_side)) != 1;
 }
 
 std::string scene_text(const v1::CaseWords& words) {

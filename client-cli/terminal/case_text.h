@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cellcrush/v1/cases_service.pb.h"
-#include "cellcrush/v1/sample.pb.h"
+#include "cellcrush/v1/job.pb.h"
 #include "terminal/terminal.h"
 
 namespace cellcrush::client {
@@ -15,8 +15,8 @@ std::string fidelity_text(const v1::CheckCaseResponse& check, int width);
 /// Whether a crush has strain and stresses: between plates, or between two rigid walls in their place.
 inline bool has_strain(const v1::CaseWords& words) { return words.plates() || words.rigid_wall_plates(); }
 
-/// Whether a lattice is crushed against something: one rigid wall alone crushes against nothing.
-bool has_support(const v1::Summary& summary);
+/// Whether a lattice is crushed against something: one rigid wall without plates crushes against nothing.
+bool has_support(const v1::Job& job);
 
 /// Summary of a case in one line: "hexagons, 74 x 21 cells, crushed along X at 100 m/s to strain 0.8".
 std::string scene_text(const v1::CaseWords& words);

@@ -31,7 +31,8 @@ bool has_closed(const v1::Summary& summary) {
          });
 }
 
-void add_plateau_rows(Table& table, const v1::Summary& summary) {
+void add_plateau_rows(Table& table, const v1::Job& job) {
+  const v1::Summary& summary = job.summary();
   const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
   const bool has_moduli = summary.theory().has_modulus_mpa();
   const ShownUnit unit =
@@ -61,7 +62,7 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   } else if (const std::string absent = absent_theory_text(summary); !absent.empty()) {
     table.add({"", "", "none", absent});
   }
-  if (has_support(summary)) {
+  if (has_support(job)) {
     stress_row("support", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
                summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
   }
@@ -109,7 +110,7 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   if (summary.has_valid_to_strain()) {
     table.add({"valid to strain", number_text(summary.valid_to_strain()), "", "the lattice is closed from there on"});
   }
-  if (!has_support(summary)) return;
+  if (!has_support(job)) return;
   // For a run that ended earlier, this is the total work of its plate.
   const bool whole = summary.absorbed_energy_mj() > (1.0 - 1e-9) * summary.ledger().work_external_mj();
   const double to = std::min(0.5, summary.has_valid_to_strain() ? summary.valid_to_strain() : 0.5);
@@ -235,7 +236,7 @@ std::string summary_text(const v1::Job& job, int width) {
   if (plates) {
     if (job.words().rigid_wall_plates())
       table.add({"impact plate", "", "", "the rigid wall that moves, or stands alone"});
-    add_plateau_rows(table, summary);
+    add_plateau_rows(table, job);
     add_quasi_static_rows(table, summary);
     add_inertia_row(table, summary);
   }

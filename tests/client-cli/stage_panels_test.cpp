@@ -10,6 +10,7 @@
 #include "plots/job_picture.h"
 #include "programs/text_proto.h"
 #include "synthetic_crush.h"
+#include "terminal/case_text.h"
 
 namespace cellcrush::client {
 namespace {
@@ -88,6 +89,16 @@ TEST(JobPicture, OfAWidthInPrintFitsOnAPage) {
       EXPECT_LE(std::stod(height[1]), 240.01) << print.width_mm << ' ' << print.font_pt;
     }
   }
+}
+
+TEST(RigidWalls, OneAloneCrushesAgainstNothing) {
+  v1::Job job;
+  job.mutable_summary()->add_rigid_walls()->set_wall("side_low");
+  EXPECT_TRUE(has_support(job));
+  job.mutable_summary()->add_rigid_walls()->set_wall("striker");
+  EXPECT_FALSE(has_support(job));
+  job.mutable_words()->set_plates(true);
+  EXPECT_TRUE(has_support(job));
 }
 
 TEST(RigidWalls, AreWhereTheSamplesHaveMovedThem) {

@@ -247,7 +247,9 @@ export class JobPage implements View {
         `${warning.message} ${warning.remedy}`)));
     this.numbers.hidden = !summary;
     const note = job.words?.theoryNote ?? "";
-    if (summary) replaceChildren(this.numbers, h("h2", {}, "Result"), resultsList(summary, note));
+    if (summary) {
+      replaceChildren(this.numbers, h("h2", {}, "Result"), resultsList(summary, note, job.words?.plates ?? true));
+    }
     const words = check?.words ?? job.words;
     this.facts.hidden = !words;
     if (words) {

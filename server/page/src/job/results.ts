@@ -11,7 +11,7 @@ function besideTheory(value: number | undefined, theory: number | undefined, nam
 }
 
 /** `note` says when not to compare with theory. */
-export function resultsList(s: Summary, note: string): HTMLElement {
+export function resultsList(s: Summary, note: string, hasPlates: boolean): HTMLElement {
   const { theory } = s;
   const list = h("dl", { class: "results" });
   const add = (name: string, field: string, value: string, beside = ""): void =>
@@ -24,7 +24,8 @@ export function resultsList(s: Summary, note: string): HTMLElement {
         impact === undefined
           ? `the ${(s.validToStrain ?? 1) < 0.4 ? "lattice closed" : "run ended"} before strain 0.40`
           : compared(impact, theory?.shockMpa, "shock theory (Eq. 51)"));
-    if (s.rigidWalls.filter((wall) => !wall.wall.startsWith("side_")).length !== 1) { // one alone has no support
+    const walls = s.rigidWalls.filter((wall) => !wall.wall.startsWith("side_")).length;
+    if (hasPlates || walls !== 1) { // one wall alone has no support
       add("Plateau stress, support plate", "plateau_stress_support_mpa", quantity(s.plateauStressSupportMpa, "MPa"),
           compared(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby"));
     }
