@@ -37,18 +37,6 @@ SceneSpec block(int columns, int rows, double end_time_s) {
   return spec;
 }
 
-std::vector<Sample> samples_of(const SceneSpec& spec) {
-  const auto scene = scenes::build(spec);
-  Simulation simulation(scene);
-  std::vector<Sample> samples;
-  while (!simulation.has_ended() && simulation.status().kind == RunStatus::Kind::running) {
-    simulation.advance(std::max<std::int64_t>(1, scene->schedule.sample_interval));
-    samples.push_back(simulation.take_sample());
-  }
-  EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
-  return samples;
-}
-
 /// What the theory of a rigid, perfectly plastic, locking block needs of a lattice, from a crush at a constant speed.
 struct LockingBlock {
   double strength = 0.0;  ///< sigma_0, MPa: at the support
@@ -64,7 +52,7 @@ struct LockingBlock {
     area = scene->width * scene->depth;
     length = scene->length;
     density = scene->total_mass / (area * length);
-    const Summary summary = summarize(*scene, samples_of(spec));
+    const Summary summary = summarize(*scene, scenes::run_frame(spec));
     strength = *summary.plateau_stress_support;
     const double speed = kMmPerM * speed_m_per_s;
     locking = density * speed * speed / (*summary.plateau_stress_impact - strength);
@@ -93,7 +81,7 @@ TEST(Experiment, AStrikerPenetratesAsIntoALockingBlock) {
   SceneSpec spec = block(kColumns, kRows, 4e-3);
   spec.loading.end_at_rest = 1e-3;
   spec.loads.rigid_walls = {striker_at(Edge::left, share * 1e6 * theory.mass(), kFast), wall_at(Edge::right)};
-  const std::vector<Sample> samples = samples_of(spec);
+  const std::vector<Sample> samples = scenes::run_frame(spec);
   const Summary summary = summarize(*scenes::build(spec), samples);
   const double crushed = share * theory.length * (std::sqrt(1.0 + theory.damage(speed)) - 1.0);
   const double stroke = summary.rigid_walls.at(0).stroke / (theory.locking * crushed);
@@ -110,7 +98,7 @@ TEST(Experiment, AThrownBlockStopsAsALockingOne) {
   spec.loads.rigid_walls = {wall_at(Edge::right)};
   const auto scene = scenes::build(spec);
   ASSERT_TRUE(scene->crushing_walls);
-  const std::vector<Sample> samples = samples_of(spec);
+  const std::vector<Sample> samples = scenes::run_frame(spec);
   const double speed = kMmPerM * kFast;
   const double crushed = 1.0 - std::exp(-0.5 * theory.damage(speed));
   const auto most = std::ranges::max_element(samples, {}, &Sample::strain);
@@ -130,7 +118,7 @@ TEST(Experiment, APulseDrivesAPlateAsIntoALockingBlock) {
   plate.own = {{"mass_g", share * 1e6 * theory.mass()}};
   plate.functions = {{"pressure_mpa", {{0.0, pressure}, {duration, pressure}, {duration + 1e-9, 0.0}}}};
   spec.loads.rigid_walls = {plate, wall_at(Edge::right)};
-  const std::vector<Sample> samples = samples_of(spec);
+  const std::vector<Sample> samples = scenes::run_frame(spec);
   const Summary summary = summarize(*scenes::build(spec), samples);
   const double m = share * theory.density * theory.length;
   const double crushed = (std::sqrt(m * m + theory.density * pressure * (pressure - theory.strength) * duration *
@@ -180,7 +168,7 @@ SceneSpec pressed_and_released(double strain) {
 // Beyond its collapse, the lattice unloads and loads as an elastic one of its new shape. That is flatter by 1 %: walls
 // have turned by 0.016 rad, and E* has fallen by 7 %, to first order in the angle.
 TEST(Experiment, UnloadingIsElastic) {
-  const std::vector<Sample> samples = samples_of(pressed_and_released(0.012));
+  const std::vector<Sample> samples = scenes::run_frame(pressed_and_released(0.012));
   const std::span<const Sample> all = samples;
   const double most = greatest_stress(samples);
   const std::size_t third = samples.size() / 3;
@@ -196,7 +184,7 @@ TEST(Experiment, AnElasticBlockThrowsAStrikerBack) {
   SceneSpec slow = pressed_and_released(0.0005);
   slow.material.yield_stress_mpa = 1e9;
   const auto scene = scenes::build(slow);
-  const std::vector<Sample> pressed = samples_of(slow);
+  const std::vector<Sample> pressed = scenes::run_frame(slow);
   const double stiffness = slope_of(pressed, greatest_stress(pressed)) * scene->width * scene->depth / scene->length;
 
   constexpr double kShare = 30.0;  // of the block's mass
@@ -207,7 +195,7 @@ TEST(Experiment, AnElasticBlockThrowsAStrikerBack) {
   spec.imperfection = {};
   spec.material.yield_stress_mpa = 1e9;
   spec.loads.rigid_walls = {striker_at(Edge::left, 1e6 * mass, speed / kMmPerM), wall_at(Edge::right)};
-  const std::vector<Sample> samples = samples_of(spec);
+  const std::vector<Sample> samples = scenes::run_frame(spec);
   const auto left = std::ranges::find_if(samples, [](const Sample& sample) {
     return sample.rigid_walls[0].speed < 0.0 && sample.rigid_walls[0].displacement < 0.0;
   });
@@ -245,7 +233,7 @@ TEST(Experiment, AVelocityTakesAWallWhereItsIntegralIs) {
   const auto scene = scenes::build(spec);
   double worst = 0.0;
   double most = 0.0;
-  for (const Sample& sample : samples_of(spec)) {
+  for (const Sample& sample : scenes::run_frame(spec)) {
     const double exact = scene->rigid_walls[0].motion.value_at(sample.time);
     // The integral is exact at its points and where the velocity is constant.
     const bool is_even = sample.time > 2e-3 && sample.time < 1.8e-2;
@@ -333,7 +321,7 @@ TEST(Experiment, EndsAtAStrainIfOneIsGiven) {
   SceneSpec spec = scenes::struck_block();
   spec.loading.end_strain = 0.3;
   const auto scene = scenes::build(spec);
-  const std::vector<Sample> samples = samples_of(spec);
+  const std::vector<Sample> samples = scenes::run_frame(spec);
   EXPECT_GE(samples.back().strain, 0.3);
   EXPECT_LT(samples.back().strain, 0.31);
   EXPECT_EQ(summarize(*scene, samples).end, RunEnd::strain);
