@@ -20,7 +20,8 @@ constexpr std::array kPresetNames = {
     "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated",    "type-iii-as-counted",
     "inclusions-0",      "inclusions-2",       "inclusions-6",          "ruan-2003",
     "zheng-2005",        "ajdari-2011-graded", "gibson-1982-reentrant", "struck-block",
-    "thrown-block",      "pressure-pulse",     "dropped-weight",        "loaded-and-unloaded"};
+    "thrown-block",      "pressure-pulse",     "dropped-weight",        "loaded-and-unloaded",
+    "brittle-lattice"};
 
 // The values of an option, or prefixes if they end in "="; empty: a file.
 std::vector<std::string> words_of(const OptionEntry& option) {

@@ -20,7 +20,7 @@ bool has_parted(const Scene& scene, const State& state, const StartOverlap& pair
     return false;
   }
   for (int segment = pair.first_segment; segment < pair.end_segment; segment += pair.stride) {
-    if (is_within_reach(scene, state, pair.ball, segment)) {
+    if (scene.has(pair, segment) && is_within_reach(scene, state, pair.ball, segment)) {
       return false;
     }
   }
@@ -31,7 +31,7 @@ void lengthen_reaches(const Scene& scene, State& state, const StartOverlap& pair
   for (ContactLists& lists : state.contacts) {
     for (std::size_t k = 0; k < lists.candidate_ball.size(); ++k) {
       const int segment = lists.candidate_segment[k];
-      if (lists.candidate_ball[k] == pair.ball && lists.candidate_reach[k] > 0.0 && pair.has(segment)) {
+      if (lists.candidate_ball[k] == pair.ball && lists.candidate_reach[k] > 0.0 && scene.has(pair, segment)) {
         lists.candidate_reach[k] = reach_now(scene, state, pair.ball, segment);
         wake_candidate(lists, static_cast<int>(k), pair.ball, segment);
       }

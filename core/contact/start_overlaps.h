@@ -19,13 +19,16 @@ namespace cellcrush {
 /// Steps from one look for parted walls to the next. Walls that part and meet again in between keep their limit.
 inline constexpr int kStepsBetweenPartings = 8;
 
+/// Reach over distance of those that overlap: round-off of walls that move as one must not make them touch.
+inline constexpr double kKeptDistance = 1.0 - 0x1p-20;
+
 /// Greatest distance at which a ball and a segment touch now, mm (E8a, E8f); infinite if nothing limits it.
 inline double most_reach_now(const Scene& scene, const State& state, int ball, int segment) {
   double most = scene.most_reach_of(ball, segment);
   if (!scene.start_overlaps.empty()) {
     for (int p = scene.start_overlaps.offset[ball]; p < scene.start_overlaps.offset[ball + 1]; ++p) {
       const StartOverlap& pair = scene.start_overlaps.pairs[p];
-      most = state.parted[p] == 0 && pair.has(segment) ? std::min(most, pair.reach) : most;
+      most = state.parted[p] == 0 && scene.has(pair, segment) ? std::min(most, pair.reach) : most;
     }
   }
   return most;

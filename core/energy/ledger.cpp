@@ -165,6 +165,7 @@ Energies evaluate_energies(const Scene& scene, const State& state) {
   newest.accumulate(now);
   now.kinetic = 0.5 * newest.twice_kinetic;
   now.elastic = HWY_DYNAMIC_DISPATCH(energy_of_walls)(scene, state);
+  for (const Break& broken : state.breaks) now.fracture += broken.released;
   now.residual = residual_of(now);
   return now;
 }

@@ -120,9 +120,10 @@ WallStrain find_largest_fibre_strain(const Scene& scene, const State& state) {
 }
 
 void evaluate_fibre_strains(const Scene& scene, const State& state, std::vector<float>& strains) {
-  strains.resize(scene.wall_count(), 0.0F);
+  strains.assign(scene.wall_count(), 0.0F);
   visit_walls(scene, state, [&](int wall, double strain) {
-    strains[scene.list_order.listed_wall(wall)] = static_cast<float>(strain);
+    float& of_wall = strains[scene.list_order.listed_wall(wall)];
+    of_wall = std::max(of_wall, static_cast<float>(strain));
   });
 }
 

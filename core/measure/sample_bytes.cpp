@@ -14,7 +14,7 @@ void visit_warning(W& warning, const Visitor& visit) {
 void put(ByteWriter& writer, const Sample& sample) {
   const auto put_all = [&writer](const auto&... fields) { (writer.put(fields), ...); };
   visit_columns(sample, [&writer](const char* /*name*/, const auto& number, double /*scale*/) { writer.put(number); });
-  put_all(sample.crush_mode, sample.densest_layer, sample.watched, sample.rigid_walls, sample.grips);
+  put_all(sample.crush_mode, sample.densest_layer, sample.watched, sample.rigid_walls, sample.grips, sample.breaks);
   writer.put(sample.front.has_value());
   if (sample.front) writer.put(*sample.front);
   writer.put(std::uint64_t{sample.warnings.size()});
@@ -25,7 +25,7 @@ Sample take(ByteReader& reader) {
   Sample sample;
   const auto take_all = [&reader](auto&... fields) { (reader.take(fields), ...); };
   visit_columns(sample, [&reader](const char* /*name*/, auto& number, double /*scale*/) { reader.take(number); });
-  take_all(sample.crush_mode, sample.densest_layer, sample.watched, sample.rigid_walls, sample.grips);
+  take_all(sample.crush_mode, sample.densest_layer, sample.watched, sample.rigid_walls, sample.grips, sample.breaks);
   bool has_front = false;
   reader.take(has_front);
   if (has_front) reader.take(sample.front.emplace());

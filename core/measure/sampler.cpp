@@ -213,20 +213,20 @@ void Sampler::measure_closing(const Scene& scene, const State& state, Sample& sa
   }
 }
 
-void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& sample) {
+void Sampler::measure_collapse(const Run& run, Sample& sample) {
   if (cells_.faces.count() == 0) {
     return;
   }
   std::vector<Vector2> room;
-  const CollapseField field = find_collapse(cells_, places_of_cells(scene, state, room));
+  const CollapseField field = find_collapse(cells_, places_of_cells(run.unbroken, run.joined, room));
   sample.collapsed_fraction = collapsed_fraction_of(field);
   if (sample.collapsed_fraction >= next_check_ && next_check_ <= kModeTo) {
     sample.crush_mode = find_crush_mode(field);
     next_check_ = sample.collapsed_fraction + kCheckEvery;
   }
-  if (scene.plates.present) sample.front = find_front(columns_, scene, state);
-  if (sample.strain >= next_layer_strain_ && all_finite(state.position)) {
-    densest_layer_ = find_densest_layer(scene, state, layer_size_);
+  if (run.scene.plates.present) sample.front = find_front(columns_, run.unbroken, run.joined);
+  if (sample.strain >= next_layer_strain_ && all_finite(run.state.position)) {
+    densest_layer_ = find_densest_layer(run.scene, run.state, layer_size_);
     next_layer_strain_ = sample.strain + kLayerEvery;
   }
   sample.densest_layer = densest_layer_;
@@ -245,7 +245,7 @@ void Sampler::find_warnings(const Scene& scene, const State& state, Sample& samp
     sample.warnings.push_back(warn_of_density(state, sample));
     has_warned_of_density_ = true;
   }
-  if (has_warned_of_necks_) {
+  if (has_warned_of_necks_ || scene.can_break()) {
     return;
   }
   if (const std::optional<Warning> necks = warn_of_necks(scene, state, sample.strain)) {
@@ -254,7 +254,15 @@ void Sampler::find_warnings(const Scene& scene, const State& state, Sample& samp
   }
 }
 
-Sample Sampler::take(const Scene& scene, const State& state) {
+void Sampler::list_breaks(const State& state, Sample& sample) {
+  sample.break_count = static_cast<std::int64_t>(state.breaks.size());
+  sample.breaks.assign(state.breaks.begin() + break_count_, state.breaks.end());
+  break_count_ = sample.break_count;
+}
+
+Sample Sampler::take(const Run& run) {
+  const Scene& scene = run.scene;
+  const State& state = run.state;
   Sample sample;
   sample.step = state.step;
   sample.time = state.time;
@@ -263,9 +271,9 @@ Sample Sampler::take(const Scene& scene, const State& state) {
     sample.strain = crush_strain_of(scene, state);
     measure_stress(scene, state, sample);
     measure_efficiency(scene, sample);
-    sample.lateral_strain = state.sides.empty() ? lateral_strain_of(side_pairs_, scene, state)
+    sample.lateral_strain = state.sides.empty() ? lateral_strain_of(side_pairs_, run.unbroken, run.joined)
                                                 : state.sides.front().width / scene.period.length - 1.0;
-    measure_collapse(scene, state, sample);
+    measure_collapse(run, sample);
   }
   measure_closing(scene, state, sample);
   sample.energies = evaluate_energies(scene, state);
@@ -275,6 +283,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   const WallStrain largest = find_largest_fibre_strain(scene, state);
   sample.largest_fibre_strain = largest.strain;
   sample.most_strained_wall = scene.list_order.listed_wall(largest.wall);
+  list_breaks(state, sample);
   find_warnings(scene, state, sample);
   measure_watched(scene, state, sample);
   measure_rigid_walls(scene, state, sample);
@@ -283,14 +292,23 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   return sample;
 }
 
-void Sampler::make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame) const {
+void Sampler::make_frame(const Run& run, int index, FieldFrame& frame) const {
+  const Scene& scene = run.scene;
+  const State& state = run.state;
+  const auto put_place = [](const Vector2& place, std::size_t i, std::vector<float>& places) {
+    places[2 * i] = static_cast<float>(place.x());
+    places[2 * i + 1] = static_cast<float>(place.y());
+  };
   frame.index = index;
   frame.time = state.time;
   frame.strain = crush_strain_of(scene, state);
-  frame.position.resize(2 * scene.particle_count());
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
-    frame.position[2 * i] = static_cast<float>(state.position[i].x());
-    frame.position[2 * i + 1] = static_cast<float>(state.position[i].y());
+  frame.position.resize(2 * run.unbroken.particle_count());
+  for (std::size_t i = 0; i < run.unbroken.particle_count(); ++i) put_place(run.joined.position[i], i, frame.position);
+  frame.broken_end.clear();
+  frame.end_position.resize(2 * state.breaks.size());
+  for (std::size_t k = 0; k < state.breaks.size(); ++k) {
+    frame.broken_end.push_back(2 * state.breaks[k].element + state.breaks[k].at_end);
+    put_place(state.position[scene.joint_count - state.breaks.size() + k], k, frame.end_position);
   }
   const FlowedShare yielded(scene.section);
   frame.plastic_fraction.resize(scene.element_count());
@@ -300,7 +318,7 @@ void Sampler::make_frame(const Scene& scene, const State& state, int index, Fiel
   });
   evaluate_fibre_strains(scene, state, frame.fibre_strain);
   std::vector<Vector2> room;
-  local_strain_.evaluate(places_of_cells(scene, state, room), frame.local_strain);
+  local_strain_.evaluate(places_of_cells(run.unbroken, run.joined, room), frame.local_strain);
 }
 
 }  // namespace cellcrush

@@ -20,12 +20,19 @@ class Sampler {
  public:
   explicit Sampler(const Scene& scene);
 
-  /// REQUIRES: `scene` is that of the constructor.
-  Sample take(const Scene& scene, const State& state);
+  /// A run of which walls may have broken (E6g).
+  struct Run {
+    const Scene& scene;  ///< the mesh now
+    const State& state;
+    const Scene& unbroken;  ///< the mesh before any break, that of the constructor
+    const State& joined;    ///< without the new ends; the same if nothing has broken
+  };
+
+  Sample take(const Run& run);
 
   /// Overwrites a frame with positions, the fraction of the section area of each element that has yielded, and the
-  /// largest fibre strain and local strain of each wall. REQUIRES: the frame is empty or of the same scene.
-  void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame) const;
+  /// largest fibre strain and local strain of each wall. REQUIRES: the frame is empty or of the same run.
+  void make_frame(const Run& run, int index, FieldFrame& frame) const;
 
   /// Calls visitor(field) for all data that a sample passes on to the next one.
   template <class Visitor>
@@ -42,6 +49,7 @@ class Sampler {
     visitor(has_warned_of_necks_);
     visitor(has_warned_of_density_);
     visitor(has_warned_of_closing_);
+    visitor(break_count_);
     visitor(next_check_);
     visitor(next_layer_strain_);
     visitor(densest_layer_);
@@ -55,7 +63,8 @@ class Sampler {
   void measure_closing(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_efficiency(const Scene& scene, Sample& sample);
-  void measure_collapse(const Scene& scene, const State& state, Sample& sample);
+  void measure_collapse(const Run& run, Sample& sample);
+  void list_breaks(const State& state, Sample& sample);
   void find_warnings(const Scene& scene, const State& state, Sample& sample);
 
   /// Energy that a volume of the lattice has absorbed by a sample.
@@ -81,6 +90,7 @@ class Sampler {
   bool has_warned_of_necks_ = false;
   bool has_warned_of_density_ = false;
   bool has_warned_of_closing_ = false;
+  std::int64_t break_count_ = 0;      ///< listed so far
   double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
   std::vector<Absorbed> absorbed_ = std::vector<Absorbed>(1);  ///< the first at or before the window of the efficiency

@@ -270,6 +270,9 @@ Summary summarize(const Scene& scene, std::span<const Sample> all) {
   summary.warnings = collect_warnings(scene, all);
   summary.inertia_share = find_inertia_share(scene, all);
   summary.rigid_walls = summarize_rigid_walls(all);
+  summary.break_count = all.back().break_count;
+  const auto broken = std::ranges::find_if(all, [](const Sample& sample) { return !sample.breaks.empty(); });
+  if (broken != all.end()) summary.first_break = FirstBreak{broken->breaks.front().time, broken->strain};
   std::optional<std::int64_t> closed_step;
   const auto closed = std::ranges::find(summary.warnings, Warning::Kind::closed, &Warning::kind);
   if (!scene.plates.present && closed != summary.warnings.end()) {

@@ -53,7 +53,9 @@ void prepare_search(const SceneSpec& spec, const std::function<void()>& between_
   }
   scene.limited_reaches = find_limited_reaches(scene);
   between_stages();
-  if (spec.contact.search == ContactSpec::Search::faces) {
+  if (scene.can_break()) {
+    scene.faces.premise = ContactFaces::Premise::walls_break;
+  } else if (spec.contact.search == ContactSpec::Search::faces) {
     build_contact_faces(scene);
   } else {
     scene.faces.premise = ContactFaces::Premise::not_asked;

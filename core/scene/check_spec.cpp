@@ -207,6 +207,10 @@ void check_sides(const SceneSpec& spec, FieldChecker& check) {
               "Set loading.sides.kind to RIGID, or remove it.");
   }
   const bool is_periodic = sides.kind == LoadingSpec::Sides::Kind::periodic;
+  if (is_periodic && spec.material.fails()) {
+    check.add("material.failure_strain", to_text(spec.material.failure_strain), "does not go with sides that repeat.",
+              "Leave it out, or set loading.sides.kind to FREE or RIGID.");
+  }
   if (sides.fixed_width && !is_periodic) {
     check.add("loading.sides.fixed_width", "true", "is of sides that repeat, but these do not.",
               "Set loading.sides.kind to PERIODIC, or remove it.");

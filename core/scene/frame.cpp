@@ -90,41 +90,66 @@ void attach_holds(const FrameWalls& frame, const LoadsSpec& loads, Scene& scene)
   }
 }
 
-/// The block of a beam; the beams of a frame are its walls.
-const WallBlock& block_of(const Walls& walls, int beam) {
-  return *std::find_if(walls.blocks.begin(), walls.blocks.end(),
-                       [&](const WallBlock& block) { return beam < block.first_wall + block.walls; });
-}
+/// The walls of the beams of a frame that are no rigid links: one each, or their units where walls can break
+/// (scene/unit_walls.h).
+class BeamWalls {
+ public:
+  BeamWalls(const ListOrder& order, const Walls& walls) : walls_(walls) {
+    for (int wall = 0; wall < static_cast<int>(walls.start.size()); ++wall) {
+      const int beam = order.listed_wall(wall);
+      if (beam == static_cast<int>(first_.size())) first_.push_back(wall);
+    }
+    first_.push_back(static_cast<int>(walls.start.size()));
+  }
 
-void attach_loads(const LoadsSpec& loads, Scene& scene) {
+  [[nodiscard]] int count() const { return static_cast<int>(first_.size()) - 1; }
+  [[nodiscard]] int start_of(int beam) const { return walls_.start[first_[beam]]; }
+  [[nodiscard]] int end_of(int beam) const { return walls_.end[first_[beam + 1] - 1]; }
+  [[nodiscard]] double element_length_of(int beam) const { return walls_.undeformed_length[first_[beam]]; }
+
+  /// Calls visit(element, particle at its end) for each element of a beam, from its start on.
+  template <class Visit>
+  void visit(int beam, const Visit& visit) const {
+    for (int wall = first_[beam]; wall < first_[beam + 1]; ++wall) {
+      const WallBlock& block = *std::find_if(walls_.blocks.begin(), walls_.blocks.end(),
+                                             [&](const WallBlock& of) { return wall < of.first_wall + of.walls; });
+      for (int j = 0; j < block.elements; ++j) {
+        const int place = j * block.walls + wall - block.first_wall;
+        visit(block.first_element + place, j + 1 == block.elements ? walls_.end[wall] : block.first_inner + place);
+      }
+    }
+  }
+
+ private:
+  const Walls& walls_;
+  std::vector<int> first_;  ///< of each beam, then the end
+};
+
+void attach_loads(const LoadsSpec& loads, const BeamWalls& beams, Scene& scene) {
   for (const LoadsSpec::NodalLoad& load : loads.loads) {
     scene.loads.push_back({load.node, component_of(load.component), {load.points}});
   }
   for (const LoadsSpec::DistributedLoad& load : loads.distributed_loads) {
-    const WallBlock& block = block_of(scene.walls, load.beam);
-    const double length = scene.walls.undeformed_length[load.beam];
-    for (int j = 0; j < block.elements; ++j) {
-      const int e = block.first_element + j * block.walls + load.beam - block.first_wall;
+    const double length = beams.element_length_of(load.beam);
+    beams.visit(load.beam, [&](int element, int) {
       if (!load.x_points.empty()) {
-        scene.element_loads.push_back({e, Component::x, {load.x_points}, length});
+        scene.element_loads.push_back({element, Component::x, {load.x_points}, length});
       }
       if (!load.y_points.empty()) {
-        scene.element_loads.push_back({e, Component::y, {load.y_points}, length});
+        scene.element_loads.push_back({element, Component::y, {load.y_points}, length});
       }
-    }
+    });
   }
 }
 
-/// Rate at which the chord of a wall turns, rad/s.
-double turn_of_chord(const Scene& scene, int wall) {
-  const int start = scene.walls.start[wall];
-  const int end = scene.walls.end[wall];
+/// Rate at which the chord of a beam turns, rad/s.
+double turn_of_chord(const Scene& scene, int start, int end) {
   const Vector2 span = scene.position[end] - scene.position[start];
   return normal_of(span).dot(scene.initial_velocity[end] - scene.initial_velocity[start]) / span.squaredNorm();
 }
 
 /// Moves the joints of pinned ends as their nodes, and turns them as the chords of their beams.
-void move_pinned_ends(const FrameWalls& frame, std::vector<bool>& named, Scene& scene) {
+void move_pinned_ends(const FrameWalls& frame, const BeamWalls& beams, std::vector<bool>& named, Scene& scene) {
   for (std::size_t pin = 0; pin < scene.pins.count(); ++pin) {
     const int node = scene.pins.joints_of(pin).front();
     for (const int joint : scene.pins.joints_of(pin)) {
@@ -132,36 +157,39 @@ void move_pinned_ends(const FrameWalls& frame, std::vector<bool>& named, Scene& 
       named[joint] = named[node];
     }
   }
-  for (std::size_t wall = 0; wall < frame.beams.size(); ++wall) {
-    const int start = scene.walls.start[wall];
-    const int end = scene.walls.end[wall];
+  for (int beam = 0; beam < beams.count(); ++beam) {
+    const int start = beams.start_of(beam);
+    const int end = beams.end_of(beam);
     for (const auto& [joint, is_pinned] :
-         {std::pair(start, frame.beams[wall].pin_start), std::pair(end, frame.beams[wall].pin_end)}) {
+         {std::pair(start, frame.beams[beam].pin_start), std::pair(end, frame.beams[beam].pin_end)}) {
       if (is_pinned && named[start] && named[end]) {
-        scene.initial_spin[joint] = turn_of_chord(scene, static_cast<int>(wall));
+        scene.initial_spin[joint] = turn_of_chord(scene, start, end);
       }
     }
   }
 }
 
-/// Gives velocities to the particles inside wall `w` of a block (E14b).
-void move_inside(const WallBlock& block, int w, Scene& scene) {
-  const int start = scene.walls.start[block.first_wall + w];
-  const int end = scene.walls.end[block.first_wall + w];
+/// Gives velocities to the particles inside a beam (E14b).
+void move_inside(const BeamWalls& beams, int beam, Scene& scene) {
+  const int start = beams.start_of(beam);
+  const int end = beams.end_of(beam);
   const Vector2 span = scene.position[end] - scene.position[start];
   const Vector2 across = normal_of(span);  // n L
-  const Vector2& from = scene.initial_velocity[start];
-  const Vector2& to = scene.initial_velocity[end];
-  const double turn = turn_of_chord(scene, block.first_wall + w);
+  const Vector2 from = scene.initial_velocity[start];
+  const Vector2 to = scene.initial_velocity[end];
+  const double turn = turn_of_chord(scene, start, end);
   const double at_start = scene.initial_spin[start] - turn;
   const double at_end = scene.initial_spin[end] - turn;
-  for (int j = 0; j + 1 < block.elements; ++j) {
-    const double s = static_cast<double>(j + 1) / block.elements;
+  int elements = 0;
+  beams.visit(beam, [&](int, int) { ++elements; });
+  int passed = 0;
+  beams.visit(beam, [&](int, int i) {
+    if (++passed == elements) return;
+    const double s = static_cast<double>(passed) / elements;
     const double r = 1.0 - s;
-    const int i = block.first_inner + j * block.walls + w;
     scene.initial_velocity[i] = r * from + s * to + across * (s * r * (r * at_start - s * at_end));
     scene.initial_spin[i] = turn + r * (1.0 - 3.0 * s) * at_start + s * (3.0 * s - 2.0) * at_end;
-  }
+  });
 }
 
 /// Fills initial_velocity and initial_spin of the scene. Nodes have what the frame gives them; all others are at rest.
@@ -174,8 +202,8 @@ void move_inside(const WallBlock& block, int w, Scene& scene) {
 /// inside, so that a mass at its end can strike it.
 /// Pinned ends turn as the chord of their beam, Omega.
 /// REQUIRES: the mesh of the scene is that of the frame; its pins are grouped.
-void attach_initial_velocities(const FrameWalls& frame, const std::vector<LoadsSpec::InitialVelocity>& velocities,
-                               Scene& scene) {
+void attach_initial_velocities(const FrameWalls& frame, const BeamWalls& beams,
+                               const std::vector<LoadsSpec::InitialVelocity>& velocities, Scene& scene) {
   if (velocities.empty()) {
     return;
   }
@@ -187,13 +215,10 @@ void attach_initial_velocities(const FrameWalls& frame, const std::vector<LoadsS
     scene.initial_spin[velocity.node] = velocity.rotation_rad_per_s;
     named[velocity.node] = true;
   }
-  move_pinned_ends(frame, named, scene);
-  for (const WallBlock& block : scene.walls.blocks) {
-    for (int w = 0; w < block.walls; ++w) {
-      const int wall = block.first_wall + w;
-      if (named[scene.walls.start[wall]] && named[scene.walls.end[wall]]) {
-        move_inside(block, w, scene);
-      }
+  move_pinned_ends(frame, beams, named, scene);
+  for (int beam = 0; beam < beams.count(); ++beam) {
+    if (named[beams.start_of(beam)] && named[beams.end_of(beam)]) {
+      move_inside(beams, beam, scene);
     }
   }
 }
@@ -219,7 +244,7 @@ Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall, int links) 
   return layout;
 }
 
-void attach_to_frame(const FrameWalls& frame, const LoadsSpec& loads, Scene& scene) {
+void attach_to_frame(const FrameWalls& frame, const ListOrder& order, const LoadsSpec& loads, Scene& scene) {
   const std::size_t count = scene.particle_count();
   scene.mass.assign(count, 0.0);
   scene.inertia.assign(count, 0.0);
@@ -229,8 +254,9 @@ void attach_to_frame(const FrameWalls& frame, const LoadsSpec& loads, Scene& sce
   }
   attach_holds(frame, loads, scene);
   group_pinned_ends(frame, scene);
-  attach_loads(loads, scene);
-  attach_initial_velocities(frame, loads.initial_velocities, scene);
+  const BeamWalls beams(order, scene.walls);
+  attach_loads(loads, beams, scene);
+  attach_initial_velocities(frame, beams, loads.initial_velocities, scene);
   scene.watched = frame.watched_nodes;
 }
 

@@ -12,8 +12,9 @@ namespace cellcrush {
 Layout lay_out_frame(const FrameWalls& frame, int elements_per_wall, int links);
 
 /// Adds the attached masses, supports, pins and watched nodes of a frame, and what acts on its nodes and beams, to the
-/// scene. REQUIRES: the mesh of the scene is that of the frame; lump_masses has not run yet.
-void attach_to_frame(const FrameWalls& frame, const LoadsSpec& loads, Scene& scene);
+/// scene. `order` tells the beam of each wall. REQUIRES: the mesh of the scene is that of the frame; lump_masses has
+/// not run yet.
+void attach_to_frame(const FrameWalls& frame, const ListOrder& order, const LoadsSpec& loads, Scene& scene);
 
 /// Gives all joints of a pin equal shares of its mass. REQUIRES: masses of elements are lumped.
 void share_pin_masses(Scene& scene);

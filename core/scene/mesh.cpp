@@ -21,22 +21,6 @@ Vector2 place_on_arc(double chord, double rise, double share) {
   return {0.5 * chord + radius * std::sin(angle), radius * (std::cos(angle) - std::cos(half_angle))};
 }
 
-/// Position at a share of a wall, which is bowed to half a sine wave.
-Vector2 place_on(const Layout& layout, const LayoutWall& wall, double share) {
-  const Vector2& from = layout.joints[wall.start];
-  const Vector2 along = layout.joints[wall.end] - from;
-  const Vector2 straight = from + along * share;
-  if (wall.bow == 0.0 && wall.rise == 0.0) {
-    return straight;
-  }
-  const Vector2 forward = along.normalized();
-  const Vector2 to_the_left(-forward.y(), forward.x());
-  const Vector2 bowed = wall.bow * std::sin(std::numbers::pi * share) * to_the_left;
-  if (wall.rise == 0.0) return straight + bowed;
-  const Vector2 on_arc = place_on_arc(along.norm(), wall.rise, share);
-  return from + on_arc.x() * forward + on_arc.y() * to_the_left + bowed;
-}
-
 /// Length of a wall along its elements.
 double length_of(const Layout& layout, const LayoutWall& wall) {
   if (wall.bow == 0.0 && wall.rise == 0.0) {
@@ -83,29 +67,6 @@ std::vector<int> chunk_offsets(const std::vector<WallBlock>& blocks) {
   return offsets;
 }
 
-/// Fills first_joint and end_joint of every chunk, so that the former is not before the latter of the chunk before.
-void order_joints(Walls& walls, int joint_count) {
-  const int count = walls.chunk_count();
-  std::vector<int> lowest(count, joint_count);
-  std::vector<int> highest(count, -1);
-  for (int chunk = 0; chunk < count; ++chunk) {
-    const WallBlock& last = walls.blocks[walls.chunk_offset[chunk + 1] - 1];
-    for (int wall = walls.blocks[walls.chunk_offset[chunk]].first_wall; wall < last.first_wall + last.walls; ++wall) {
-      lowest[chunk] = std::min({lowest[chunk], walls.start[wall], walls.end[wall]});
-      highest[chunk] = std::max({highest[chunk], walls.start[wall], walls.end[wall]});
-    }
-  }
-  walls.end_joint.assign(count, joint_count);
-  for (int chunk = count - 1; chunk > 0; --chunk) {
-    walls.end_joint[chunk - 1] = std::min(walls.end_joint[chunk], lowest[chunk]);
-  }
-  walls.first_joint.assign(count, 0);
-  for (int chunk = 1; chunk < count; ++chunk) {
-    walls.first_joint[chunk] =
-        std::max({walls.first_joint[chunk - 1], highest[chunk - 1] + 1, walls.end_joint[chunk - 1]});
-  }
-}
-
 /// Sorts items into lists by node: fills `items` list by list, in the order of the visits, and `offset` into it.
 /// visit_all(visit) calls visit(node, item) for each.
 template <class VisitAll>
@@ -132,9 +93,55 @@ std::vector<char> nodes_without_rotation(const Scene& scene) {
   return without;
 }
 
+/// Mass and rotary inertia that an element gives to either end.
+EndShare lump_element(const Scene& scene, const Element& element) {
+  const double length = (scene.position[element.end] - scene.position[element.start]).norm();
+  const double half_mass = 0.5 * scene.materials[element.material].density * scene.depth * element.thickness * length;
+  const double lumped = scene.mass_scaling.mass * half_mass;
+  const double gyration_squared = element.thickness * element.thickness / 12.0;
+  return {lumped, scene.mass_scaling.rotary * lumped * gyration_squared};
+}
+
 double inverse_of(double value) { return value > 0.0 ? 1.0 / value : 0.0; }
 
 }  // namespace
+
+Vector2 place_on(const Layout& layout, const LayoutWall& wall, double share) {
+  const Vector2& from = layout.joints[wall.start];
+  const Vector2 along = layout.joints[wall.end] - from;
+  const Vector2 straight = from + along * share;
+  if (wall.bow == 0.0 && wall.rise == 0.0) {
+    return straight;
+  }
+  const Vector2 forward = along.normalized();
+  const Vector2 to_the_left(-forward.y(), forward.x());
+  const Vector2 bowed = wall.bow * std::sin(std::numbers::pi * share) * to_the_left;
+  if (wall.rise == 0.0) return straight + bowed;
+  const Vector2 on_arc = place_on_arc(along.norm(), wall.rise, share);
+  return from + on_arc.x() * forward + on_arc.y() * to_the_left + bowed;
+}
+
+void order_joints(Walls& walls, int joint_count) {
+  const int count = walls.chunk_count();
+  std::vector<int> lowest(count, joint_count);
+  std::vector<int> highest(count, -1);
+  for (int chunk = 0; chunk < count; ++chunk) {
+    const WallBlock& last = walls.blocks[walls.chunk_offset[chunk + 1] - 1];
+    for (int wall = walls.blocks[walls.chunk_offset[chunk]].first_wall; wall < last.first_wall + last.walls; ++wall) {
+      lowest[chunk] = std::min({lowest[chunk], walls.start[wall], walls.end[wall]});
+      highest[chunk] = std::max({highest[chunk], walls.start[wall], walls.end[wall]});
+    }
+  }
+  walls.end_joint.assign(count, joint_count);
+  for (int chunk = count - 1; chunk > 0; --chunk) {
+    walls.end_joint[chunk - 1] = std::min(walls.end_joint[chunk], lowest[chunk]);
+  }
+  walls.first_joint.assign(count, 0);
+  for (int chunk = 1; chunk < count; ++chunk) {
+    walls.first_joint[chunk] =
+        std::max({walls.first_joint[chunk - 1], highest[chunk - 1] + 1, walls.end_joint[chunk - 1]});
+  }
+}
 
 void divide_walls(const Layout& layout, Scene& scene) {
   const std::size_t elements = layout.element_count();
@@ -210,18 +217,14 @@ void lump_masses(Scene& scene) {
   scene.radius.assign(scene.particle_count(), 0.0);
   const std::vector<char> without_rotation = nodes_without_rotation(scene);
   for (const Element& element : scene.elements) {
-    const double length = (scene.position[element.end] - scene.position[element.start]).norm();
-    const double half_mass = 0.5 * scene.materials[element.material].density * scene.depth * element.thickness * length;
-    const double gyration_squared = element.thickness * element.thickness / 12.0;
-    const double lumped = scene.mass_scaling.mass * half_mass;
-    const double half_inertia = scene.mass_scaling.rotary * lumped * gyration_squared;
+    const auto [lumped, half_inertia] = lump_element(scene, element);
     for (const auto& [node, other] : {std::pair(element.start, element.end), std::pair(element.end, element.start)}) {
       scene.mass[node] += lumped;
       scene.inertia[without_rotation[node] != 0 ? other : node] += half_inertia;
       scene.radius[node] = std::max(scene.radius[node], 0.5 * element.thickness);
       scene.largest_radius = std::max(scene.largest_radius, scene.radius[node]);
     }
-    scene.total_mass += 2.0 * half_mass;
+    scene.total_mass += 2.0 * (lumped / scene.mass_scaling.mass);
   }
   share_pin_masses(scene);
   scene.smallest_radius = std::ranges::min(scene.radius);
@@ -233,8 +236,19 @@ void lump_masses(Scene& scene) {
   }
 }
 
+EndShare share_of_end(const Scene& scene, int wall, const WallBlock& block, bool at_end) {
+  const int row = at_end ? block.elements - 1 : 0;
+  const int element = block.first_element + row * block.walls + wall - block.first_wall;
+  EndShare share = lump_element(scene, scene.elements[element]);
+  if (scene.section.force_based && block.has_pairs()) share.inertia += share.inertia;  // that of the middle too
+  return share;
+}
+
 void lump_rigid_bodies(Scene& scene) {
   RigidBodies& rigid = scene.rigid;
+  rigid.centre.clear();
+  rigid.mass.clear();
+  rigid.inertia.clear();
   for (std::size_t body = 0; body + 1 < rigid.offset.size(); ++body) {
     double mass = 0.0;
     Vector2 moment = Vector2::Zero();

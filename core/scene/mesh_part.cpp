@@ -18,6 +18,7 @@
 #include "scene/rigid_links.h"
 #include "scene/solid_area.h"
 #include "scene/time_step.h"
+#include "scene/unit_walls.h"
 #include "section/section_rule.h"
 
 namespace cellcrush {
@@ -34,7 +35,7 @@ std::size_t law_of(const std::vector<Material>& materials) {
 }
 
 bool allows_single_fibres(const Scene& scene) {
-  return has_known_counts(scene.section) &&
+  return !can_break(scene.materials) && has_known_counts(scene.section) &&
          (scene.section.force_based ? Laws::kFacts[scene.law].may_be_single_in_force_based
                                     : Laws::kFacts[scene.law].may_be_single);
 }
@@ -189,15 +190,17 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
   scene->single_fibres =
       part.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision && allows_single_fibres(*scene);
   Layout layout = lay_out(part, linked.links, *scene);
+  if (can_break(scene->materials)) divide_into_units(scene->section.force_based, layout);
   scene->rigid.offset = put_rigid_bodies_first(layout);
   // The beams of a frame have loads and pins by their numbers.
   if (!std::holds_alternative<FrameWalls>(part.lattice)) fill_blocks(layout);
   scene->list_order = layout.order.after(linked.order);
   scene->rigid.links = static_cast<std::size_t>(linked.links);
   divide_walls(layout, *scene);
+  if (can_break(scene->materials)) number_chains(*scene);
   let_walls_shear(material_specs_of(part), *scene);
   if (const auto* frame = std::get_if<FrameWalls>(&part.lattice)) {
-    attach_to_frame(*frame, part.loads, *scene);
+    attach_to_frame(*frame, layout.order, part.loads, *scene);
   }
   scene->gravity = Vector2(part.loads.gravity_x_m_per_s2, part.loads.gravity_y_m_per_s2) * kMmPerM;
   attach_grips(part, layout.envelope, *scene);

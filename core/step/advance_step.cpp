@@ -1,7 +1,9 @@
 #include "step/advance_step.h"
 
+#include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "beam/internal_forces.h"
 #include "energy/ledger.h"
@@ -24,6 +26,19 @@ StepInProgress begin_step(const Scene& scene, State& state, Workspace& workspace
   return {scene, state, record, workspace.shared, workspace.near_plates};
 }
 
+/// The forces from a stage on, without motion. REQUIRES: they are cleared.
+void evaluate_forces(Stage first, StepInProgress& step) {
+  StepRecord& record = step.record;
+  std::iota(step.near_plates.begin(), step.near_plates.end(), 0);
+  for (std::size_t band = 0; band < step.scene.bands.size(); ++band) {
+    const LatticeBand& of = step.scene.bands[band];
+    record.near[band] = {static_cast<std::size_t>(of.end_joint - of.first_joint),
+                         static_cast<std::size_t>(of.end_inner - of.first_inner)};
+  }
+  execute_stages(std::span(kStages).subspan(static_cast<std::size_t>(first)), step, StageScope(nullptr));
+  put_contact_sums(record.contacts, step.state);
+}
+
 }  // namespace
 
 State make_initial_state(const Scene& scene) {
@@ -33,17 +48,9 @@ State make_initial_state(const Scene& scene) {
   }
   Workspace workspace;
   StepInProgress step = begin_step(scene, state, workspace);
-  StepRecord& record = step.record;
-  record.plates.travel = 0.0;
-  record.plates.speed = plate_speed_at(scene, state, -0.5 * scene.schedule.time_step);
-  std::iota(workspace.near_plates.begin(), workspace.near_plates.end(), 0);
-  for (std::size_t band = 0; band < scene.bands.size(); ++band) {
-    const LatticeBand& of = scene.bands[band];
-    record.near[band] = {static_cast<std::size_t>(of.end_joint - of.first_joint),
-                         static_cast<std::size_t>(of.end_inner - of.first_inner)};
-  }
-  execute_stages(std::span(kStages).subspan(1), step, StageScope(nullptr));  // the forces, without motion
-  put_contact_sums(record.contacts, state);
+  step.record.plates.travel = 0.0;
+  step.record.plates.speed = plate_speed_at(scene, state, -0.5 * scene.schedule.time_step);
+  evaluate_forces(Stage::evaluate_internal_forces, step);
   stagger_velocities(scene, state);
   stagger_sides(scene, state);
   for (const Pusher* pusher : pushers()) {
@@ -61,6 +68,18 @@ void advance_step(const Scene& scene, State& state, Workspace& workspace, StageO
   execute_stages(kStages, step, scope);
   accumulate(scene, step.record, state);
   scope.end_step();
+}
+
+void evaluate_forces_anew(Scene& scene, State& state, Workspace& workspace) {
+  const double time_step = std::exchange(scene.schedule.time_step, 0.0);
+  const ContactTotals before = state.contact_totals;
+  sum_joint_forces(scene, state, 0, static_cast<std::size_t>(scene.joint_count));
+  StepInProgress step = begin_step(scene, state, workspace);
+  evaluate_forces(Stage::find_contacts, step);
+  state.contact_totals.deepest_penetration =
+      std::max(before.deepest_penetration, state.contact_totals.deepest_penetration);
+  state.contact_totals.deepest_birth = std::max(before.deepest_birth, state.contact_totals.deepest_birth);
+  scene.schedule.time_step = time_step;
 }
 
 void advance_steps(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,

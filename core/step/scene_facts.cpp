@@ -22,6 +22,11 @@ namespace {
 /// Cost of a wall that is told.
 constexpr double kWorthTelling = 1.1;
 
+constexpr const char* kFailureText =
+    "Failure: a wall breaks where the plastic strain at a surface in tension, as a mean over a length of one wall "
+    "thickness, reaches material.failure_strain; rate and state of stress have no influence. Its end then moves on its "
+    "own. It touches what it was joined to once they have parted by a thickness; until then it can pass through.";
+
 std::string walls_text(const Scene& scene) {
   return (scene.walls.shear.empty()
               ? "Walls: Euler beams of constant section, large rotation, "
@@ -48,7 +53,8 @@ std::string fibres_text(const Scene& scene) {
     return law + ", in double precision: in single precision, rounding errors of slow loading add up.";
   }
   return law + ", in double precision" +
-         (!facts.may_be_single                                               ? ", as its law requires."
+         (!facts.may_be_single ? ", as its law requires."
+          : scene.can_break()  ? ", as walls that can break require."
           : scene.section.force_based && !facts.may_be_single_in_force_based
               ? ", as hardening requires in force-based elements."
               : ".");
@@ -64,6 +70,7 @@ std::string search_text(const Scene& scene) {
     case Premise::not_closed: return "by buckets in space, because some walls do not close a face.";
     case Premise::not_planar: return "by buckets in space, because walls cross without a joint.";
     case Premise::sides_repeat: return "by buckets in space, because the sides repeat.";
+    case Premise::walls_break: return "by buckets in space, because walls can break.";
     case Premise::no_contact:
     case Premise::not_asked: break;
   }
@@ -152,7 +159,8 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
           : "Cross-section: walls that shorten by plastic flow keep their volume and grow thicker, in " +
                 std::string(scene.materials.front().plane_strain ? "the plane (plane strain)."
                                                                  : "the plane and in depth alike (plane stress).") +
-                " Walls that are stretched keep their area and do not neck.");
+                std::string(scene.can_break() ? " Walls that are stretched keep their area."
+                                              : " Walls that are stretched keep their area and do not neck."));
   for (const Pusher* pusher : pushers()) {
     pusher->describe(scene, lines);
   }
@@ -186,7 +194,8 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   }
   lines.emplace_back("Symmetry: not used; round-off makes the halves of a symmetric lattice deform differently.");
   const auto depends = [](const Material& material) { return material.law.depends_on_rate(); };
-  lines.push_back("Not modelled: fracture, " +
+  if (scene.can_break()) lines.emplace_back(kFailureText);
+  lines.push_back("Not modelled: " + std::string(scene.can_break() ? "" : "fracture, ") +
                   std::string(std::ranges::any_of(scene.materials, depends) ? "" : "strain-rate dependence, ") +
                   "out-of-plane motion.");
   return lines;

@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "fracture/new_ends.h"
+#include "fracture/part_walls.h"
 #include "measure/peak_stress.h"
 #include "measure/sampler.h"
 #include "push/crush.h"
 #include "step/advance_step.h"
+#include "step/break_walls.h"
 #include "step/check_run.h"
 #include "step/plate_control.h"
 #include "step/rest_watch.h"
@@ -20,18 +24,20 @@ namespace cellcrush {
 
 struct Simulation::Impl {
   Impl(std::shared_ptr<const Scene> built, int threads)
-      : scene(std::move(built)), state(make_initial_state(*scene)), workspace(threads), sampler(*scene) {
-    sampler.make_frame(*scene, state, 0, last_good);
+      : unbroken(std::move(built)), state(make_initial_state(*unbroken)), workspace(threads), sampler(*unbroken) {
+    if (unbroken->can_break()) breaker.emplace(*unbroken);
+    make_frame(0, last_good);
   }
 
   void start_over() {
+    scene = unbroken;
     state = make_initial_state(*scene);
     sampler = Sampler(*scene);
     peak = {};
     rest = {};
     is_crushed_enough = false;
     status = {};
-    sampler.make_frame(*scene, state, 0, last_good);
+    make_frame(0, last_good);
     last_good_step = 0;
   }
 
@@ -46,14 +52,29 @@ struct Simulation::Impl {
     visit(last_good.plastic_fraction);
     visit(last_good.fibre_strain);
     visit(last_good.local_strain);
+    visit(last_good.broken_end);
+    visit(last_good.end_position);
     visit(last_good_step);
+    visit(overlaps);
     visit(rest);
     visit(is_crushed_enough);
   }
 
+  /// Calls look(run) with what the sampler looks at.
+  template <class Look>
+  auto look_at_run(const Look& look) const {
+    if (state.breaks.empty()) return look(Sampler::Run{*scene, state, *scene, state});
+    const State joined = without_new_ends(*scene, state);
+    return look(Sampler::Run{*scene, state, *unbroken, joined});
+  }
+
+  void make_frame(int index, FieldFrame& frame) const {
+    look_at_run([&](const Sampler::Run& run) { sampler.make_frame(run, index, frame); });
+  }
+
   void keep_frame() {
     if (kFramesKept * (state.step - last_good_step) >= scene->schedule.step_count) {
-      sampler.make_frame(*scene, state, 0, last_good);
+      make_frame(0, last_good);
       last_good_step = state.step;
     }
   }
@@ -71,10 +92,36 @@ struct Simulation::Impl {
     return std::min(next - state.step, steps_to_arrival(*scene, state));
   }
 
+  /// Advances by some steps, and breaks the walls that fail.
+  void advance_by(std::int64_t steps, StageObserver* observer) {
+    if (!breaker) {
+      advance_steps(*scene, state, workspace, steps, observer);
+      return;
+    }
+    for (const std::int64_t end = state.step + steps; state.step < end;) {
+      advance_steps(*scene, state, workspace, 1, observer);
+      if (std::shared_ptr<const Scene> broken = breaker->break_walls(*scene, state, workspace)) {
+        scene = std::move(broken);
+        overlaps = scene->start_overlaps.pairs;
+      }
+    }
+  }
+
+  /// Makes the mesh again that the breaks of a restored state have left. Returns whether the state is of it.
+  bool break_again() {
+    scene = unbroken;
+    if (state.breaks.empty()) return true;
+    if (!unbroken->can_break()) return false;
+    const std::shared_ptr<Scene> broken = part_again(*unbroken, state.breaks);
+    put_overlaps(overlaps, *broken);
+    scene = broken;
+    return broken->particle_count() == state.position.size() && overlaps.size() == state.parted.size();
+  }
+
   /// Advances to a step, to rest, or to where a controlled plate arrives.
   void advance_to(std::int64_t end, StageObserver* observer) {
     while (state.step < end && !has_ended()) {
-      advance_steps(*scene, state, workspace, steps_to_next_look(end), observer);
+      advance_by(steps_to_next_look(end), observer);
       if (scene->schedule.end_at_rest > 0.0 && state.step % RestWatch::interval(scene->schedule) == 0) {
         rest.look(*scene, state);
       }
@@ -97,10 +144,13 @@ struct Simulation::Impl {
   /// of the time.
   static constexpr std::int64_t kFramesKept = 100;
 
-  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const Scene> unbroken;  ///< the mesh before any break
+  std::shared_ptr<const Scene> scene = unbroken;
   State state;
   Workspace workspace;
   Sampler sampler;
+  std::optional<WallBreaker> breaker;
+  std::vector<StartOverlap> overlaps;  ///< of the scene, if walls have broken
   PeakWatch peak;
   RestWatch rest;
   bool is_crushed_enough = false;  ///< by rigid walls, as loading.end_strain asks
@@ -112,7 +162,7 @@ struct Simulation::Impl {
 namespace {
 
 // Changes with what follows it in a checkpoint.
-constexpr std::uint64_t kCheckpointFormat = 0x63656C6C6372000C;
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C6372000D;
 
 /// Sizes of the lists that equal scenes have alike.
 std::array<std::size_t, 8> shape_of(const State& state) {
@@ -141,7 +191,7 @@ void Simulation::advance(std::int64_t steps, StageObserver* observer) {
 }
 
 Sample Simulation::take_sample() {
-  Sample sample = impl_->sampler.take(*impl_->scene, impl_->state);
+  Sample sample = impl_->look_at_run([&](const Sampler::Run& run) { return impl_->sampler.take(run); });
   sample.peak = impl_->peak.peak();
   const RunStatus found = check_run(*impl_->scene, impl_->state, sample);
   if (found.kind != RunStatus::Kind::running) {
@@ -154,7 +204,7 @@ Sample Simulation::take_sample() {
 
 FieldFrame Simulation::take_frame(int index) const {
   FieldFrame frame;
-  impl_->sampler.make_frame(*impl_->scene, impl_->state, index, frame);
+  impl_->make_frame(index, frame);
   return frame;
 }
 
@@ -172,7 +222,9 @@ bool Simulation::restore(ByteSource checkpoint) {
   ByteReader reader(std::move(checkpoint));
   std::uint64_t format = 0;
   reader.take(format);
-  const auto shape = shape_of(impl_->state);
+  impl_->scene = impl_->unbroken;
+  auto shape = shape_of(impl_->state);
+  for (const std::size_t of_particles : {0, 1, 7}) shape[of_particles] = impl_->unbroken->particle_count();
   if (format == kCheckpointFormat) {
     // Lists of contacts hold derived data too.
     impl_->state.contacts.assign(impl_->scene->bands.size(), ContactLists());
@@ -181,7 +233,8 @@ bool Simulation::restore(ByteSource checkpoint) {
     take_state(reader, impl_->state);
     impl_->visit_beside_state([&reader](auto& field) { reader.take(field); });
     impl_->status = {};
-    if (reader.sound() && reader.at_end() && shape_of(impl_->state) == shape) {
+    for (const std::size_t of_particles : {0, 1, 7}) shape[of_particles] += impl_->state.breaks.size();
+    if (reader.sound() && reader.at_end() && shape_of(impl_->state) == shape && impl_->break_again()) {
       return true;
     }
   }

@@ -8,6 +8,7 @@
 #include "contact/contact_search.h"
 #include "contact/contact_tiles.h"
 #include "contact/repeated_mesh.h"
+#include "fracture/release.h"
 #include "motion/integrate_motion.h"
 #include "motion/loads.h"
 #include "motion/periodic_sides.h"
@@ -95,6 +96,7 @@ void evaluate_band_plates(StepInProgress& step, std::size_t band) {
 
 void evaluate_all_loads(StepInProgress& step) {
   evaluate_loads(step.scene, step.state);
+  release_ends(step.scene, step.state);
   share_pin_forces(step.scene, step.state);
   tie_sides(step.scene, step.record.contacts.sides, step.state);
 }

@@ -72,6 +72,8 @@ v1::Summary read_summary(hid_t file) {
     out.set_rigid_link_count(static_cast<std::int64_t>(read_number_attribute(file, "rigid_link_count")));
   if (has_attribute(file, "start_overlap_count"))
     out.set_start_overlap_count(static_cast<std::int64_t>(read_number_attribute(file, "start_overlap_count")));
+  if (has_attribute(file, "break_count"))
+    out.set_break_count(static_cast<std::int64_t>(read_number_attribute(file, "break_count")));
   if (has_attribute(file, "theory_shock_error_relative"))
     out.set_shock_error_relative(read_number_attribute(file, "theory_shock_error_relative"));
   v1::Summary::CrushMode mode{};

@@ -211,6 +211,39 @@ std::vector<HistoryColumn> history_columns(const v1::Sample& sample) {
   return out;
 }
 
+hid_t BreakColumn::type() const {
+  return field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ? H5T_IEEE_F64LE : H5T_STD_I64LE;
+}
+
+double BreakColumn::get(const v1::Break& broken) const {
+  const auto& numbers = *v1::Break::GetReflection();
+  switch (field->cpp_type()) {
+    case FieldDescriptor::CPPTYPE_BOOL: return numbers.GetBool(broken, field) ? 1.0 : 0.0;
+    case FieldDescriptor::CPPTYPE_INT32: return numbers.GetInt32(broken, field);
+    case FieldDescriptor::CPPTYPE_INT64: return static_cast<double>(numbers.GetInt64(broken, field));
+    default: return numbers.GetDouble(broken, field);
+  }
+}
+
+void BreakColumn::set(v1::Break& broken, double value) const {
+  const auto& numbers = *v1::Break::GetReflection();
+  switch (field->cpp_type()) {
+    case FieldDescriptor::CPPTYPE_BOOL: numbers.SetBool(&broken, field, value != 0.0); break;
+    case FieldDescriptor::CPPTYPE_INT32: numbers.SetInt32(&broken, field, static_cast<std::int32_t>(value)); break;
+    case FieldDescriptor::CPPTYPE_INT64: numbers.SetInt64(&broken, field, static_cast<std::int64_t>(value)); break;
+    default: numbers.SetDouble(&broken, field, value);
+  }
+}
+
+std::vector<BreakColumn> break_columns() {
+  std::vector<BreakColumn> out;
+  const auto& message = *v1::Break::descriptor();
+  for (int i = 0; i < message.field_count(); ++i) {
+    out.push_back({"breaks/" + std::string(message.field(i)->name()), message.field(i)});
+  }
+  return out;
+}
+
 void write_summary_attributes(hid_t file, const v1::Summary& summary) {
   // The error of a theory is written with those of the theory.
   v1::Summary own = summary;
@@ -221,6 +254,7 @@ void write_summary_attributes(hid_t file, const v1::Summary& summary) {
   write_attribute(file, "step_count", static_cast<std::int64_t>(summary.step_count()));
   write_attribute(file, "rigid_link_count", static_cast<std::int64_t>(summary.rigid_link_count()));
   write_attribute(file, "start_overlap_count", static_cast<std::int64_t>(summary.start_overlap_count()));
+  write_attribute(file, "break_count", static_cast<std::int64_t>(summary.break_count()));
   write_numbers(file, "theory_", summary.theory());
   write_warnings(file, summary);
   write_collapse(file, summary);

@@ -43,6 +43,23 @@ struct HistoryColumn {
 /// then of the watched nodes and rigid walls that this sample has.
 std::vector<HistoryColumn> history_columns(const v1::Sample& sample = {});
 
+/// A dataset of /breaks, with a number for each break: int64 or double.
+struct BreakColumn {
+  std::string path;
+  const google::protobuf::FieldDescriptor* field = nullptr;  ///< of Break
+
+  [[nodiscard]] hid_t type() const;
+  [[nodiscard]] double get(const v1::Break& broken) const;
+  void set(v1::Break& broken, double value) const;
+};
+
+/// One for each field of Break.
+std::vector<BreakColumn> break_columns();
+
+/// How many breaks there were in each frame, and the positions of their ends.
+inline constexpr const char* kFrameBreaks = "frames/break_count";
+inline constexpr const char* kFrameEnds = "frames/end_position_mm";
+
 /// Writes the summary of a run as attributes of its result, without attributes for absent fields. Throws ServiceError.
 void write_summary_attributes(hid_t file, const v1::Summary& summary);
 

@@ -123,7 +123,59 @@ std::vector<v1::Sample> ResultReader::history(std::int64_t first, std::int64_t c
     if (out.size() != values.size()) throw damaged_result("the columns of its history differ in length");
     layout.set(out, values);
   }
+  add_breaks(first, out);
   return out;
+}
+
+std::vector<v1::Break> ResultReader::breaks() const {
+  std::vector<v1::Break> out;
+  if (!has("breaks")) return out;  // nothing broke, or a file of an earlier version
+  for (const BreakColumn& layout : break_columns()) {
+    const auto values = column(layout.path, layout.type());
+    if (out.empty()) out.resize(values.size());
+    if (out.size() != values.size()) throw damaged_result("the columns of its breaks differ in length");
+    for (std::size_t k = 0; k < out.size(); ++k) layout.set(out[k], values[k]);
+  }
+  return out;
+}
+
+// Each break belongs to the sample by which the count of breaks includes it.
+void ResultReader::add_breaks(std::int64_t first, std::vector<v1::Sample>& samples) const {
+  const std::vector<v1::Break> all = breaks();
+  if (all.empty() || samples.empty()) return;
+  const auto before = first == 0 ? std::vector<double>()
+                                 : column("history/break_count", H5T_STD_I64LE, static_cast<hsize_t>(first - 1), 1);
+  auto begin = static_cast<std::int64_t>(before.empty() ? 0.0 : before.front());
+  for (v1::Sample& sample : samples) {
+    const std::int64_t end = sample.break_count();
+    if (begin < 0 || end < begin || end > static_cast<std::int64_t>(all.size()))
+      throw damaged_result("its breaks do not match its history");
+    sample.mutable_breaks()->Add(all.begin() + begin, all.begin() + end);
+    begin = end;
+  }
+}
+
+void ResultReader::add_broken_ends(std::size_t row, v1::FieldFrame& frame) const {
+  if (!has(kFrameBreaks)) return;
+  const std::vector<v1::Break> all = breaks();
+  const std::vector<double> counts = column(kFrameBreaks, H5T_STD_I64LE);
+  const Hdf5Handle ends = open_result_dataset(file_.id(), kFrameEnds, H5T_IEEE_F32LE, 2);
+  const auto shape = shape_of(ends.id());
+  double first = 0.0;
+  for (std::size_t i = 0; i < std::min(row, counts.size()); ++i) first += counts[i];
+  const double count = row < counts.size() ? counts[row] : -1.0;
+  if (count < 0.0 || count > static_cast<double>(all.size()) || shape[1] != 2 || first < 0.0 ||
+      first + count > static_cast<double>(shape[0]))
+    throw damaged_result("the broken ends of its frames do not match");
+  if (count == 0.0) return;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    if (all[k].element() < 0 || all[k].element() >= frame.plastic_fraction_size())
+      throw damaged_result("a broken end is of no element");
+    frame.add_broken_end(2 * all[k].element() + (all[k].at_end() ? 1 : 0));
+  }
+  frame.mutable_end_position_mm()->Resize(2 * static_cast<int>(count), 0.0F);
+  read_rows(ends.id(), H5T_NATIVE_FLOAT, static_cast<hsize_t>(first), static_cast<hsize_t>(count),
+            frame.mutable_end_position_mm()->mutable_data());
 }
 
 std::vector<double> ResultReader::frame_times() const { return column("frames/time_s", H5T_IEEE_F64LE); }
@@ -150,6 +202,7 @@ v1::FieldFrame ResultReader::frame(int index) const {
     read_row(open_result_dataset(file_.id(), "frames/local_strain", H5T_IEEE_F32LE, 2), row,
              *out.mutable_local_strain());
   }
+  add_broken_ends(row, out);
   return out;
 }
 

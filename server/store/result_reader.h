@@ -42,6 +42,10 @@ class ResultReader {
   [[nodiscard]] std::vector<double> column(const std::string& path, hid_t type, hsize_t first = 0,
                                            hsize_t count = std::numeric_limits<std::int64_t>::max()) const;
   [[nodiscard]] bool has(const std::string& path) const;
+  /// All breaks, in their order.
+  [[nodiscard]] std::vector<v1::Break> breaks() const;
+  void add_breaks(std::int64_t first, std::vector<v1::Sample>& samples) const;
+  void add_broken_ends(std::size_t row, v1::FieldFrame& frame) const;
   /// A sample with the parts of the case that samples have numbers of.
   [[nodiscard]] v1::Sample sample_without_numbers() const;
 

@@ -147,6 +147,7 @@ void ResultWriter::make_columns(const v1::Sample& sample) {
 }
 
 void ResultWriter::add_sample(const v1::Sample& sample) {
+  breaks_.insert(breaks_.end(), sample.breaks().begin(), sample.breaks().end());
   gathered_.push_back(sample);
   if (gathered_.size() >= kHistoryChunkRows) write_gathered();
 }
@@ -175,6 +176,27 @@ void ResultWriter::add_frame(const v1::FieldFrame& frame) {
     append_rows(frame_local_strain_.id(), H5T_NATIVE_FLOAT, 1, frame.local_strain().data());
   }
   if (!std::exchange(has_positions_, true)) write_positions(frame);
+  frame_breaks_.push_back(frame.broken_end_size());
+  frame_ends_.insert(frame_ends_.end(), frame.end_position_mm().begin(), frame.end_position_mm().end());
+}
+
+void ResultWriter::write_breaks() {
+  if (breaks_.empty()) return;
+  const std::vector<BreakColumn> columns = break_columns();
+  for (const BreakColumn& column : columns) {
+    std::vector<double> values;
+    for (const v1::Break& broken : breaks_) values.push_back(column.get(broken));
+    const auto dataset = make_growing_dataset(file_.id(), column.path, column.type(), {}, {kHistoryChunkRows});
+    describe(dataset.id(), unit_of(column.field->name()), meaning_of(*column.field));
+    append_rows(dataset.id(), H5T_NATIVE_DOUBLE, values.size(), values.data());
+  }
+  const auto counts = make_growing_dataset(file_.id(), kFrameBreaks, H5T_STD_I64LE, {}, {kHistoryChunkRows});
+  attach_scales(counts.id(), {frame_time_.id()});
+  describe(counts.id(), "", "breaks that had happened by the frame");
+  append_rows(counts.id(), H5T_NATIVE_INT64, frame_breaks_.size(), frame_breaks_.data());
+  const auto ends = make_growing_dataset(file_.id(), kFrameEnds, H5T_IEEE_F32LE, {2}, {kFrameChunkItems, 2});
+  describe(ends.id(), "mm", "positions of the ends of these breaks, in their order, frame after frame");
+  append_rows(ends.id(), H5T_NATIVE_FLOAT, frame_ends_.size() / 2, frame_ends_.data());
 }
 
 void ResultWriter::write_positions(const v1::FieldFrame& frame) {
@@ -198,6 +220,7 @@ void ResultWriter::write_identity(const ResultHeader& header) {
 
 void ResultWriter::finish(const ResultHeader& header) {
   write_gathered();
+  write_breaks();
   write_identity(header);
   write_attribute(file_.id(), "modelled", as_lines(header.modelled));
   write_attribute(file_.id(), "solver_revision", header.solver_revision);

@@ -44,6 +44,7 @@ class ResultWriter {
   void make_columns(const v1::Sample& sample);
   void write_gathered();
   void write_positions(const v1::FieldFrame& frame);
+  void write_breaks();
   void write_identity(const ResultHeader& header);
 
   std::filesystem::path path_;
@@ -64,6 +65,9 @@ class ResultWriter {
   Hdf5Handle frame_fibre_strain_;
   Hdf5Handle frame_local_strain_;  ///< of lattices with cells
   std::vector<v1::Sample> gathered_;
+  std::vector<v1::Break> breaks_;
+  std::vector<std::int64_t> frame_breaks_;  ///< of each frame, how many there were
+  std::vector<float> frame_ends_;           ///< positions of the broken ends, frame after frame
   bool has_positions_ = false;
 };
 

@@ -69,6 +69,20 @@ v1::FibreStrain to_proto(const LargestFibreStrain& fibre_strain) {
   return out;
 }
 
+v1::Break to_proto(const Break& broken) {
+  v1::Break out;
+  out.set_step(broken.step);
+  out.set_time_s(broken.time);
+  out.set_wall(broken.wall);
+  out.set_x_mm(broken.place.x());
+  out.set_y_mm(broken.place.y());
+  out.set_energy_mj(broken.plastic);
+  out.set_element(broken.element);
+  out.set_at_end(broken.at_end != 0);
+  out.set_particle(broken.particle);
+  return out;
+}
+
 v1::Warning::Kind to_proto(Warning::Kind kind) {
   switch (kind) {
     case Warning::Kind::deep_penetration: return v1::Warning::DEEP_PENETRATION;
@@ -180,6 +194,7 @@ v1::Sample to_proto(const Sample& sample, const v1::Case& scene) {
     grip.set_force_x_n(sample.grips[i].force_x);
     grip.set_force_y_n(sample.grips[i].force_y);
   }
+  for (const Break& broken : sample.breaks) *out.add_breaks() = to_proto(broken);
   for (const Warning& warning : sample.warnings) *out.add_warnings() = to_proto(warning);
   return out;
 }
@@ -209,6 +224,8 @@ v1::FieldFrame to_proto(const FieldFrame& frame) {
   out.mutable_plastic_fraction()->Assign(frame.plastic_fraction.begin(), frame.plastic_fraction.end());
   out.mutable_fibre_strain()->Assign(frame.fibre_strain.begin(), frame.fibre_strain.end());
   out.mutable_local_strain()->Assign(frame.local_strain.begin(), frame.local_strain.end());
+  out.mutable_broken_end()->Assign(frame.broken_end.begin(), frame.broken_end.end());
+  out.mutable_end_position_mm()->Assign(frame.end_position.begin(), frame.end_position.end());
   return out;
 }
 
@@ -304,6 +321,11 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& 
   const v1::Sample names = sample_parts_of(scene);
   for (std::size_t i = 0; i < summary.rigid_walls.size(); ++i) {
     *out.add_rigid_walls() = to_proto(summary.rigid_walls[i], names.rigid_walls(static_cast<int>(i)).wall());
+  }
+  out.set_break_count(summary.break_count);
+  if (summary.first_break) {
+    out.set_first_break_time_s(summary.first_break->time);
+    out.set_first_break_strain(summary.first_break->strain);
   }
   *out.mutable_ledger() = ledger_of(last);
   *out.mutable_stage_times() = to_proto(time.stages);

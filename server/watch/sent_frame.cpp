@@ -142,6 +142,8 @@ v1::FieldFrame pack(const v1::FieldFrame& frame, const v1::Mesh* mesh) {
   out.set_index(frame.index());
   out.set_time_s(frame.time_s());
   out.set_strain(frame.strain());
+  *out.mutable_broken_end() = frame.broken_end();
+  *out.mutable_end_position_mm() = frame.end_position_mm();
   auto& packed = *out.mutable_packed();
   const int particles = frame.position_mm_size() / 2;
   packed.set_particle_count(particles);
@@ -164,6 +166,8 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
   int fractions = 0;
   int strains = 0;
   int local_strains = 0;
+  int broken_ends = 0;
+  int end_positions = 0;
   std::size_t packed = 0;
   do {
     Room room(std::max<std::size_t>(chunk_bytes, sizeof(float)));
@@ -171,6 +175,8 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
     part.set_index(frame.index());
     part.set_time_s(frame.time_s());
     part.set_strain(frame.strain());
+    room.take(frame.broken_end(), broken_ends, *part.mutable_broken_end());
+    room.take(frame.end_position_mm(), end_positions, *part.mutable_end_position_mm());
     room.take(frame.position_mm(), positions, *part.mutable_position_mm());
     room.take(frame.plastic_fraction(), fractions, *part.mutable_plastic_fraction());
     room.take(frame.fibre_strain(), strains, *part.mutable_fibre_strain());
@@ -182,6 +188,7 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
     part.mutable_packed()->set_predicted_by_elements(frame.packed().predicted_by_elements());
     room.take(frame.packed().data(), packed, *part.mutable_packed()->mutable_data());
   } while (positions < frame.position_mm_size() || fractions < frame.plastic_fraction_size() ||
+           broken_ends < frame.broken_end_size() || end_positions < frame.end_position_mm_size() ||
            strains < frame.fibre_strain_size() || local_strains < frame.local_strain_size() ||
            packed < frame.packed().data().size());
   number_parts(out);

@@ -103,4 +103,15 @@ SceneSpec loaded_and_unloaded() {
   return spec;
 }
 
+SceneSpec brittle_lattice() {
+  SceneSpec spec = block("Brittle hexagons", 10, 9, 0.4);
+  spec.material.youngs_modulus_mpa = 3300.0;
+  spec.material.yield_stress_mpa = 55.0;
+  spec.material.density_kg_per_m3 = 1240.0;
+  spec.material.failure_strain = 0.02;
+  spec.loading.speed_m_per_s = 10.0;
+  spec.loading.end_strain = 0.6;
+  return spec;
+}
+
 }  // namespace cellcrush::scenes

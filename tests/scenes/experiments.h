@@ -16,5 +16,6 @@ SceneSpec thrown_block();
 SceneSpec pressure_pulse();
 SceneSpec dropped_weight();
 SceneSpec loaded_and_unloaded();
+SceneSpec brittle_lattice();
 
 }  // namespace cellcrush::scenes

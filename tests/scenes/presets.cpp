@@ -135,6 +135,7 @@ std::span<const NamedSpec> presets() {
       {"pressure-pulse", pressure_pulse()},
       {"dropped-weight", dropped_weight()},
       {"loaded-and-unloaded", loaded_and_unloaded()},
+      {"brittle-lattice", brittle_lattice()},
   };
   return kPresets;
 }

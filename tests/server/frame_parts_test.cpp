@@ -121,6 +121,11 @@ TEST(PackedFrame, WithoutPositionsBeforeLoadingHasThePositions) {
 TEST(FrameChunks, EveryPartPassesAStockClientAndTogetherTheyAreTheFrame) {
   const auto mesh = mesh_of(700'000);
   auto frame = frame_of(mesh, 500.0);
+  for (int k = 0; k < 50'000; ++k) {
+    frame.add_broken_end(k);
+    frame.add_end_position_mm(0.5F);
+    frame.add_end_position_mm(static_cast<float>(k));
+  }
   for (const bool is_packed : {false, true}) {
     if (is_packed) frame = pack(frame, &mesh);
     v1::FieldFrame whole;

@@ -64,6 +64,8 @@ class ResultFileTest : public ::testing::Test {
       sample.set_energy_contact_damping_mj(2.0 * i);
       sample.set_deepest_penetration(0.5);
       if (i >= 100) sample.mutable_front()->set_strain_behind(0.9);
+      if (i == 20) sample.add_breaks()->set_element(1);
+      sample.set_break_count(i < 20 ? 0 : 1);
       writer.add_sample(sample);
     }
     for (int i = 0; i < 4; ++i) {
@@ -75,6 +77,11 @@ class ResultFileTest : public ::testing::Test {
       for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(static_cast<float>(i) / 4.0F);
       for (int k = 0; k < 2; ++k) frame.add_fibre_strain(0.01F * static_cast<float>(i + k));
       for (int k = 0; k < 2; ++k) frame.add_local_strain(0.02F * static_cast<float>(i + k));
+      if (i >= 2) {
+        frame.add_broken_end(2);
+        frame.add_end_position_mm(1.0F);
+        frame.add_end_position_mm(2.0F);
+      }
       writer.add_frame(frame);
     }
     const auto summary = testing::from_text<v1::Summary>(R"(
@@ -123,7 +130,7 @@ TEST_F(ResultFileTest, HasTheDatasetsOfItsPageWithTheirShapesAndTypes) {
     EXPECT_FALSE(read_text_attribute(dataset.id(), "units").empty()) << column.path;
     found.insert("/" + column.path);
   }
-  EXPECT_EQ(found.size(), 48U) << "Names never change.";
+  EXPECT_EQ(found.size(), 51U) << "Names never change.";
 }
 
 TEST_F(ResultFileTest, TheHistoryIsExtendibleAndCompressed) {

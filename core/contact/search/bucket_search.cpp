@@ -22,11 +22,22 @@ bool list_holds(const Scene& scene, const State& state, const ContactLists& list
                     lists.searched_position.end(), has_stayed);
 }
 
-/// Whether an element that ends in the ball crosses the segment.
-bool crosses_segment(const Scene& scene, const State& state, int ball, const Element& segment) {
+/// Whether an element has a broken end (E6g). Nothing tells on which side of its neighbours that is.
+bool has_broken_end(const Scene& scene, const State& state, const Element& element) {
+  const int end = scene.joint_count;
+  const int first = end - static_cast<int>(state.breaks.size());
+  return (element.start >= first && element.start < end) || (element.end >= first && element.end < end);
+}
+
+/// Whether an element that ends in the ball crosses the segment, other than by a broken end.
+bool crosses_segment(const Scene& scene, const State& state, int ball, int segment) {
   const auto first = scene.incidence.begin() + scene.incidence_offset[ball];
   const auto end = scene.incidence.begin() + scene.incidence_offset[ball + 1];
-  return std::any_of(first, end, [&](int e) { return cross_each_other(state, scene.elements[e], segment); });
+  return std::any_of(first, end, [&](int e) {
+    return cross_each_other(state, scene.elements[e], scene.elements[segment]) &&
+           !has_broken_end(scene, state, scene.elements[e]) &&
+           !has_broken_end(scene, state, scene.elements[segment]);
+  });
 }
 
 }  // namespace
@@ -63,7 +74,7 @@ bool list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
       if (ball != element.start && ball != element.end && is_near && has_elements(scene, ball)) {
         const int segment = static_cast<int>(e);
         add_candidate(lists, {ball, segment, reach_now(scene, state, ball, segment)});
-        is_planar = is_planar && !crosses_segment(scene, state, ball, element);
+        is_planar = is_planar && !crosses_segment(scene, state, ball, segment);
       }
     });
   }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "contact/start_overlaps.h"
 #include "contact/topology/wall_paths.h"
 #include "contact/touch/force_laws.h"
 #include "geometry/bucket_grid.h"
@@ -32,8 +34,6 @@ struct Overlap {
 
 /// Distance over reach up to which a ball is on the mid-line of a segment.
 constexpr double kOnMidLine = 1e-6;
-/// Reach over distance of those that overlap: round-off of walls that move as one must not make them touch.
-constexpr double kKeptDistance = 1.0 - 0x1p-20;
 
 /// Points along elements, by which elements are found.
 struct Marks {
@@ -57,6 +57,11 @@ class OverlapFinder {
     visits_left_ = kMostOverlapVisits * (count + static_cast<double>(scene.particle_count()));
     for (const Element& element : scene.elements) {
       mean_length_ += span_of(element).norm() / count;
+    }
+    for (std::size_t e = 0; e < scene.chain.size(); ++e) {
+      const auto element = static_cast<int>(e);
+      const auto [range, is_new] = chains_.try_emplace(scene.chain[e], element, element);
+      range->second.second = element;
     }
   }
 
@@ -157,24 +162,31 @@ class OverlapFinder {
     int first;
     int end;
     int stride;
+    int chain;  ///< of which they are (Scene::chain), or -1: all
   };
 
   /// Those of the wall that has an element.
   [[nodiscard]] ElementsOfWall wall_with(int element) const {
+    if (scene_.can_break()) {
+      const int chain = scene_.chain[element];
+      const auto& [first, last] = chains_.at(chain);
+      return {chain, first, last + 1, 1, chain};
+    }
     if (element >= scene_.rigid.first_element) {
       const int wall = static_cast<int>(scene_.walls.start.size()) + element - scene_.rigid.first_element;
-      return {scene_.list_order.listed_wall(wall), element, element + 1, 1};
+      return {scene_.list_order.listed_wall(wall), element, element + 1, 1, -1};
     }
     const auto after = std::ranges::upper_bound(scene_.walls.blocks, element, {}, &WallBlock::first_element);
     const WallBlock& block = *std::prev(after);
     const int of_block = (element - block.first_element) % block.walls;
     const int first = block.first_element + of_block;
     return {scene_.list_order.listed_wall(block.first_wall + of_block), first,
-            first + (block.elements - 1) * block.walls + 1, block.walls};
+            first + (block.elements - 1) * block.walls + 1, block.walls, -1};
   }
 
   [[nodiscard]] bool has_particle(const ElementsOfWall& wall, int particle) const {
     for (int e = wall.first; e < wall.end; e += wall.stride) {
+      if (wall.chain >= 0 && scene_.chain[e] != wall.chain) continue;
       if (scene_.elements[e].start == particle || scene_.elements[e].end == particle) return true;
     }
     return false;
@@ -184,12 +196,16 @@ class OverlapFinder {
   /// the rest.
   [[nodiscard]] StartOverlap pair_of(const Pair& found) const {
     const ElementsOfWall wall = wall_with(found.segment);
-    StartOverlap pair = {
-        found.ball, wall_of_ball(found.ball, wall), wall.wall, found.segment, wall.first, wall.end, wall.stride, 0.0};
+    StartOverlap pair = {found.ball,  wall_of_ball(found.ball, wall),
+                         wall.wall,   found.segment,
+                         wall.first,  wall.end,
+                         wall.stride, wall.chain,
+                         0.0};
     if (has_particle(wall, found.ball)) {
       pair.first_segment = found.segment;
       pair.end_segment = found.segment + 1;
       pair.stride = 1;
+      pair.chain = -1;
     }
     return pair;
   }
@@ -197,6 +213,7 @@ class OverlapFinder {
   /// The wall of a ball, of a joint one that has a joint of the other wall, or else the first.
   [[nodiscard]] int wall_of_ball(int ball, const ElementsOfWall& other) const {
     const int first = scene_.incidence_offset[ball];
+    if (scene_.can_break()) return scene_.chain[scene_.incidence[first]];
     for (int k = first; k < scene_.incidence_offset[ball + 1]; ++k) {
       const ElementsOfWall own = wall_with(scene_.incidence[k]);
       const int start = scene_.elements[own.first].start;
@@ -261,6 +278,7 @@ class OverlapFinder {
   const Scene& scene_;
   std::size_t most_;
   WallPaths paths_;
+  std::map<int, std::pair<int, int>> chains_;  ///< first and last element of each chain, where walls can break
   double mean_length_ = 0.0;
   double visits_left_ = 0.0;
   std::vector<InitialCrossing> crossings_;

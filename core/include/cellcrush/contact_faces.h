@@ -52,6 +52,7 @@ struct ContactFaces {
     no_contact,     ///< no contact between walls: nothing to search
     not_asked,      ///< the case requests buckets
     sides_repeat,   ///< faces across the sides are not traced
+    walls_break,    ///< faces merge where walls break
     several_parts,  ///< separate parts can lie in faces that they do not border
     not_closed,  ///< an element has the same face on both sides, or a face touches itself at a particle: trees, bridges
     not_planar   ///< elements cross without a common particle

@@ -28,16 +28,17 @@ struct RateTable {
 
 /// Parameters of a material that some laws of its fibres read, beside E and the yield stress.
 struct LawParameters {
-  double hardening_modulus_mpa = 0.0;             ///< H = E E_T / (E - E_T)
-  double isotropic_fraction = 1.0;                ///< beta of the paper: 1 isotropic, 0 kinematic
-  double voce_stress_mpa = 0.0;                   ///< Q of Q (1 - exp(-b ep))
-  double voce_exponent = 0.0;                     ///< b
-  double ludwik_stress_mpa = 0.0;                 ///< B of B ep^n
+  double hardening_modulus_mpa = 0.0;              ///< H = E E_T / (E - E_T)
+  double isotropic_fraction = 1.0;                 ///< beta of the paper: 1 isotropic, 0 kinematic
+  double voce_stress_mpa = 0.0;                    ///< Q of Q (1 - exp(-b ep))
+  double voce_exponent = 0.0;                      ///< b
+  double ludwik_stress_mpa = 0.0;                  ///< B of B ep^n
   double ludwik_exponent = 0.0;                    ///< n, up to 1
-  double cowper_symonds_rate_per_s = 0.0;         ///< D of 1 + (ep' / D)^(1 / q); 0: none
+  double cowper_symonds_rate_per_s = 0.0;          ///< D of 1 + (ep' / D)^(1 / q); 0: none
   double cowper_symonds_exponent = 0.0;            ///< q, from 1
-  double johnson_cook_coefficient = 0.0;          ///< C of 1 + C ln(ep' / ep0')
+  double johnson_cook_coefficient = 0.0;           ///< C of 1 + C ln(ep' / ep0')
   double johnson_cook_reference_rate_per_s = 1.0;  ///< ep0'
+  double failure_strain = 0.0;                     ///< plastic strain at which a wall breaks (E6g); 0: never
   HardeningTable hardening_table;
   RateTable rate_table;
 
@@ -47,6 +48,8 @@ struct LawParameters {
   [[nodiscard]] bool has_curve() const {
     return voce_stress_mpa > 0.0 || ludwik_stress_mpa > 0.0 || !hardening_table.plastic_strains.empty();
   }
+  /// Whether walls break.
+  [[nodiscard]] bool fails() const { return failure_strain > 0.0; }
   [[nodiscard]] bool hardens() const { return hardening_modulus_mpa > 0.0 || has_curve(); }
   [[nodiscard]] bool depends_on_rate() const {
     return cowper_symonds_rate_per_s > 0.0 || johnson_cook_coefficient > 0.0 || !rate_table.rates_per_s.empty();
@@ -72,10 +75,11 @@ inline constexpr LawParameter kLawParameters[] = {
     {"cowper_symonds_exponent", &LawParameters::cowper_symonds_exponent, 0, "Cowper-Symonds exponent {:.6g}"},
     {"johnson_cook_coefficient", &LawParameters::johnson_cook_coefficient, 0, "Johnson-Cook C {:.6g}"},
     {"johnson_cook_reference_rate_per_s", &LawParameters::johnson_cook_reference_rate_per_s, -1,
-     "Johnson-Cook reference rate {:.6g} 1/s"}};
+     "Johnson-Cook reference rate {:.6g} 1/s"},
+    {"failure_strain", &LawParameters::failure_strain, -1, "failure strain {:.6g}"}};
 
-static_assert(sizeof(LawParameters) == std::size(kLawParameters) * sizeof(double) + sizeof(HardeningTable) +
-                                           sizeof(RateTable),
+static_assert(sizeof(LawParameters) ==
+                  std::size(kLawParameters) * sizeof(double) + sizeof(HardeningTable) + sizeof(RateTable),
               "list every parameter");
 
 /// What the solver asks of a law of the fibres beside its equations, which are in law/fibre_law-inl.h and a file for
@@ -99,7 +103,10 @@ struct PerfectlyPlastic {
   static constexpr LawFacts kFacts = {
       .words = "perfectly plastic; each stores only its stress",
       .may_be_single_in_force_based = true,
-      .describes = [](const LawParameters& material) { return !material.hardens() && !material.depends_on_rate(); },
+      .describes =
+          [](const LawParameters& material) {
+            return !material.hardens() && !material.depends_on_rate() && !material.fails();
+          },
       .even_strain = [](double /*yield_stress*/, const LawParameters& /*material*/) { return 0.0; }};
 };
 
@@ -121,8 +128,9 @@ double even_strain_of_curve(double yield_stress, const LawParameters& material);
 
 struct FlowStress {
   static constexpr LawFacts kFacts = {
-      .words = "with a yield stress that follows a curve of the plastic strain, and its rate if the material says how; "
-               "each stores its back stress, accumulated plastic strain and tangent modulus",
+      .words =
+          "with a yield stress that follows a curve of the plastic strain, and its rate if the material says how; "
+          "each stores its back stress, accumulated plastic strain and tangent modulus",
       .keeps_back_stress = true,
       .keeps_plastic_strain = true,
       .keeps_tangent = true,

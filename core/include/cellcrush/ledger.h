@@ -20,6 +20,7 @@ struct Ledger {
 struct Energies : Ledger {
   double kinetic = 0.0;
   double elastic = 0.0;
+  double fracture = 0.0;  ///< work of the forces between ends that break off and their joints (E6g)
   double residual = 0.0;
 };
 
@@ -36,6 +37,7 @@ inline constexpr std::array kLedgerTerms = {
     LedgerTerm{"energy_kinetic_mj", &Energies::kinetic, false},
     LedgerTerm{"energy_elastic_mj", &Energies::elastic, false},
     LedgerTerm{"energy_plastic_mj", &Energies::plastic, false},
+    LedgerTerm{"energy_fracture_mj", &Energies::fracture, false},
     LedgerTerm{"energy_contact_mj", &Energies::contact, false},
     LedgerTerm{"energy_contact_damping_mj", &Energies::contact_damping, false},
     LedgerTerm{"energy_friction_mj", &Energies::friction, false},

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cellcrush/breaks.h"
 #include "cellcrush/ledger.h"
 
 namespace cellcrush {
@@ -146,6 +147,8 @@ struct Sample {
   std::vector<WatchedNode> watched;          ///< in the order of the frame's watched nodes
   std::vector<RigidWallSample> rigid_walls;  ///< in the order of the case, then the two side walls if there are any
   std::vector<GripSample> grips;             ///< in the order of the case
+  std::int64_t break_count = 0;              ///< walls broken so far (E6g)
+  std::vector<Break> breaks;                 ///< since the sample before
   std::vector<Warning> warnings;             ///< of contacts, first seen at this sample
 
   [[nodiscard]] double energy_damping() const { return energies.contact_damping + energies.mass_damping; }
@@ -181,6 +184,7 @@ void visit_columns(S& sample, const Visitor& visit) {
   visit("energy_contact_stored_mj", sample.energy_contact_stored, 1.0);
   visit("deepest_penetration", sample.deepest_penetration, 1.0);
   visit("contact_count", sample.contact_count, 1.0);
+  visit("break_count", sample.break_count, 1.0);
   visit("solid_fraction", sample.solid_fraction, 1.0);
   visit("collapsed_fraction", sample.collapsed_fraction, 1.0);
   visit("largest_fibre_strain", sample.largest_fibre_strain, 1.0);
@@ -204,6 +208,8 @@ struct FieldFrame {
   double time = 0.0;
   double strain = 0.0;
   std::vector<float> position;          ///< mm, x0 y0 x1 y1 ... of N particles
+  std::vector<int> broken_end;          ///< of each break so far, 2 element + 1 at its end, + 0 at its start (Break)
+  std::vector<float> end_position;      ///< mm, x0 y0 x1 y1 ... of these ends: particle N + k of break k
   std::vector<float> plastic_fraction;  ///< E elements, fraction of the section area that has yielded
   std::vector<float> fibre_strain;      ///< of all walls (Scene::wall_count), as Sample::largest_fibre_strain
   std::vector<float> local_strain;      ///< of the cells beside each wall (measure/local_strain.h); empty without cells
@@ -271,6 +277,12 @@ enum class RunEnd {
   at_rest  ///< loading.end_at_rest
 };
 
+/// The first wall to break.
+struct FirstBreak {
+  double time = 0.0;    ///< s
+  double strain = 0.0;  ///< nominal, at the sample that followed
+};
+
 /// Results of a whole run. Stresses, energies, the front and the onset of densification are those of the part before
 /// `valid_to_strain`.
 struct Summary {
@@ -313,6 +325,8 @@ struct Summary {
   std::optional<QuasiStatic> quasi_static;  ///< absent if the run ended before the end of its first window
   std::optional<LargestFibreStrain> fibre_strain;  ///< absent if no wall was strained
   std::vector<RigidWallSummary> rigid_walls;       ///< in the order of the samples
+  std::int64_t break_count = 0;                    ///< walls broken (E6g)
+  std::optional<FirstBreak> first_break;           ///< absent if none has
   Theory theory;
   std::vector<Warning> warnings;  ///< of all samples and of the ledger, in order of steps
 

@@ -90,9 +90,10 @@ struct StartOverlap {
   int first_segment = 0;  ///< the elements of the wall: this one and those `stride` apart, before end_segment
   int end_segment = 0;
   int stride = 1;
+  int chain = -1;      ///< of the segments, where walls can break (Scene::chain); otherwise -1
   double reach = 0.0;  ///< mm, the greatest until they have parted
 
-  [[nodiscard]] bool has(int segment) const {
+  [[nodiscard]] bool is_between(int segment) const {
     return segment >= first_segment && segment < end_segment && (segment - first_segment) % stride == 0;
   }
 };
@@ -176,12 +177,16 @@ struct Scene {
   std::size_t law = 0;              ///< of the fibres, into Laws
   SectionRule section;
   bool single_fibres = false;  ///< fibre histories are stored and updated in single precision
+  /// E, where walls can break (E6g): number of the wall, or of its part between breaks. Every unit of elements that are
+  /// solved together is then one of `walls`, so that all walls end at joints. Otherwise empty.
+  std::vector<int> chain;
+  std::size_t listed_walls = 0;  ///< walls before they were divided into units, where they can break; otherwise 0
   /// Single precision was asked for, but would round so slow a loading away (scene/run_plan.h).
   bool slow_loading = false;
   bool constant_area = false;  ///< walls keep their section area, as in the paper, instead of their volume (E5c)
   ContactLaw contact;
   LimitedReaches limited_reaches;  ///< empty without contact
-  StartOverlaps start_overlaps;    ///< empty without contact
+  StartOverlaps start_overlaps;    ///< empty without contact; of new ends too, where walls can break
   ContactFaces faces;              ///< for the contact search, where their premise holds
   Plates plates;
   std::vector<RigidWall> rigid_walls;
@@ -222,6 +227,11 @@ struct Scene {
     return std::min(full_reach_of(ball, segment), most_reach_of(ball, segment));
   }
 
+  [[nodiscard]] bool can_break() const { return !chain.empty(); }
+  /// Whether an overlap concerns a segment.
+  [[nodiscard]] bool has(const StartOverlap& pair, int segment) const {
+    return pair.is_between(segment) && (pair.chain < 0 || pair.chain == chain[segment]);
+  }
   /// Whether squashed walls grow in thickness (E5f).
   [[nodiscard]] bool thickens() const { return !constant_area; }
   /// Greatest radius that a ball can have, mm.
@@ -234,9 +244,11 @@ struct Scene {
   }
   [[nodiscard]] std::size_t particle_count() const { return position.size(); }
   [[nodiscard]] std::size_t element_count() const { return elements.size(); }
-  /// All walls: those of `walls`, then those of rigid bodies, which are an element each.
   [[nodiscard]] std::size_t rigid_element_count() const { return elements.size() - rigid.first_element; }
-  [[nodiscard]] std::size_t wall_count() const { return walls.start.size() + rigid_element_count(); }
+  /// All walls, as listed: those of `walls`, then those of rigid bodies, which are an element each.
+  [[nodiscard]] std::size_t wall_count() const {
+    return listed_walls > 0 ? listed_walls : walls.start.size() + rigid_element_count();
+  }
   [[nodiscard]] std::size_t fibre_count() const { return section.fibre_count(); }
 };
 
@@ -257,9 +269,9 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
                elements, walls, bands, rigid, list_order, pins, incidence_offset, incidence, joint_count,
                wall_end_offset, wall_ends, supports, motions, grips, gripped, period, repeated, first_ball, ball_count,
                loads, element_loads, gravity, initial_velocity, initial_spin, depth, materials, law, section,
-               single_fibres, slow_loading, constant_area, contact, limited_reaches, start_overlaps, faces, plates,
-               rigid_walls, crushing_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, solid_area,
-               stable_step, collapse_stress, fidelity, watched] = scene;
+               single_fibres, chain, listed_walls, slow_loading, constant_area, contact, limited_reaches,
+               start_overlaps, faces, plates, rigid_walls, crushing_walls, mass_scaling, mass_damping, schedule, length,
+               width, total_mass, solid_area, stable_step, collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material,
                shear] = walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element, links] = rigid;
@@ -272,7 +284,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto list = [&visit](const auto&... arrays) { (visit(arrays), ...); };
   list(position, mass, inertia, inverse_mass, inverse_inertia, radius, elements, bands, incidence_offset, incidence,
        wall_end_offset, wall_ends, supports, motions, grips, gripped, loads, element_loads, initial_velocity,
-       initial_spin, materials, rigid_walls, watched);
+       initial_spin, materials, chain, rigid_walls, watched);
   list(blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material, shear);
   list(rigid_offset, centre, rigid_mass, rigid_inertia);
   list(listed_joint, listed_wall);

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "cellcrush/breaks.h"
 #include "cellcrush/byte_stream.h"
 #include "cellcrush/contact_lists.h"
 #include "cellcrush/ledger.h"
@@ -160,6 +161,9 @@ struct State {
 
   /// One for each of Scene::start_overlaps, 1: has parted (E8f). Written by find_contacts.
   std::vector<std::uint8_t> parted;
+  // Where walls can break (E6g), otherwise empty; written between steps.
+  std::vector<Break> breaks;                 ///< so far, in their order
+  std::vector<NetPlasticStrain> net_strain;  ///< 2 P E: of the right and the left outer fibre of each section
 
   // Written by evaluate_contact_forces and evaluate_plate_forces, which add to forces that integrate_motion has
   // cleared.
@@ -200,9 +204,9 @@ void visit_fields(S& state, Visitor&& visit) {
          reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_totals, axis,
          length, inverse_length, shortening, thickening, thickening_slope, radius_growth, fibres, single_fibres,
          wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
-         parted, contact_force, contact_moment, friction_force, impact_friction, support_friction, impact_force,
-         support_force, rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive, sides,
-         side_force, ledger, derived_steps, derived_tiles] = state;
+         parted, breaks, net_strain, contact_force, contact_moment, friction_force, impact_friction, support_friction,
+         impact_force, support_force, rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive,
+         sides, side_force, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, tangent, flow, yielded, section_axial, section_moment, yielding,
@@ -219,7 +223,7 @@ void visit_fields(S& state, Visitor&& visit) {
   for (auto& lists : contacts) {
     visit_search_fields(lists, visit);
   }
-  list(crossing_step, parted);
+  list(crossing_step, parted, breaks, net_strain);
   for (auto& lists : contacts) {
     visit_touch_fields(lists, visit);
   }

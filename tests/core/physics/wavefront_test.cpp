@@ -227,17 +227,18 @@ TEST(Wavefront, GoOverToBucketsWhenBordersComeNearEachOtherAndTellSoOnce) {
   State state = make_initial_state(*scene);
   Workspace workspace;
   Sampler sampler(*scene);
+  const auto take = [&] { return sampler.take({*scene, state, *scene, state}); };
   advance_steps(*scene, state, workspace, 20, nullptr);
   EXPECT_TRUE(can_advance_wavefronts(*scene, state));
-  EXPECT_TRUE(sampler.take(*scene, state).warnings.empty());
+  EXPECT_TRUE(take().warnings.empty());
   draw_borders_together(*scene, state);
   advance_steps(*scene, state, workspace, 1, nullptr);
   EXPECT_LT(state.crossing_step, 0);
   EXPECT_FALSE(can_advance_wavefronts(*scene, state));
-  const Sample sample = sampler.take(*scene, state);
+  const Sample sample = take();
   ASSERT_EQ(sample.warnings.size(), 1u);
   EXPECT_EQ(sample.warnings.front().kind, Warning::Kind::borders_near);
-  EXPECT_TRUE(sampler.take(*scene, state).warnings.empty());
+  EXPECT_TRUE(take().warnings.empty());
 }
 
 }  // namespace
