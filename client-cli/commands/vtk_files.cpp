@@ -66,10 +66,13 @@ std::string vtk_frame(const MeshFrame& frame, const v1::FieldFrame& undeformed, 
   const auto& position = frame.frame.position_mm();
   std::vector<float> points;
   std::vector<float> displacements;
+  // Broken ends are in the mesh of the frame alone.
+  const auto before = [&](int i) {
+    return i < undeformed.position_mm_size() ? undeformed.position_mm(i) : frame.mesh.position_mm(i);
+  };
   for (int i = 0; i + 1 < position.size(); i += 2) {
     points.insert(points.end(), {position[i], position[i + 1], 0.0F});
-    displacements.insert(displacements.end(), {position[i] - undeformed.position_mm(i),
-                                               position[i + 1] - undeformed.position_mm(i + 1), 0.0F});
+    displacements.insert(displacements.end(), {position[i] - before(i), position[i + 1] - before(i + 1), 0.0F});
   }
   const bool lines = kind == VtkKind::lines;
   const char* type = lines ? "PolyData" : "UnstructuredGrid";

@@ -17,6 +17,24 @@ bool fits_together(const MeshFrame& whole) {
          std::all_of(mesh.element_nodes().begin(), mesh.element_nodes().end(), known);
 }
 
+// Ends that have broken off become particles of their own.
+bool part_broken_ends(MeshFrame& whole) {
+  v1::FieldFrame& frame = whole.frame;
+  v1::Mesh& mesh = whole.mesh;
+  if (2 * frame.broken_end_size() != frame.end_position_mm_size()) return false;
+  for (int k = 0; k < frame.broken_end_size(); ++k) {
+    const int end = frame.broken_end(k);
+    if (end < 0 || end >= mesh.element_nodes_size()) return false;
+    const int node = mesh.element_nodes(end);
+    mesh.set_element_nodes(end, frame.position_mm_size() / 2);
+    for (const int axis : {0, 1}) {
+      frame.add_position_mm(frame.end_position_mm(2 * k + axis));
+      if (2 * node + axis < mesh.position_mm_size()) mesh.add_position_mm(mesh.position_mm(2 * node + axis));
+    }
+  }
+  return true;
+}
+
 // The frame nearest to a share of the run: by strain, or by time for a frame without plates.
 MeshFrame fetch_frame_of_share(Connection& connection, const std::string& name, const MeshFrame& last, double share) {
   return fetch_frame(connection, name, [&](v1::GetFrameRequest& which) {
@@ -40,7 +58,7 @@ MeshFrame fetch_frame(Connection& connection, const std::string& name,
                                                 return true;
                                               });
   if (!status.ok()) throw error_of(status);
-  if (!fits_together(whole)) {
+  if (!fits_together(whole) || !part_broken_ends(whole)) {
     throw CommandError(ExitCode::cut_off, "received an incomplete frame of " + name +
                                               ": its mesh, positions and plastic fractions do not match");
   }

@@ -8,7 +8,7 @@
 
 namespace cellcrush::client {
 
-/// A complete frame, with its mesh.
+/// A complete frame, with its mesh. Ends of walls that have broken off are particles of their own, after all others.
 struct MeshFrame {
   v1::FieldFrame frame;
   v1::Mesh mesh;

@@ -200,6 +200,13 @@ void add_overlaps_row(Table& table, const v1::Summary& summary) {
   table.add({"overlaps before loading", count_text(summary.start_overlap_count()), "", "pairs of walls"});
 }
 
+void add_breaks_row(Table& table, const v1::Summary& summary, bool plates) {
+  if (summary.break_count() == 0) return;
+  table.add({"broken walls", count_text(summary.break_count()), "",
+             plates ? fmt::format("the first at strain {:.3g}", summary.first_break_strain())
+                    : fmt::format("the first at {:.3g} s", summary.first_break_time_s())});
+}
+
 std::string warning_text(const v1::Warning& warning, int width) {
   return wrapped(fmt::format("Warning ({}): {}", v1::Warning::Kind_Name(warning.kind()), printable(warning.message())),
                  width, "  ", "    ") +
@@ -241,6 +248,7 @@ std::string summary_text(const v1::Job& job, int width) {
     add_inertia_row(table, summary);
   }
   add_fibre_strain_row(table, summary, plates);
+  add_breaks_row(table, summary, plates);
   add_rigid_links_row(table, summary);
   add_overlaps_row(table, summary);
   if (summary.has_valid_to_time_s()) {
