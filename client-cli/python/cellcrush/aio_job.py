@@ -183,6 +183,9 @@ class Job:
     async def samples(self) -> Array:
         return await asyncio.to_thread(self.sync.samples)
 
+    async def breaks(self) -> Array:
+        return await asyncio.to_thread(self.sync.breaks)
+
     async def mesh(self) -> Mesh:
         return await asyncio.to_thread(lambda: self.sync.mesh)
 

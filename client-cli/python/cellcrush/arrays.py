@@ -9,11 +9,15 @@ from google.protobuf.descriptor import FieldDescriptor
 from google.protobuf.message import Message
 
 from cellcrush.v1.event_pb2 import FrameChunk, MeshChunk
+from cellcrush.v1.sample_pb2 import Break
 from cellcrush.v1.sample_pb2 import Mesh as MeshMessage
 from cellcrush.v1.sample_pb2 import Sample
 from cellcrush.words import unit_of, words_of
 
 Array = np.ndarray[Any, Any]
+# The type of a table of breaks, as /breaks of result.h5.
+BREAK = np.dtype([(of.name, {FieldDescriptor.TYPE_DOUBLE: np.float64, FieldDescriptor.TYPE_BOOL: np.bool_}.get(
+    of.type, np.int64)) for of in Break.DESCRIPTOR.fields])
 
 
 def _numbers(message: Any, prefix: str = "") -> Iterator[Tuple[str, type, float]]:
@@ -47,6 +51,16 @@ def samples_array(samples: Sequence[Sample]) -> Array:
     for i, sample in enumerate(samples):
         array[i] = tuple(value for _, _, value in _columns(sample))
     return array
+
+
+def breaks_array(samples: Iterable[Sample]) -> Array:
+    """A structured array with a row for each break, its fields named like the datasets of result.h5.
+
+    >>> breaks_array([Sample(), Sample(breaks=[Break(wall=7, at_end=True)])])[["wall", "at_end"]].tolist()
+    [(7, True)]
+    """
+    return np.array([tuple(getattr(broken, name) for name in BREAK.names or ())
+                     for sample in samples for broken in sample.breaks], BREAK)
 
 
 @dataclass(frozen=True, repr=False)
@@ -83,6 +97,8 @@ class Frames:
     plastic_fraction: Array  # (F, E), float32: fraction of each element's section that has yielded
     fibre_strain: Array  # (F, W), float32: largest strain of each wall; no walls in results of earlier versions
     local_strain: Array  # (F, W), float32: along the crush, of the cells beside each wall; no walls without cells
+    broken_end: Array  # (B), in the order of the breaks: 2 * element, + 1 at its end
+    end_position_mm: List[Array]  # F times (b, 2), float32: of the first b broken ends, all that there were by then
 
     def __len__(self) -> int:
         return len(self.time_s)
@@ -93,6 +109,15 @@ class Frames:
     def nearest(self, strain: float) -> int:
         """The index of the frame nearest to a nominal strain."""
         return int(np.abs(self.strain - strain).argmin())
+
+    def lines(self, index: int, mesh: Mesh) -> Tuple[Array, Array]:
+        """Positions of all particles of a frame, then of its broken ends, and the numbers of each element's two."""
+        ends = self.end_position_mm[index]
+        if not len(ends):
+            return self.position_mm[index], mesh.element_nodes
+        position, nodes = np.concatenate([self.position_mm[index], ends]), mesh.element_nodes.copy()
+        nodes.flat[self.broken_end[:len(ends)]] = np.arange(len(position) - len(ends), len(position))
+        return position, nodes
 
 
 def mesh_from(chunks: Iterable[MeshChunk]) -> Mesh:
@@ -109,13 +134,15 @@ def mesh_from(chunks: Iterable[MeshChunk]) -> Mesh:
 
 def frames_from(frames: Sequence[Sequence[FrameChunk]]) -> Frames:
     """Frames, each from all of its chunks."""
-    def whole(field: str) -> List[Array]:
-        return [np.concatenate([np.array(getattr(c.frame, field), np.float32) for c in chunks]) for chunks in frames]
+    def whole(field: str, kind: type = np.float32) -> List[Array]:
+        return [np.concatenate([np.array(getattr(c.frame, field), kind) for c in chunks]) for chunks in frames]
 
     return Frames(np.array([chunks[0].frame.time_s for chunks in frames]),
                   np.array([chunks[0].frame.strain for chunks in frames]),
                   np.array([p.reshape(-1, 2) for p in whole("position_mm")]), np.array(whole("plastic_fraction")),
-                  np.array(whole("fibre_strain")), np.array(whole("local_strain")))
+                  np.array(whole("fibre_strain")), np.array(whole("local_strain")),
+                  max(whole("broken_end", np.int32), key=len, default=np.zeros(0, np.int32)),
+                  [p.reshape(-1, 2) for p in whole("end_position_mm")])
 
 
 _NUMBERS = (FieldDescriptor.TYPE_DOUBLE, FieldDescriptor.TYPE_INT64)

@@ -5,9 +5,9 @@ import pathlib
 import sys
 import zlib
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Tuple
 
-from cellcrush.arrays import Array, Frames, Mesh, Values, frames_from, mesh_from, samples_array
+from cellcrush.arrays import Array, Frames, Mesh, Values, breaks_array, frames_from, mesh_from, samples_array
 from cellcrush.connection import Connection
 from cellcrush.display import Bar, html_table
 from cellcrush.errors import FileError, JobFailed
@@ -221,19 +221,24 @@ class Job(Results):
 
     # Its results.
 
-    def _keep(self, key: str, value: Any) -> Any:
-        if self._message.state in ENDED:
-            self._kept[key] = value
-        return value
-
-    def samples(self) -> Array:
-        if "samples" in self._kept:
-            kept: Array = self._kept["samples"]
+    def _history(self) -> Tuple[Array, Array]:
+        """Samples and breaks."""
+        if "history" in self._kept:
+            kept: Tuple[Array, Array] = self._kept["history"]
             return kept
         pages = self._connection.pages(self._connection.jobs.GetHistory,
                                        jobs_service_pb2.GetHistoryRequest(name=self.name))
-        array: Array = self._keep("samples", samples_array([sample for page in pages for sample in page.samples]))
-        return array
+        samples = [sample for page in pages for sample in page.samples]
+        history = samples_array(samples), breaks_array(samples)
+        if self._message.state in ENDED:
+            self._kept["history"] = history
+        return history
+
+    def samples(self) -> Array:
+        return self._history()[0]
+
+    def breaks(self) -> Array:
+        return self._history()[1]
 
     def _read_fields(self) -> None:
         request = jobs_service_pb2.StreamFramesRequest(name=self.name)

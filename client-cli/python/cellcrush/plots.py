@@ -131,7 +131,8 @@ class _Picture:
         self.show(0)
 
     def show(self, index: int) -> Tuple[Any, Any]:
-        self._lines.set_segments(self._frames.position_mm[index][self._mesh.element_nodes])
+        position, nodes = self._frames.lines(index, self._mesh)
+        self._lines.set_segments(position[nodes])
         fraction = np.ma.array(self._frames.plastic_fraction[index])
         fraction[len(fraction) - self._mesh.rigid_element_count:] = np.ma.masked
         self._lines.set_array(fraction)
@@ -144,11 +145,12 @@ class _Picture:
         return self._lines, self._title
 
 
-def _picture(results: "Results", frames: Any, ax: "Optional[matplotlib.axes.Axes]", width_mm: float,
+def _picture(results: "Results", shown: slice, ax: "Optional[matplotlib.axes.Axes]", width_mm: float,
              font_pt: float) -> Tuple[Any, _Picture]:
     """Axes with a picture that has room for these frames."""
-    positions = results.frames.position_mm[frames].reshape(-1, 2)
-    low, high = positions.min(axis=0), positions.max(axis=0)
+    frames = results.frames
+    positions = [frames.position_mm[shown].reshape(-1, 2), *filter(len, frames.end_position_mm[shown])]
+    low, high = np.min([p.min(axis=0) for p in positions], axis=0), np.max([p.max(axis=0) for p in positions], axis=0)
     size = high - low
     ax = new_axes(ax, width_mm, min(float(size[1] / size[0]) + 0.08, _TALLEST))
     return ax, _Picture(results, ax, font_pt, low, high)
@@ -157,7 +159,7 @@ def _picture(results: "Results", frames: Any, ax: "Optional[matplotlib.axes.Axes
 def plot_frame(results: "Results", strain: float, ax: "Optional[matplotlib.axes.Axes]" = None, width_mm: float = 85.0,
                font_pt: float = 8.0) -> "matplotlib.axes.Axes":
     index = results.frames.nearest(strain)
-    ax, picture = _picture(results, index, ax, width_mm, font_pt)
+    ax, picture = _picture(results, slice(index, index + 1), ax, width_mm, font_pt)
     picture.show(index)
     return ax
 

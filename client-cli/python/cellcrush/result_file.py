@@ -9,7 +9,7 @@ import numpy as np
 from google.protobuf import json_format
 from google.protobuf.descriptor import FieldDescriptor
 
-from cellcrush.arrays import Array, Frames, Mesh, Values
+from cellcrush.arrays import BREAK, Array, Frames, Mesh, Values
 from cellcrush.case import parse_case
 from cellcrush.display import html_table
 from cellcrush.errors import FileError, need
@@ -90,15 +90,25 @@ class ResultFile(Results):
             self._samples: Array = np.empty(len(history["time_s"]), [(n, c.dtype) for n, c in history.items()])
             for name, column in history.items():
                 self._samples[name] = column
+            breaks = file.get("breaks", {})
+            self._breaks: Array = np.zeros(len(breaks.get("step", ())), BREAK)
+            for name in set(breaks).intersection(BREAK.names or ()):
+                self._breaks[name] = breaks[name][()]
             mesh, frames = file["mesh"], file["frames"]
             walls = mesh["element_wall"][()] if "element_wall" in mesh else np.zeros(len(mesh["beam_nodes"]), np.int32)
             no_walls = np.zeros((len(frames["time_s"]), 0), np.float32)
-            of_walls = [frames[name][()] if name in frames else no_walls for name in ("fibre_strain", "local_strain")]
+            fibre_strain, local_strain = (frames[name][()] if name in frames else no_walls
+                                          for name in ("fibre_strain", "local_strain"))
             self._mesh = Mesh(mesh["position_mm"][()], mesh["beam_nodes"][()], mesh["thickness_mm"][()], walls,
                               **{name: mesh.attrs[name] for name in mesh.attrs if name in Mesh.__annotations__},
                               **{name: mesh[name][()] for name in ("overlap_particle",) if name in mesh})
+            counts = frames["break_count"][()] if "break_count" in frames else np.zeros(len(no_walls), np.int64)
+            ends = frames["end_position_mm"][()] if "end_position_mm" in frames else np.zeros((0, 2), np.float32)
+            broken = self._breaks[:counts.max(initial=0)]
             self._frames = Frames(frames["time_s"][()], frames["strain"][()], frames["position_mm"][()],
-                                  frames["plastic_fraction"][()], *of_walls)
+                                  frames["plastic_fraction"][()], fibre_strain, local_strain,
+                                  (2 * broken["element"] + broken["at_end"]).astype(np.int32),
+                                  np.split(ends, np.cumsum(counts))[:-1])
         self.case = parse_case(self.attributes["case"], str(path))
         self.title = self.case.title
         self.summary = Values(_summary(self.attributes))
@@ -112,6 +122,9 @@ class ResultFile(Results):
 
     def samples(self) -> Array:
         return self._samples
+
+    def breaks(self) -> Array:
+        return self._breaks
 
     @property
     def mesh(self) -> Mesh:

@@ -5,6 +5,8 @@ import os
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, List, Tuple, Union
 
+import numpy as np
+
 from cellcrush.arrays import Array, Frames, Mesh
 from cellcrush.errors import need
 from cellcrush.words import unit_of, units_of
@@ -27,6 +29,10 @@ class Results(ABC):
     @abstractmethod
     def samples(self) -> Array:
         """The samples so far as a structured array, a field for each number: `samples()["strain"]`."""
+
+    @abstractmethod
+    def breaks(self) -> Array:
+        """The walls that have broken so far, as a structured array in their order: `breaks()["time_s"]`."""
 
     @property
     @abstractmethod
@@ -68,7 +74,7 @@ class Results(ABC):
         return table
 
     def xarray(self) -> "xarray.Dataset":
-        """Samples, frames and mesh as one dataset with units."""
+        """Samples, frames, mesh and, if walls have broken, breaks as one dataset with units."""
         build = need("xarray", "python3-xarray").Dataset
         samples, frames, mesh = self.samples(), self.frames, self.mesh
         variables: dict[str, Any] = {name: ("sample", samples[name]) for name in samples.dtype.names or ()}
@@ -82,6 +88,12 @@ class Results(ABC):
             "element_nodes": (("element", "end"), mesh.element_nodes), "thickness_mm": ("element", mesh.thickness_mm),
             "element_wall": ("element", mesh.element_wall),
         })
+        if len(breaks := self.breaks()):
+            variables.update({f"break_{name}": ("break", breaks[name]) for name in breaks.dtype.names or ()})
+            ends = np.full((len(frames), len(breaks), 2), np.nan, np.float32)  # until they break
+            for i, known in enumerate(frames.end_position_mm):
+                ends[i, :len(known)] = known
+            variables["end_position_mm"] = (("frame", "break", "axis"), ends)
         dataset: "xarray.Dataset" = build(
             {name: (*value, {"units": unit_of(name)} if unit_of(name) else {}) for name, value in variables.items()},
             coords={"axis": ["x", "y"]}, attrs={"title": self.title})

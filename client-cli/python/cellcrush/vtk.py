@@ -34,6 +34,12 @@ def _section(tag: str, arrays: List[Tuple[str, Array]]) -> str:
     return f"<{tag}>" + "".join(_array(name, values) for name, values in arrays) + f"</{tag}>"
 
 
+def _cells(nodes: Array) -> str:
+    return _section("Cells", [("connectivity", nodes.ravel()),
+                              ("offsets", np.arange(2, nodes.size + 1, 2, dtype=np.int32)),
+                              ("types", np.full(len(nodes), _LINE, np.uint8))])
+
+
 def _frames_of(file: pathlib.Path) -> Set[str]:
     """The files of frames that a .pvd names in the folder of its own name."""
     if not file.exists():
@@ -50,14 +56,13 @@ def write_vtk(results: "Results", path: "PathLike") -> None:
     folder, old = file.with_suffix(""), _frames_of(file)
     folder.mkdir(exist_ok=True)
     count = len(mesh.element_nodes)
-    cells = _section("Cells", [("connectivity", mesh.element_nodes.ravel()),
-                               ("offsets", np.arange(2, 2 * count + 1, 2, dtype=np.int32)),
-                               ("types", np.full(count, _LINE, np.uint8))])
     entries = []
     for i in range(len(frames)):
-        position = frames.position_mm[i]
-        piece = (_section("Points", [("position_mm", _in_space(position))]) + cells +
-                 _section("PointData", [("displacement_mm", _in_space(position - mesh.position_mm))]) +
+        position, nodes = frames.lines(i, mesh)
+        broken_from = mesh.element_nodes.flat[frames.broken_end[:len(frames.end_position_mm[i])]]
+        before = np.concatenate([mesh.position_mm, mesh.position_mm[broken_from]])
+        piece = (_section("Points", [("position_mm", _in_space(position))]) + _cells(nodes) +
+                 _section("PointData", [("displacement_mm", _in_space(position - before))]) +
                  _section("CellData", [("thickness_mm", mesh.thickness_mm),
                                        ("plastic_fraction", frames.plastic_fraction[i])]))
         field = _section("FieldData", [("strain", frames.strain[i:i + 1])]).replace(
