@@ -74,3 +74,18 @@ test("a frame in parts is whole with its last part; an unfinished one is dropped
   for (const part of [chunk(0, [9, 9]), chunk(0, [1, 2]), chunk(1, [3, 4])]) reader.addFrame(part);
   assert.deepEqual(added, [[1, 2, 3, 4]]);
 });
+
+test("the ends that have broken off are whole with the last part, in however many parts they come", () => {
+  const ends = { brokenEnd: [3, 0], endPositionMm: [5, 6, 7, 8] };
+  for (const parts of [
+    [{ positionMm: [1, 2], ...ends }, { positionMm: [3, 4] }],
+    [{ brokenEnd: [3, 0], endPositionMm: [5, 6, 7] }, { endPositionMm: [8], positionMm: [1, 2, 3, 4] }],
+  ]) {
+    const added = [];
+    const reader = new FrameReader({ add: (frame) => added.push(frame) });
+    parts.forEach((frame, part) =>
+      reader.addFrame({ frame: create(FieldFrameSchema, frame), part, partCount: parts.length }));
+    const [{ positionMm, brokenEnd, endPositionMm }] = added;
+    assert.deepEqual({ positionMm, brokenEnd, endPositionMm }, { positionMm: [1, 2, 3, 4], ...ends });
+  }
+});

@@ -6,7 +6,7 @@ import { NamedMaterialSchema } from "../gen/cellcrush/v1/cases_service_pb";
 import { groupsOf, isNumber, isTable, kLatticeKinds, pathsBeside, readField, typedAt,
          writeField } from "../src/new_case/fields";
 import { NamedMaterials } from "../src/new_case/named_materials";
-import { helpOf, limitsOf, placeIn } from "../src/new_case/words";
+import { helpOf, labelOf, limitsOf, placeIn } from "../src/new_case/words";
 
 const kHardening = "material.hardening_table";
 const kRate = "material.rate_table";
@@ -71,6 +71,15 @@ test("a sweep varies numbers only", () => {
   for (const path of ["material.named", "material.plane", kRate, "loading.quasi_static"]) {
     assert.ok(!isNumber(path), path);
   }
+});
+
+test("the form has the failure strain, which has no unit", () => {
+  const { paths } = groupsOf(kLatticeKinds[0]).find(({ title }) => title === "Material, further");
+  const path = "material.failure_strain";
+  assert.ok(paths.includes(path) && isNumber(path));
+  assert.equal(labelOf(path), "Failure strain");
+  assert.equal(limitsOf(path), "Default 0 (walls do not break); 0 to 10");
+  assert.match(helpOf(path), /^Failure strain: a wall breaks where /);
 });
 
 const kSteel = create(NamedMaterialSchema, {

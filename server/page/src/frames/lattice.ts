@@ -4,7 +4,7 @@ import type { Mesh } from "../../gen/cellcrush/v1/sample_pb";
 export interface Box { lowX: number; highX: number; lowY: number; highY: number }
 
 export interface Lattice {
-  /** Indices of the particles at the ends of the elements: start0, end0, ... */
+  /** Indices of the particles at the ends of the elements, before any has broken off: start0, end0, ... */
   ends: Uint32Array;
   thickness: Float32Array;
   /** Elements from this one on are rigid. */

@@ -1,12 +1,14 @@
-// Positions and plastic fractions of packed frames (FieldFrame.Packed).
+// Positions and plastic fractions of frames, packed (FieldFrame.Packed) or plain.
 import { unzlibSync } from "fflate";
-import type { FieldFrame } from "../../gen/cellcrush/v1/sample_pb";
+import type { FieldFrame, FieldFrame_Packed } from "../../gen/cellcrush/v1/sample_pb";
 
 export interface Fields {
-  /** x0, y0, x1, y1, ... in mm. */
+  /** x0, y0, x1, y1, ... in mm: of the particles of the mesh, then of the ends that have broken off. */
   position: Float32Array;
   /** Of each element, 0 to 1. */
   plastic: Float32Array;
+  /** Places in Lattice.ends of the ends that have broken off, in the order of the breaks. */
+  broken: number[];
 }
 
 const kNone = 0xffffffff;
@@ -41,13 +43,8 @@ function addDisplacements(position: Float32Array, bytes: Uint8Array, count: numb
   }
 }
 
-/** The fields of a frame, packed or plain. `base` is Mesh.position_mm; without it packed displacements count from 0.
- *  `guides` are those of the mesh's elements. */
-export function fieldsOf(frame: FieldFrame, base: Float32Array, guides: Uint32Array): Fields {
-  const { packed } = frame;
-  if (!packed) {
-    return { position: Float32Array.from(frame.positionMm), plastic: Float32Array.from(frame.plasticFraction) };
-  }
+// Those of the particles of the mesh.
+function unpack(packed: FieldFrame_Packed, base: Float32Array, guides: Uint32Array): Omit<Fields, "broken"> {
   const particles = packed.particleCount;
   const elements = packed.elementCount;
   const bytes = unzlibSync(packed.data, { out: new Uint8Array(4 * particles + elements) });
@@ -58,4 +55,20 @@ export function fieldsOf(frame: FieldFrame, base: Float32Array, guides: Uint32Ar
   addDisplacements(position, bytes, particles, 1, packed.quantumMm, used);
   for (let i = 0; i < elements; ++i) fields.plastic[i] = bytes[4 * particles + i] / 255;
   return fields;
+}
+
+function withEnds(position: Float32Array, ends: number[]): Float32Array {
+  if (ends.length === 0) return position;
+  const all = new Float32Array(position.length + ends.length);
+  all.set(position);
+  all.set(ends, position.length);
+  return all;
+}
+
+/** The fields of a frame, packed or plain. `base` is Mesh.position_mm; without it packed displacements count from 0.
+ *  `guides` are those of the mesh's elements. */
+export function fieldsOf(frame: FieldFrame, base: Float32Array, guides: Uint32Array): Fields {
+  const { position, plastic } = frame.packed ? unpack(frame.packed, base, guides)
+    : { position: Float32Array.from(frame.positionMm), plastic: Float32Array.from(frame.plasticFraction) };
+  return { position: withEnds(position, frame.endPositionMm), plastic, broken: frame.brokenEnd };
 }

@@ -35,6 +35,8 @@ function joinFrames(parts: FieldFrame[]): FieldFrame {
     ...parts[0],
     positionMm: join(parts.map((part) => part.positionMm)),
     plasticFraction: join(parts.map((part) => part.plasticFraction)),
+    brokenEnd: join(parts.map((part) => part.brokenEnd)),
+    endPositionMm: join(parts.map((part) => part.endPositionMm)),
     packed: packed && create(FieldFrame_PackedSchema, {
       ...packed, data: joinBytes(parts.map((part) => part.packed?.data ?? new Uint8Array())),
     }),

@@ -11,7 +11,7 @@ import { kSampleColumns, sampleChart, wordsOfColumn } from "../charts/sample_cha
 import type { ChartData } from "../charts/chart_data";
 import { closedBands, forceChart, stressChart } from "../charts/stress";
 import { Later } from "../dom/calls";
-import { h, replaceChildren, setText } from "../dom/element";
+import { h, replaceChildren, setBanner, setText } from "../dom/element";
 import { QueuePanel } from "../jobs/queue";
 import { hasEnded, isOverTime, sceneWords, titleOf, warningWords } from "../jobs/states";
 import { JobStore } from "../jobs/store";
@@ -22,6 +22,7 @@ import { PlayerBar } from "../picture/player_bar";
 import { RigidWalls } from "../picture/rigid_walls";
 import { keepInUrl, setTitle, type View } from "../router";
 import { addSaving, takeAwayOfPicture } from "../take_away/menus";
+import { brokenWalls } from "./broken_walls";
 import { JobHeader } from "./header";
 import { JobData } from "./job_data";
 import { resultsList } from "./results";
@@ -52,7 +53,8 @@ export class JobPage implements View {
   private readonly facts = h("section", { class: "card", hidden: true });
   private readonly modelled = h("section", { class: "card modelled", hidden: true });
   private readonly warnings = h("div", { class: "warnings" });
-  private readonly thinned = h("p", { class: "faint thinned", hidden: true });
+  private readonly broken = h("p", { class: "faint caption", hidden: true });
+  private readonly thinned = h("p", { class: "faint caption", hidden: true });
   private readonly problem = h("div", { class: "banner error", hidden: true });
   private readonly grid = h("div", { class: "job-grid" });
   private axis: Axis = strainAxis(0.8);
@@ -95,7 +97,8 @@ export class JobPage implements View {
         h("section", { class: "card" },
           h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
             takeAwayOfPicture(picture, this.player, this.data)),
-          this.bar.element, h("div", { class: "picture-box" }, picture.element), this.thinned),
+          this.bar.element, h("div", { class: "picture-box" }, picture.element), this.broken,
+          this.thinned),
         this.numbers, this.facts),
       h("div", { class: "column" },
         h("section", { class: "card" }, this.stress.element, this.energy.element), this.modelled));
@@ -200,7 +203,14 @@ export class JobPage implements View {
     this.energy.setTitle(column ? wordsOfColumn(column) : "Energy ledger");
     this.energy.setData(withClosed(column ? sampleChart(samples, this.axis, column)
       : energyChart(samples, this.axis, words?.plates === false ? "work of all loads" : undefined)));
+    this.updateBroken();
     this.setEnd();
+  }
+
+  private updateBroken(): void {
+    const broken = brokenWalls(this.data.samples, this.axis);
+    setBanner(this.broken, broken ? `Broken walls (diamonds): ${broken.count}, ${broken.first}` : "");
+    if (this.data.job) this.updateDetails(this.data.job);
   }
 
   private updateFrames(): void {
@@ -237,18 +247,21 @@ export class JobPage implements View {
 
   private updateDetails(job: Job): void {
     const { check } = this.data;
-    const key = [job.state, job.summary !== undefined, check !== undefined, job.summary?.warnings.length].join();
+    const { summary } = job;
+    const broken = summary && brokenWalls(this.data.samples, this.axis);
+    const key = [job.state, summary !== undefined, check !== undefined, summary?.warnings.length, broken?.count,
+                 broken?.first].join();
     if (key === this.detailsKey) return;
     this.detailsKey = key;
     this.curves.soon();
-    const summary = job.summary;
     replaceChildren(this.warnings, ...(summary?.warnings ?? []).map((warning) =>
       h("div", { class: "banner warning" }, h("strong", {}, `${warningWords(warning.kind)}. `),
         `${warning.message} ${warning.remedy}`)));
     this.numbers.hidden = !summary;
     const note = job.words?.theoryNote ?? "";
     if (summary) {
-      replaceChildren(this.numbers, h("h2", {}, "Result"), resultsList(summary, note, job.words?.plates ?? true));
+      replaceChildren(this.numbers, h("h2", {}, "Result"),
+        resultsList(summary, note, job.words?.plates ?? true, broken));
     }
     const words = check?.words ?? job.words;
     this.facts.hidden = !words;

@@ -3,6 +3,7 @@ import { Summary_End, type Summary } from "../../gen/cellcrush/v1/sample_pb";
 import { h } from "../dom/element";
 import { count, duration, number, percent, quantity, strainText } from "../dom/format";
 import { fieldHelp } from "../new_case/words";
+import type { BrokenWalls } from "./broken_walls";
 
 function besideTheory(value: number | undefined, theory: number | undefined, name: string): string {
   if (!value || !theory) return "";
@@ -11,11 +12,12 @@ function besideTheory(value: number | undefined, theory: number | undefined, nam
 }
 
 /** `note` says when not to compare with theory. */
-export function resultsList(s: Summary, note: string, hasPlates: boolean): HTMLElement {
+export function resultsList(s: Summary, note: string, hasPlates: boolean,
+                            broken: BrokenWalls | undefined): HTMLElement {
   const { theory } = s;
   const list = h("dl", { class: "results" });
-  const add = (name: string, field: string, value: string, beside = ""): void =>
-    list.append(h("div", { title: fieldHelp("Summary", field) }, h("dt", {}, name),
+  const add = (name: string, field: string, value: string, beside = "", message = "Summary"): void =>
+    list.append(h("div", { title: fieldHelp(message, field) }, h("dt", {}, name),
       h("dd", {}, h("b", {}, value), beside && h("span", { class: "faint beside" }, beside))));
   const compared = note ? () => "" : besideTheory;
   const impact = s.plateauStressImpactMpa;
@@ -90,6 +92,7 @@ export function resultsList(s: Summary, note: string, hasPlates: boolean): HTMLE
     add("Largest fibre strain", "fibre_strain", percent(largest),
         `wall ${wall}, at (${number(xMm)}, ${number(yMm)}) mm before loading, at ${when}`);
   }
+  if (broken) add("Broken walls", "break_count", broken.count, broken.first, "Sample");
   for (const wall of s.rigidWalls) {
     const moved = wall.strokeMm > 0 || wall.endVelocityMPerS !== 0;
     add(`Rigid wall ${wall.wall}`, "rigid_walls", `${quantity(wall.peakForceN, "N")} at most`,

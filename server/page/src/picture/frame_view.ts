@@ -51,7 +51,7 @@ export class FrameView {
     this.picture.note(this.pace.note(performance.now()));
     this.shown = frames[before];
     this.shownKey = "";
-    this.mixed = mixFields(store.fields(before), store.fields(after), mix, this.mixed);
+    this.mixed = mixFields(store.fields(before), store.fields(after), mix, lattice.ends, this.mixed);
     const between = (a: number, b: number): number => a + mix * (b - a);
     const faces = this.facesAt(between(frames[before].timeS, frames[after].timeS));
     this.picture.show(this.mixed, between(frames[before].strain, frames[after].strain), faces);

@@ -1,12 +1,12 @@
 // What is drawn over the walls: plates, side walls and grips, the place where the impact plate started, rings where
-// walls overlapped before loading, a scale bar, the wall under the pointer.
+// walls overlapped before loading, diamonds where walls have broken, a scale bar, the wall under the pointer.
 import type { Box, Lattice } from "../frames/lattice";
 import type { LatticeMarks } from "../../gen/cellcrush/v1/cases_service_pb";
 import type { Camera } from "./camera";
 import { themeColour } from "./colours";
 import { drawMarks } from "./marks";
 import { drawFaces, platesOf, type Face } from "./rigid_walls";
-import { kSegmentFloats, type Segments } from "./segments";
+import { kSegmentFloats, placeOfEnd, type Segments } from "./segments";
 
 export interface OverlayState {
   lattice: Lattice;
@@ -14,6 +14,8 @@ export interface OverlayState {
   box: Box;
   strain: number;
   segments: Segments | undefined;
+  /** Places in the lattice's ends of those that have broken off. */
+  broken: number[];
   /** Of rigid walls. */
   faces: Face[];
   marks: LatticeMarks[];
@@ -56,19 +58,44 @@ function scaleBar(context: CanvasRenderingContext2D, camera: Camera): void {
   context.textAlign = "left";
 }
 
+// x and y of an end, by its place in the lattice's ends.
+function endAt(camera: Camera, { values }: Segments, place: number): [number, number] {
+  const at = placeOfEnd(place);
+  return [camera.toScreenX(values[at]), camera.toScreenY(values[at + 1])];
+}
+
+// Of a mark at an end; it shows however thin the wall is.
+function radiusAt(camera: Camera, lattice: Lattice, place: number): number {
+  return Math.max(lattice.thickness[place >> 1] * camera.scale, 3);
+}
+
 // Rings where walls overlapped before loading.
 function startOverlaps(context: CanvasRenderingContext2D, camera: Camera, lattice: Lattice, segments: Segments): void {
-  const { values } = segments;
   context.lineWidth = 1;
   context.strokeStyle = themeColour("accent");
-  for (const end of lattice.overlaps) {
-    const at = kSegmentFloats * (end >> 1);
-    const place = at + 2 * (end & 1);
-    const radius = Math.max(values[at + 4] * camera.scale, 3);
+  for (const place of lattice.overlaps) {
     const ring = new Path2D();
-    ring.arc(camera.toScreenX(values[place]), camera.toScreenY(values[place + 1]), radius, 0, 2 * Math.PI);
+    ring.arc(...endAt(camera, segments, place), radiusAt(camera, lattice, place), 0, 2 * Math.PI);
     context.stroke(ring);
   }
+}
+
+// Diamonds where walls have broken.
+function brokenEnds(context: CanvasRenderingContext2D, camera: Camera, lattice: Lattice, segments: Segments,
+                    broken: number[]): void {
+  const diamonds = new Path2D();
+  for (const place of broken) {
+    const [x, y] = endAt(camera, segments, place);
+    const radius = 1.5 * radiusAt(camera, lattice, place); // so that it is as large as a ring
+    diamonds.moveTo(x, y - radius);
+    diamonds.lineTo(x + radius, y);
+    diamonds.lineTo(x, y + radius);
+    diamonds.lineTo(x - radius, y);
+    diamonds.closePath();
+  }
+  context.lineWidth = 1;
+  context.strokeStyle = themeColour("accent");
+  context.stroke(diamonds);
 }
 
 // A square on each point that a grip holds.
@@ -76,8 +103,7 @@ function grips(context: CanvasRenderingContext2D, camera: Camera, lattice: Latti
   const half = Math.max(0.5 * lattice.thickness[0] * camera.scale, 2);
   context.fillStyle = themeColour("plate");
   for (const place of lattice.gripped) {
-    const at = kSegmentFloats * (place >> 1) + 2 * (place & 1);
-    const [x, y] = [camera.toScreenX(segments.values[at]), camera.toScreenY(segments.values[at + 1])];
+    const [x, y] = endAt(camera, segments, place);
     context.fillRect(x - half, y - half, 2 * half, 2 * half);
   }
 }
@@ -101,6 +127,7 @@ export function drawOverlay(context: CanvasRenderingContext2D, camera: Camera, s
     if (state.strain > 0.005) startLine(context, camera, state);
   }
   if (state.segments) startOverlaps(context, camera, lattice, state.segments);
+  if (state.segments) brokenEnds(context, camera, lattice, state.segments, state.broken);
   drawFaces(context, camera, [...platesOf(lattice, state.strain), ...state.faces], state.box);
   drawMarks(context, camera, state.marks);
   if (state.segments) grips(context, camera, lattice, state.segments);

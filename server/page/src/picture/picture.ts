@@ -36,6 +36,7 @@ export class Picture {
   private lattice: Lattice | undefined;
   private box: Box | undefined;
   private segments: Segments | undefined;
+  private broken: number[] = [];
   private strain = 0;
   private faces: Face[] = [];
   private marks: LatticeMarks[] = [];
@@ -107,6 +108,7 @@ export class Picture {
     if (lattice.plates) this.fitTo(lattice, fields.position, strain);
     this.segments = fillSegments(lattice, fields, this.segments);
     this.walls.setSegments(this.segments);
+    this.broken = fields.broken;
     this.strain = strain;
     this.drawSoon();
   }
@@ -115,7 +117,8 @@ export class Picture {
     const { lattice } = this;
     if (!lattice) return;
     this.marks = marks;
-    this.show({ position: lattice.undeformed, plastic: new Float32Array(lattice.thickness.length) }, 0, faces);
+    const plastic = new Float32Array(lattice.thickness.length);
+    this.show({ position: lattice.undeformed, plastic, broken: [] }, 0, faces);
   }
 
   /** A line of text over the picture. */
@@ -166,8 +169,8 @@ export class Picture {
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, this.topCanvas.width, this.topCanvas.height);
     context.scale(ratio, ratio);
-    const { lattice, box, strain, segments, faces, marks } = this;
-    if (lattice && box) drawOverlay(context, camera, { lattice, box, strain, segments, faces, marks, hovered });
+    const { lattice, box, strain, segments, broken, faces, marks } = this;
+    if (lattice && box) drawOverlay(context, camera, { lattice, box, strain, segments, broken, faces, marks, hovered });
   }
 
   /** Draws the picture as it is, with its background, into the corner of a context; both in the given size. */

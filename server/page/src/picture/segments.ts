@@ -12,13 +12,27 @@ export const kSegmentFloats = 6;
 /** In place of the plastic fraction of a rigid element. */
 export const kRigid = -1;
 
-/** Fields between two frames. Only pictures that move use it. */
-export function mixFields(a: Fields, b: Fields, mix: number, into: Fields | undefined): Fields {
-  const fits = into && into.position.length === a.position.length;
-  const out = fits ? into : { position: a.position.slice(), plastic: a.plastic.slice() };
+/** Where the values of segments have the position of an end, by its place in Lattice.ends. */
+export const placeOfEnd = (place: number): number => kSegmentFloats * (place >> 1) + 2 * (place & 1);
+
+/** Fields between two frames. Only pictures that move use it. An end that breaks off between them comes from its
+ *  particle of the mesh; `ends` are those of the lattice. */
+export function mixFields(a: Fields, b: Fields, mix: number, ends: Uint32Array, into: Fields | undefined): Fields {
+  const fits = into && into.position.length === b.position.length;
+  const out = fits ? into : { position: b.position.slice(), plastic: b.plastic.slice(), broken: b.broken };
+  out.broken = b.broken;
   for (const key of ["position", "plastic"] as const) {
     const [to, from, until] = [out[key], a[key], b[key]];
-    for (let i = 0; i < to.length; ++i) to[i] = from[i] + mix * (until[i] - from[i]);
+    const count = Math.min(from.length, until.length);
+    for (let i = 0; i < count; ++i) to[i] = from[i] + mix * (until[i] - from[i]);
+  }
+  const particles = b.position.length / 2 - b.broken.length;
+  for (let k = a.broken.length; k < b.broken.length; ++k) {
+    const [to, from] = [2 * (particles + k), 2 * ends[b.broken[k]]];
+    for (const axis of [0, 1]) {
+      const start = a.position[from + axis];
+      out.position[to + axis] = start + mix * (b.position[to + axis] - start);
+    }
   }
   return out;
 }
@@ -27,7 +41,7 @@ export function fillSegments(lattice: Lattice, fields: Fields, old: Segments | u
   const count = lattice.thickness.length;
   const values = old?.count === count ? old.values : new Float32Array(kSegmentFloats * count);
   const { ends, thickness, firstRigid } = lattice;
-  const { position, plastic } = fields;
+  const { position, plastic, broken } = fields;
   for (let i = 0, at = 0; i < count; ++i) {
     const a = 2 * ends[2 * i];
     const b = 2 * ends[2 * i + 1];
@@ -37,6 +51,12 @@ export function fillSegments(lattice: Lattice, fields: Fields, old: Segments | u
     values[at++] = position[b + 1];
     values[at++] = thickness[i];
     values[at++] = i < firstRigid ? plastic[i] ?? 0 : kRigid;
+  }
+  let own = position.length - 2 * broken.length; // place of the position of a broken end
+  for (const place of broken) {
+    const at = placeOfEnd(place);
+    values[at] = position[own++];
+    values[at + 1] = position[own++];
   }
   return { count, values };
 }

@@ -24,6 +24,7 @@ const kParts: [string, [string, string][]][] = [
     ["Play", "Space plays and pauses; the arrow keys step through frames; Home and End go to the ends."],
     ["Zoom", "Turn the wheel, pinch, or press + and -. Double-click to show the whole crush."],
     ["Values of a wall", "Point at it, or tap it."],
+    ["Broken walls", "A diamond marks each end that has broken off."],
   ]],
   ["Words and numbers", [
     ["Plateau stress", "Mean stress at a plate from 20 to 40 % strain."],
