@@ -186,4 +186,12 @@ void fill_blocks(Layout& layout) {
   reorder_walls(order, layout);
 }
 
+void list_added_joints(Layout& layout) {
+  if (layout.order.joint.empty()) return;
+  const std::size_t listed = layout.order.joint.size();
+  layout.order.joint.resize(layout.joints.size());
+  std::iota(layout.order.joint.begin() + static_cast<std::ptrdiff_t>(listed), layout.order.joint.end(),
+            static_cast<int>(listed));
+}
+
 }  // namespace cellcrush

@@ -91,6 +91,9 @@ std::vector<int> put_rigid_bodies_first(Layout& layout);
 /// pass it, but not for long: joints would leave the cache. Where all walls have the same number they stay as they are.
 void fill_blocks(Layout& layout);
 
+/// Numbers joints that have been added behind those that are listed, where the order is not that of the list.
+void list_added_joints(Layout& layout);
+
 using GridPoint = Eigen::Vector2i;
 
 /// The points from (0, 0) to `last`, inclusive; some of them are joints.

@@ -168,6 +168,18 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
   check.within_limits("section.shear_factor", section.shear_factor, " (shear area over section area)");
 }
 
+void check_rigid_joints(const SceneSpec& spec, FieldChecker& check) {
+  if (!spec.section.rigid_joints) return;
+  if (std::holds_alternative<FrameWalls>(spec.lattice)) {
+    check.add("section.rigid_joints", "true", "does not go with a frame, whose beams are listed in pieces.",
+              "Remove it, or list stiff beams at the joints.");
+  }
+  if (spec.loading.sides.kind == LoadingSpec::Sides::Kind::periodic) {
+    check.add("section.rigid_joints", "true", "does not go with sides that repeat.",
+              "Remove it, or set loading.sides.kind to FREE or RIGID.");
+  }
+}
+
 /// A quasi-static crush has the speed, the ramp and the end that the solver chooses, and real masses.
 void check_quasi_static(const SceneSpec& spec, FieldChecker& check) {
   const LoadingSpec& loading = spec.loading;
@@ -329,6 +341,7 @@ Problems check_spec(const SceneSpec& spec) {
   check.within_limits("elements_per_wall", spec.elements_per_wall);
   check_material("material.", spec.material, check);
   check_section(spec.section, check);
+  check_rigid_joints(spec, check);
   check.within_limits("contact.friction", spec.contact.friction);
   check.within_limits("contact.stiffness_factor", spec.contact.stiffness_factor);
   check.within_limits("contact.damping_ratio", spec.contact.damping_ratio);

@@ -121,6 +121,14 @@ Vector2 place_on(const Layout& layout, const LayoutWall& wall, double share) {
   return from + on_arc.x() * forward + on_arc.y() * to_the_left + bowed;
 }
 
+double rise_between(const Layout& layout, const LayoutWall& wall, double from, double to) {
+  if (wall.bow == 0.0 && wall.rise == 0.0) return 0.0;
+  const Vector2 start = place_on(layout, wall, from);
+  const Vector2 end = place_on(layout, wall, to);
+  const Vector2 middle = place_on(layout, wall, 0.5 * (from + to));
+  return cross((end - start).normalized(), middle - start);
+}
+
 void order_joints(Walls& walls, int joint_count) {
   const int count = walls.chunk_count();
   std::vector<int> lowest(count, joint_count);

@@ -11,6 +11,9 @@ namespace cellcrush {
 /// Position at a share of a wall, which may be an arc or bowed to half a sine wave.
 Vector2 place_on(const Layout& layout, const LayoutWall& wall, double share);
 
+/// Rise of the arc over the chord between two shares of a curved wall, mm.
+double rise_between(const Layout& layout, const LayoutWall& wall, double from, double to);
+
 /// Divides the walls into elements: fills the positions, elements and walls of the scene. Joints come first, then the
 /// particles inside the walls, block by block. Consecutive walls with the same number of elements share a block. Each
 /// rigid wall is one element, after all others. REQUIRES: rigid walls are the last ones.

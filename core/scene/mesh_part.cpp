@@ -15,6 +15,7 @@
 #include "scene/frame.h"
 #include "scene/grips.h"
 #include "scene/mesh.h"
+#include "scene/rigid_joints.h"
 #include "scene/rigid_links.h"
 #include "scene/solid_area.h"
 #include "scene/time_step.h"
@@ -119,8 +120,13 @@ Material material_of(const MaterialSpec& spec) {
   const bool held = spec.plane == MaterialSpec::Plane::strain;
   const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
   const double flowing = held ? kHeldFlow : 1.0;
-  Material material = {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa, spec,
-                       *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3, held, {}, {}};
+  Material material = {elastic * *spec.youngs_modulus_mpa,
+                       flowing * *spec.yield_stress_mpa,
+                       spec,
+                       *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3,
+                       held,
+                       {},
+                       {}};
   if (held) {
     hold_walls(material.law);
   }
@@ -144,7 +150,10 @@ std::vector<MaterialSpec> material_specs_of(const SceneSpec& spec) {
 
 std::optional<LatticeModuli> elastic_moduli_of(const SceneSpec& spec) {
   const LatticeKind* kind = kind_of(spec);
-  if (kind == nullptr || spec.changes != LatticeChanges() || spec.section.shear_deformation) return std::nullopt;
+  if (kind == nullptr || spec.changes != LatticeChanges() || spec.section.shear_deformation ||
+      spec.section.rigid_joints) {
+    return std::nullopt;
+  }
   const double modulus_of_walls = material_of(spec.material).youngs_modulus;
   const auto moduli_in = [&](LoadingSpec::Direction direction) {
     const ClosedForms forms = kind->closed_forms(*regular_lattice_of(spec), direction);
@@ -190,6 +199,11 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& given) {
   scene->single_fibres =
       part.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision && allows_single_fibres(*scene);
   Layout layout = lay_out(part, linked.links, *scene);
+  if (part.section.rigid_joints) {
+    scene->listed_walls = layout.walls.size();
+    add_rigid_joints(layout);
+    scene->rigid.are_joints = true;
+  }
   if (can_break(scene->materials)) divide_into_units(scene->section.force_based, layout);
   scene->rigid.offset = put_rigid_bodies_first(layout);
   // The beams of a frame have loads and pins by their numbers.

@@ -117,8 +117,11 @@ void check_walls(const SceneSpec& spec, const Thickness& walls, FieldChecker& no
   if (walls.slenderness > kSheared && !spec.section.shear_deformation) check_shear(spec, walls, notes);
   if (walls.slenderness > kThickest) {
     notes.add(walls.field, walls.value,
-              walls.words + ": joints are a large part of walls so thick, and have no size in the model.",
-              "Use the result for trends only.");
+              walls.words + (spec.section.rigid_joints
+                                 ? ": joints are a large part of walls so thick, and rigid in the model."
+                                 : ": joints are a large part of walls so thick, and have no size in the model."),
+              spec.section.rigid_joints ? "Use the result as an upper bound."
+                                        : "Compare with section.rigid_joints, which is an upper bound.");
   } else if (walls.slenderness < kThinnest) {
     notes.add(walls.field, walls.value, walls.words + ", thinner than any honeycomb.", "Check the units of both.");
   }

@@ -1,26 +1,12 @@
 #include "scene/unit_walls.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "beam/element_place.h"
 #include "scene/mesh.h"
 
 namespace cellcrush {
-namespace {
-
-/// Rise of the arc over the chord between two shares of a curved wall.
-double rise_between(const Layout& layout, const LayoutWall& wall, double from, double to) {
-  if (wall.bow == 0.0 && wall.rise == 0.0) return 0.0;
-  const Vector2 start = place_on(layout, wall, from);
-  const Vector2 end = place_on(layout, wall, to);
-  const Vector2 middle = place_on(layout, wall, 0.5 * (from + to));
-  return cross((end - start).normalized(), middle - start);
-}
-
-}  // namespace
-
 bool can_break(const std::vector<Material>& materials) {
   return std::ranges::any_of(materials, [](const Material& material) { return material.law.fails(); });
 }
@@ -51,12 +37,7 @@ void divide_into_units(bool force_based, Layout& layout) {
   layout.joints.insert(layout.joints.end(), between.begin(), between.end());
   layout.walls = std::move(units);
   layout.order = ListOrder{{}, std::move(wall_of)}.after(layout.order);
-  if (!layout.order.joint.empty()) {
-    const std::size_t listed = layout.order.joint.size();
-    layout.order.joint.resize(layout.joints.size());
-    std::iota(layout.order.joint.begin() + static_cast<std::ptrdiff_t>(listed), layout.order.joint.end(),
-              static_cast<int>(listed));
-  }
+  list_added_joints(layout);
 }
 
 void number_chains(Scene& scene) {

@@ -175,7 +175,11 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
     lines.push_back("Pins: " + std::to_string(ends) + (ends == 1 ? " end of a beam turns" : " ends of beams turn") +
                     " freely at the node, without friction.");
   }
-  if (scene.rigid.links > 0) {
+  if (scene.rigid.are_joints) {
+    lines.push_back("Joints: " + std::to_string(scene.rigid.count()) +
+                    " rigid bodies, up to where the faces of their walls meet; walls deform between them. Real joints "
+                    "deform too.");
+  } else if (scene.rigid.links > 0) {
     lines.push_back(links_text(scene));
   } else if (scene.rigid.count() > 0) {
     lines.push_back(

@@ -144,6 +144,7 @@ void read_section(const v1::Section& in, SectionSpec& out, Problems& problems) {
   read_choice(in.area_rule(), "section.area_rule", out.area_rule, problems);
   if (in.has_shear_deformation()) out.shear_deformation = in.shear_deformation();
   if (in.has_shear_factor()) out.shear_factor = in.shear_factor();
+  if (in.has_rigid_joints()) out.rigid_joints = in.rigid_joints();
 }
 
 void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {

@@ -257,6 +257,7 @@ void write_section(const SectionSpec& in, v1::Section& out) {
     out.set_shear_deformation(true);
     out.set_shear_factor(in.shear_factor);
   }
+  if (in.rigid_joints) out.set_rigid_joints(true);
 }
 
 void write_numerics(const NumericsSpec& in, v1::Numerics& out) {

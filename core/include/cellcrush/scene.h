@@ -180,7 +180,8 @@ struct Scene {
   /// E, where walls can break (E6g): number of the wall, or of its part between breaks. Every unit of elements that are
   /// solved together is then one of `walls`, so that all walls end at joints. Otherwise empty.
   std::vector<int> chain;
-  std::size_t listed_walls = 0;  ///< walls before they were divided into units, where they can break; otherwise 0
+  std::size_t listed_walls =
+      0;  ///< walls as listed, where these have been divided (units, arms of joints); otherwise 0
   /// Single precision was asked for, but would round so slow a loading away (scene/run_plan.h).
   bool slow_loading = false;
   bool constant_area = false;  ///< walls keep their section area, as in the paper, instead of their volume (E5c)
@@ -274,7 +275,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
                width, total_mass, solid_area, stable_step, collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material,
                shear] = walls;
-  const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element, links] = rigid;
+  const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element, are_joints, links] = rigid;
   const auto& [listed_joint, listed_wall] = list_order;
   const auto& [pin_offset, pin_joint] = pins;
   const auto& [period_axis, period_length, period_is_fixed, low_joint, high_joint] = period;

@@ -199,6 +199,8 @@ struct SectionSpec {
   bool shear_deformation = false;
   /// kappa: shear area over section area. 5/6 is that of a parabolic shear stress over a rectangle.
   double shear_factor = 5.0 / 6.0;
+  /// Whether joints have the size of their walls and are rigid (scene/rigid_joints.h). Not of frames.
+  bool rigid_joints = false;
 
   [[nodiscard]] int axial_count() const {
     return axial_points.value_or(formulation == Formulation::force_based ? 4 : 2);

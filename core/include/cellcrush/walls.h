@@ -78,7 +78,8 @@ struct RigidBodies {
   std::vector<double> mass;     ///< B, tonne
   std::vector<double> inertia;  ///< B, about the centre, tonne mm^2
   int first_element = 0;
-  std::size_t links = 0;  ///< elements that are rigid because they are short (scene/rigid_links.h): all or none
+  bool are_joints = false;  ///< of the size of their walls (scene/rigid_joints.h), beside stiff cells and links
+  std::size_t links = 0;    ///< elements that are rigid because they are short (scene/rigid_links.h): all or none
 
   [[nodiscard]] std::size_t count() const { return mass.size(); }
   [[nodiscard]] int particle_count() const { return offset.empty() ? 0 : offset.back(); }
