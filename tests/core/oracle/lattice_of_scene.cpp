@@ -9,8 +9,19 @@ namespace {
 
 reference::Material material_of(const Scene& scene, const Element& element) {
   const Material& material = scene.materials[element.material];
-  return {material.youngs_modulus,         material.yield_stress, material.law.hardening_modulus_mpa,
-          material.law.isotropic_fraction, material.density,      material.plane_strain};
+  const LawParameters& law = material.law;
+  const reference::Curves curves = {law.voce_stress_mpa,           law.voce_exponent,
+                                    law.ludwik_stress_mpa,         law.ludwik_exponent,
+                                    law.cowper_symonds_rate_per_s, law.cowper_symonds_exponent,
+                                    law.johnson_cook_coefficient,  law.johnson_cook_reference_rate_per_s,
+                                    scene.schedule.time_step};
+  return {material.youngs_modulus,
+          material.yield_stress,
+          law.hardening_modulus_mpa,
+          law.isotropic_fraction,
+          material.density,
+          material.plane_strain,
+          curves};
 }
 
 /// By which the values of an element are found in the arrays of a state.

@@ -11,7 +11,20 @@ inline double cross(const Vector& a, const Vector& b) { return a.x() * b.y() - a
 inline Vector turned_left(const Vector& a) { return {-a.y(), a.x()}; }
 inline Vector turned_right(const Vector& a) { return {a.y(), -a.x()}; }
 
-/// Bilinear law with mixed hardening. MPa.
+/// Terms of the yield stress beside a linear one (E6d), and its factor (E6e). MPa, 1/s; 0: no such term.
+struct Curves {
+  double voce_stress = 0.0;
+  double voce_exponent = 0.0;
+  double ludwik_stress = 0.0;
+  double ludwik_exponent = 0.0;
+  double symonds_rate = 0.0;
+  double symonds_exponent = 0.0;
+  double johnson_coefficient = 0.0;
+  double johnson_rate = 0.0;
+  double step = 0.0;  ///< s, over which a strain increment is made
+};
+
+/// Mixed hardening: bilinear, or with curves. MPa.
 struct Material {
   double modulus = 0.0;             ///< E
   double yield_stress = 0.0;        ///< sigma_y
@@ -19,6 +32,7 @@ struct Material {
   double isotropic_fraction = 1.0;  ///< beta
   double density = 0.0;             ///< rho, tonne / mm^3
   bool plane_strain = false;        ///< otherwise plane stress
+  Curves curves;
 };
 
 /// History of a fibre. MPa.
@@ -73,10 +87,10 @@ struct ElementHistory {
   /// Of each section: n = N / A and m = M / (A gamma), MPa. Of an element that shears, then 0 and what its shear bears:
   /// m at its start less that at its end.
   std::vector<Eigen::Vector2d> borne;
-  std::vector<bool> yields;            ///< of each fibre: whether it yielded in the newest step
-  bool yielded_before = false;         ///< whether any fibre of the unit did in the step before that
-  Eigen::VectorXd end_forces;          ///< of the unit, at its first element (E5h)
-  double owed = 0.0;                   ///< MPa, at its first element: what the work of the end forces misses
+  std::vector<bool> yields;     ///< of each fibre: whether it yielded in the newest step
+  bool yielded_before = false;  ///< whether any fibre of the unit did in the step before that
+  Eigen::VectorXd end_forces;   ///< of the unit, at its first element (E5h)
+  double owed = 0.0;            ///< MPa, at its first element: what the work of the end forces misses
 };
 ElementHistory undeformed(const ElementRule& rule, const Vector& start, const Vector& end);
 
