@@ -67,6 +67,15 @@ void put_cowper_symonds(MaterialSpec& material) {
   material.cowper_symonds_exponent = 4.0;
 }
 
+/// Walls that could break, but do not: what looking for failure and searching by buckets cost.
+void put_failure(MaterialSpec& material) { material.failure_strain = 10.0; }
+
+SceneSpec with_section(bool SectionSpec::*option) {
+  SceneSpec spec = scenes::preset("type-i");
+  spec.section.*option = true;
+  return spec;
+}
+
 /// Type I between rigid walls in place of its plates; by a striker of as much mass as it has.
 SceneSpec by_rigid_walls(bool strikes) {
   SceneSpec spec = scenes::preset("type-i");
@@ -126,6 +135,9 @@ std::vector<Crush> crushes() {
           {"ludwik", with_law(put_ludwik), {0.20}},
           {"johnson-cook", with_law(put_johnson_cook), {0.20}},
           {"cowper-symonds", with_law(put_cowper_symonds), {0.20}},
+          {"breakable", with_law(put_failure), {0.20}},
+          {"shear", with_section(&SectionSpec::shear_deformation), {0.20}},
+          {"rigid-joints", with_section(&SectionSpec::rigid_joints), {0.20}},
           {"rigid-walls", by_rigid_walls(false), {0.20}},
           {"striker", by_rigid_walls(true), {0.20}},
           {"four-elements", with_elements(4, 52, 15), {0.20}},
