@@ -144,7 +144,6 @@ void FailureSearch::add_unit(const Scene& scene, const State& state, int wall, c
 }
 
 void FailureSearch::collect(const Scene& scene, State& state) {
-  state.net_strain.resize(2 * scene.section.section_count() * scene.element_count());
   units_.clear();
   sections_.clear();
   neck_.assign(static_cast<std::size_t>(1 + std::ranges::max(scene.chain)), 0.0);

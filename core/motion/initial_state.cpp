@@ -87,6 +87,9 @@ State place_particles(const Scene& scene) {
     state.fastest_step.resize(1);
   }
   state.contacts.resize(scene.bands.size());
+  if (scene.can_break()) {
+    state.net_strain.resize(2 * scene.section.section_count() * scene.element_count());
+  }
   const Scene& touching = scene.repeated != nullptr ? *scene.repeated : scene;
   state.parted.assign(touching.start_overlaps.pairs.size(), 0);
   if (scene.period.repeats()) {

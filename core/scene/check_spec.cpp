@@ -219,7 +219,7 @@ void check_sides(const SceneSpec& spec, FieldChecker& check) {
               "Set loading.sides.kind to RIGID, or remove it.");
   }
   const bool is_periodic = sides.kind == LoadingSpec::Sides::Kind::periodic;
-  if (is_periodic && spec.material.fails()) {
+  if (is_periodic && std::ranges::any_of(material_specs_of(spec), &LawParameters::fails)) {
     check.add("material.failure_strain", to_text(spec.material.failure_strain), "does not go with sides that repeat.",
               "Leave it out, or set loading.sides.kind to FREE or RIGID.");
   }

@@ -92,6 +92,10 @@ Share share_of_element(const Scene& scene) {
   visit_arrays(scene, [&](const auto& array) { out.scene += bytes(array); });
   State state = make_initial_state(scene);
   visit_arrays(state, [&](const auto& array) { out.state += bytes(array); });
+  if (scene.can_break()) {
+    out.scene *= 3.0;  // the meshes before any break, and on both sides of the newest
+    out.state *= 2.0;  // samples have a copy without the new ends
+  }
   if (scene.repeated != nullptr) {  // scratch of a step
     State repeated;
     begin_repeated_contacts(scene, state, repeated);

@@ -132,7 +132,7 @@ class Simulation {
   bool restore(ByteSource checkpoint);
 
   /// Calls visit(first byte, bytes) for the arrays of the scene and of the state. Their addresses stay valid until a
-  /// step enlarges the contact lists, or until restore().
+  /// step enlarges the contact lists or breaks a wall, or until restore().
   void visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const;
 
   /// Whether there is no further step: at the end strain, at the end time or at rest.

@@ -332,10 +332,16 @@ TEST(BrittleAndDuctile, PlateausOverThatOfALatticeThatCannotBreak) {
 
 TEST(Fracture, SidesThatRepeatAreRefused) {
   SceneSpec spec = brittle_crush();
-  spec.loading.sides.kind = LoadingSpec::Sides::Kind::periodic;
-  const Problems problems = build_scene(spec).problems;
-  ASSERT_FALSE(problems.empty());
-  EXPECT_THAT(problems, ::testing::Contains(::testing::Field(&Problem::field, "material.failure_strain")));
+  SceneSpec listed = scenes::as_network(spec);  // with failure in a material of its own
+  auto& network = std::get<NetworkWalls>(listed.lattice);
+  network.materials = {listed.material};
+  network.wall_materials.assign(network.wall_count(), 1);
+  listed.material.failure_strain = 0.0;
+  for (SceneSpec* of : {&spec, &listed}) {
+    of->loading.sides.kind = LoadingSpec::Sides::Kind::periodic;
+    EXPECT_THAT(build_scene(*of).problems,
+                ::testing::Contains(::testing::Field(&Problem::field, "material.failure_strain")));
+  }
 }
 
 }  // namespace
