@@ -199,8 +199,8 @@ TEST(HistoryCsv, LeavesTheFrontsCellsEmptyWhereThereIsNone) {
   const std::string text = history_csv(samples);
   EXPECT_THAT(
       text, HasSubstr("energy_contact_damping_mj,deepest_penetration,solid_fraction,collapsed_fraction,"
-                      "largest_fibre_strain,peak_stress_mpa,peak_stress_strain,lateral_strain,absorption_efficiency,energy_fracture_mj,"
-                      "front_position_mm,front_strain_behind"));
+                      "largest_fibre_strain,peak_stress_mpa,peak_stress_strain,lateral_strain,absorption_efficiency,"
+                      "energy_fracture_mj,front_position_mm,front_strain_behind"));
   EXPECT_THAT(text, HasSubstr("front_wall_fraction_behind,step,contact_count,most_strained_wall,break_count\n"));
   EXPECT_THAT(text, HasSubstr(",0,0,,,,,,,,0,0,0,0\n"));
   EXPECT_THAT(text, HasSubstr(",0,0,12.5,0,0,0,0,0,0,0,0,0,0\n"));
