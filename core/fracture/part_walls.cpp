@@ -116,7 +116,7 @@ double radius_at(const Scene& scene, int joint) {
   return radius;
 }
 
-/// Numbers the part of a chain from an end on anew.
+/// Gives the part of a chain from an end on a number of its own.
 void renumber_chain(const FailedEnd& end, Scene& scene) {
   const int first = element_at(scene.walls, end);
   const int old = scene.chain[first];

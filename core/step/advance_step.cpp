@@ -70,7 +70,7 @@ void advance_step(const Scene& scene, State& state, Workspace& workspace, StageO
   scope.end_step();
 }
 
-void evaluate_forces_anew(Scene& scene, State& state, Workspace& workspace) {
+void evaluate_forces_again(Scene& scene, State& state, Workspace& workspace) {
   const double time_step = std::exchange(scene.schedule.time_step, 0.0);
   const ContactTotals before = state.contact_totals;
   sum_joint_forces(scene, state, 0, static_cast<std::size_t>(scene.joint_count));

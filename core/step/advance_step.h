@@ -16,9 +16,9 @@ State make_initial_state(const Scene& scene);
 /// the new time. The observer, if any, is called when a stage begins. `workspace` is reused by the next step.
 void advance_step(const Scene& scene, State& state, Workspace& workspace, StageObserver* observer);
 
-/// Sums the forces of walls on joints anew, and evaluates all others, in place and without motion, after the mesh has
+/// Sums the forces of walls on joints again, and evaluates all others, in place and without motion, after the mesh has
 /// changed. REQUIRES: those others are cleared.
-void evaluate_forces_anew(Scene& scene, State& state, Workspace& workspace);
+void evaluate_forces_again(Scene& scene, State& state, Workspace& workspace);
 
 /// Advances the state by some steps, in wavefronts for a large lattice (step/advance_wavefront.h), to the same bits.
 void advance_steps(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps, StageObserver* observer);

@@ -17,7 +17,7 @@ std::shared_ptr<const Scene> WallBreaker::break_walls(const Scene& scene, State&
   note_breaks(scene, ends, state);
   part_state(scene, *after, ends, state);
   if (after->contact.present) change_topology(*after, state, TopologyChange::walls_changed, state.step);
-  evaluate_forces_anew(*after, state, workspace);
+  evaluate_forces_again(*after, state, workspace);
   return after;
 }
 
