@@ -19,7 +19,6 @@ std::string name_of(std::int64_t target) {
   switch (target) {
     case HWY_AVX3: return "avx512";
     case HWY_AVX2: return "avx2";
-    case HWY_SSE4: return "sse4";
     default: break;
   }
   std::string name = hwy::TargetName(target);

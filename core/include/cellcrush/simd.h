@@ -7,8 +7,8 @@
 namespace cellcrush {
 
 // The kernels are compiled from one source for the vector instructions of several processors. On x86-64 these are
-// "sse4", "avx2", "avx512", and "scalar", which computes one number at a time. The choice holds for the whole process;
-// by default it is the best kernel that the processor can run. Kernels that fuse multiplication and addition, like avx2
+// "avx2", "avx512", and "scalar", which computes one number at a time. The choice holds for the whole process; by
+// default it is the best kernel that the processor can run. Kernels that fuse multiplication and addition, like avx2
 // and avx512, give the same bits.
 
 /// Names of the kernels that this processor can run, best first; the last is "scalar".
