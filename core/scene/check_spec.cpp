@@ -317,7 +317,8 @@ Problems name_crossings(const SceneSpec& spec, const Scene& scene, const std::ve
 }  // namespace
 
 double count_elements(const SceneSpec& spec) {
-  const int elements_per_wall = *spec.elements_per_wall;
+  const int arms = spec.section.rigid_joints ? 2 : 0;
+  const int elements_per_wall = *spec.elements_per_wall + arms;
   if (const RegularLattice* lattice = regular_lattice_of(spec)) {
     return kind_of(spec)->walls_per_cell * *lattice->columns * *lattice->rows * elements_per_wall;
   }

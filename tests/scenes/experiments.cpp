@@ -114,4 +114,39 @@ SceneSpec brittle_lattice() {
   return spec;
 }
 
+SceneSpec tension_test() {
+  SceneSpec spec = block("Hexagons of a tested aluminium", 8, 7, 0.2);
+  spec.material.youngs_modulus_mpa = 64000.0;
+  spec.material.yield_stress_mpa = 90.0;
+  spec.material.hardening_table = {{0.0, 2e-4, 7e-4, 0.002, 0.005, 0.012, 0.025, 0.036},
+                                   {90.0, 106.3, 130.2, 143.6, 150.7, 158.0, 168.9, 175.3},
+                                   HardeningTable::Beyond::power_law};
+  spec.loading.direction = LoadingSpec::Direction::y;
+  spec.loading.speed_m_per_s = 5.0;
+  spec.loading.end_strain = 0.6;
+  return spec;
+}
+
+SceneSpec voce_hardening() {
+  SceneSpec spec = block("Hexagons with Voce's hardening", 8, 7, 0.2);
+  spec.material.voce_stress_mpa = 60.0;
+  spec.material.voce_exponent = 40.0;
+  spec.material.isotropic_fraction = 0.5;
+  LoadsSpec::RigidWall plate = wall_at(Edge::left);
+  plate.points = {{0.0, 0.0}, {0.003, 6.0}, {0.004, 5.5}, {0.007, 10.0}, {0.008, 9.5}};
+  spec.loads.rigid_walls = {plate, wall_at(Edge::right)};
+  spec.loading.end_time_s = 0.008;
+  return spec;
+}
+
+SceneSpec thick_hexagons() {
+  SceneSpec spec = block("Thick hexagons", 10, 9, 0.8);
+  spec.material.poissons_ratio = 0.3;
+  spec.section.shear_deformation = true;
+  spec.section.rigid_joints = true;
+  spec.loading.speed_m_per_s = 10.0;
+  spec.loading.end_strain = 0.5;
+  return spec;
+}
+
 }  // namespace cellcrush::scenes

@@ -18,4 +18,9 @@ SceneSpec dropped_weight();
 SceneSpec loaded_and_unloaded();
 SceneSpec brittle_lattice();
 
+// The presets of laws and of thick walls.
+SceneSpec tension_test();
+SceneSpec voce_hardening();
+SceneSpec thick_hexagons();
+
 }  // namespace cellcrush::scenes

@@ -136,6 +136,9 @@ std::span<const NamedSpec> presets() {
       {"dropped-weight", dropped_weight()},
       {"loaded-and-unloaded", loaded_and_unloaded()},
       {"brittle-lattice", brittle_lattice()},
+      {"tension-test", tension_test()},
+      {"voce-hardening", voce_hardening()},
+      {"thick-hexagons", thick_hexagons()},
   };
   return kPresets;
 }
