@@ -120,7 +120,8 @@ int run_benchmarks(int count, char** words, const std::function<void(const Flags
 }
 
 void draw_nothing(const std::string& file, const std::vector<Measured>&) {
-  throw std::invalid_argument("--chart=" + file + ": these benchmarks have no chart; crush_bench draws one.");
+  throw std::invalid_argument("--chart=" + file +
+                              ": these benchmarks have no chart; solver_bench and crush_bench draw one.");
 }
 
 }  // namespace cellcrush::bench

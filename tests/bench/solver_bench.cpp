@@ -3,6 +3,7 @@
 //   solver_bench                                              all
 //   solver_bench --benchmark_filter=type-i-paper/45/avx512    one
 //   solver_bench --csv=FILE --commit=NAME                     with rows for a table
+//   solver_bench --chart=FILE                                 with a chart of what a step costs
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "bench/bench_program.h"
+#include "bench/cost_chart.h"
 #include "bench/machine.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simd.h"
@@ -186,5 +188,5 @@ void add_all(const Flags& flags) {
 
 int main(int count, char** words) {
   using namespace cellcrush::bench;
-  return run_benchmarks(count, words, add_all, draw_nothing);
+  return run_benchmarks(count, words, add_all, draw_costs);
 }
