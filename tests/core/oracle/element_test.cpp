@@ -328,7 +328,7 @@ class OracleOfElements : public testing::TestWithParam<Rule> {
 // single precision the fibres round stresses of sigma_y by 6e-8 of it, which the flexibility of a section whose fibres
 // are all soft makes up to 100 times larger, as it does the strains; by hardening, stresses come to several sigma_y. A
 // fibre at the edge may then yield in one of the two alone, in up to 3 of 9840 steps of a wall; these are left out. The
-// solver finds flow along a curve to 1e-10 of the stress.
+// solver finds flow along a curve to 1e-8 of the stress.
 TEST_P(OracleOfElements, TakesEveryStepAsTheSolverDoes) {
   compare_all(Start::of_the_step, [](const Scene& scene, bool has_curves, const ElementDifferences& most) {
     if (has_curves) {
