@@ -157,9 +157,10 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
                  force_based ? " (force-based; displacement-based: 1 to 5)" : "");
   if (section.depth_rule == SectionSpec::DepthRule::lobatto) {
     check.in_range("section.depth_points", section.depth_count(), {2, 10});
-  } else if (section.depth_count() != 4 && section.depth_count() != 6) {
+  } else if (section.depth_count() != 4 && section.depth_count() != 6 && section.depth_count() != 10) {
     check.add("section.depth_points", std::to_string(section.depth_count()),
-              "is not available in the full-moment rule.", "Give 4 or 6, or section.depth_rule LOBATTO with 2 to 10.");
+              "is not available in the full-moment rule.",
+              "Give 4, 6 or 10, or section.depth_rule LOBATTO with 2 to 10.");
   }
   if (section.shear_deformation && !force_based) {
     check.add("section.shear_deformation", "true", "does not go with displacement-based elements, which do not shear.",

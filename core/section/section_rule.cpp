@@ -1,8 +1,10 @@
 #include "section/section_rule.h"
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace cellcrush {
 namespace {
@@ -40,32 +42,47 @@ Quadrature along_rule(const SectionSpec& spec) {
   return spec.axial_count() == 4 ? short_ended_rule() : lobatto_rule(spec.axial_count());
 }
 
-/// Pairs of points at y and -y on [-1, 1]. Their weights have the sum 2, the first moment of |y| 1 and the second
-/// moment of y 2/3, like the section itself: area, full plastic moment and bending stiffness.
-Quadrature full_moment_rule(int points) {
+void add_pair(double place, double weight, Quadrature& rule) {
+  rule.points.insert(rule.points.begin(), -place);
+  rule.points.push_back(place);
+  rule.weights.insert(rule.weights.begin(), weight);
+  rule.weights.push_back(weight);
+}
+
+/// Pairs of points at y and -y on [-1, 1], from the middle outwards. The weights of the last three follow from three
+/// sums over one side: 1, of |y| 1/2 and of y^2 1/3, like the section itself (area, full plastic moment and bending
+/// stiffness). The weights of the others are given.
+Quadrature rule_of_pairs(std::span<const double> places, std::span<const double> weights) {
   Quadrature rule;
-  const auto add_pair = [&](double place, double weight) {
-    rule.points.insert(rule.points.begin(), -place);
-    rule.points.push_back(place);
-    rule.weights.insert(rule.weights.begin(), weight);
-    rule.weights.push_back(weight);
-  };
+  Eigen::Vector3d sums(1.0, 0.5, 1.0 / 3.0);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    add_pair(places[i], weights[i], rule);
+    sums -= weights[i] * Eigen::Vector3d(1.0, places[i], places[i] * places[i]);
+  }
+  const Eigen::Map<const Eigen::RowVector3d> last(places.last(3).data());
+  Eigen::Matrix3d moments;
+  moments << Eigen::RowVector3d::Ones(), last, last.cwiseAbs2();
+  const Eigen::Vector3d last_weights = moments.inverse() * sums;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    add_pair(last[i], last_weights[i], rule);
+  }
+  return rule;
+}
+
+Quadrature full_moment_rule(int points) {
   if (points == 4) {
+    Quadrature rule;
     constexpr double kOuter = 0.805;
     const double inner = (0.5 * kOuter - 1.0 / 3.0) / (kOuter - 0.5);
     const double outer_weight = (0.5 - inner) / (kOuter - inner);
-    add_pair(inner, 1.0 - outer_weight);
-    add_pair(kOuter, outer_weight);
+    add_pair(inner, 1.0 - outer_weight, rule);
+    add_pair(kOuter, outer_weight, rule);
     return rule;
   }
-  const Eigen::Vector3d places(0.15, 0.52, 0.88);
-  Eigen::Matrix3d moments;
-  moments << Eigen::RowVector3d::Ones(), places.transpose(), places.transpose().cwiseAbs2();
-  const Eigen::Vector3d weights = moments.inverse() * Eigen::Vector3d(1.0, 0.5, 1.0 / 3.0);
-  for (Eigen::Index i = 0; i < places.size(); ++i) {
-    add_pair(places[i], weights[i]);
+  if (points == 10) {
+    return rule_of_pairs(std::array{0.0868, 0.2984, 0.5198, 0.7328, 0.9333}, std::array{0.1893, 0.2231});
   }
-  return rule;
+  return rule_of_pairs(std::array{0.15, 0.52, 0.88}, {});
 }
 
 Quadrature depth_rule(const SectionSpec& spec) {

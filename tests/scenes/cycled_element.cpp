@@ -37,12 +37,14 @@ SceneSpec CycledElement::stretched(double amplitude, const MaterialSpec& materia
   return spec;
 }
 
-SceneSpec CycledElement::bent(double curvature, const MaterialSpec& material) {
+SceneSpec CycledElement::bent(double curvature, const MaterialSpec& material, int depth_points) {
   FrameLattice frame;
   frame.supports = {{0, true, true, false}, {1, true, true, false}};
   frame.motions = {{0, Component::rotation, to_and_fro(-0.5 * kLength * curvature)},
                    {1, Component::rotation, to_and_fro(0.5 * kLength * curvature)}};
-  return cycled(std::move(frame), material);
+  SceneSpec spec = cycled(std::move(frame), material);
+  spec.section.depth_points = depth_points;
+  return spec;
 }
 
 void CycledElement::run(const SceneSpec& spec, const std::function<void(double)>& turn,

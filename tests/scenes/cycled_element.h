@@ -20,7 +20,7 @@ struct CycledElement {
   static SceneSpec stretched(double amplitude, const MaterialSpec& material);
 
   /// Both ends turn against each other to that curvature, 1/mm: pure bending.
-  static SceneSpec bent(double curvature, const MaterialSpec& material);
+  static SceneSpec bent(double curvature, const MaterialSpec& material, int depth_points = 6);
 
   /// Calls visit(time, force and moment that the element's end bears) after every step, and before it turn(side) where
   /// the motion has turned.

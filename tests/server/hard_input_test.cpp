@@ -78,7 +78,7 @@ std::vector<v1::Case> sound_cases() {
   SceneSpec stiff = scenes::preset("hexagon-small");
   stiff.inclusions.rows = {2, 4};
   cases.push_back(translate::to_case(stiff));
-  cases.push_back(translate::to_case(scenes::bent_cantilever(1.6)));
+  cases.push_back(translate::to_case(scenes::bent_cantilever(1.5)));
   cases.push_back(translate::to_case(scenes::lee_frame(60.0)));
   return cases;
 }

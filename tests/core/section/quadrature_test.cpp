@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenes/evidence.h"
 #include "section/section_rule.h"
@@ -66,6 +67,7 @@ TEST(SectionRule, HasTheElasticStiffnessOfACubicBeamTheFullMomentAndTheJoints) {
                                   SectionSpec{Formulation::displacement_based, DepthRule::full_moment, kArea, 3, 4},
                                   SectionSpec{Formulation::force_based, DepthRule::full_moment, kArea, 3, 6},
                                   SectionSpec{Formulation::force_based, DepthRule::full_moment, kArea, 4, 4},
+                                  SectionSpec{Formulation::force_based, DepthRule::full_moment, kArea, 4, 10},
                                   SectionSpec{Formulation::force_based, DepthRule::lobatto, kArea, 5, 10}}) {
     const SectionRule rule = make_section_rule(spec);
     EXPECT_NEAR((rule.depth_weight * rule.offset.square()).sum(), 1.0 / 12.0, 1e-14);
@@ -85,6 +87,27 @@ TEST(SectionRule, HasTheElasticStiffnessOfACubicBeamTheFullMomentAndTheJoints) {
       EXPECT_EQ(rule.along[0], 0.0);
       EXPECT_EQ(rule.along[rule.along.size() - 1], 1.0);
     }
+  }
+}
+
+/// Greatest error of the moment of a perfectly plastic section as it is bent beyond its yield curvature.
+double worst_moment_error(int depth_points) {
+  SectionSpec spec;
+  spec.depth_points = depth_points;
+  const SectionRule rule = make_section_rule(spec);
+  double worst = 0.0;
+  for (double curvature = 1.0; curvature < 100.0; curvature *= 1.001) {  // over that at yield
+    const double moment =
+        (rule.depth_weight * rule.offset.abs() * (2.0 * curvature * rule.offset.abs()).min(1.0)).sum();
+    const double exact = 0.25 - 1.0 / (12.0 * curvature * curvature);
+    worst = std::max(worst, std::abs(moment / exact - 1.0));
+  }
+  return worst;
+}
+
+TEST(SectionRule, HasTheMomentOfABentSection) {
+  for (const auto& [points, bound] : {std::pair(4, 0.0563), std::pair(6, 0.0214), std::pair(10, 0.0066)}) {
+    EXPECT_NEAR(worst_moment_error(points), bound, 0.02 * bound) << points;
   }
 }
 
