@@ -42,6 +42,14 @@ double at_surface(const Material& material, double stress, double plastic, doubl
   return sign * std::max(0.0, sign * (plastic + beyond) - elastic_room);
 }
 
+/// Elongation over bending angle and thickness that the few fibres of a section alone can bring about: without an axial
+/// force its neutral axis is anywhere between the two fibres next to the middle, and in tension beyond those from
+/// `mean` = 2 `flow` times their offset on, as it should be.
+double free_axis(const SectionRule& rule, double mean, double flow) {
+  const double next_to_middle = rule.offset[rule.offset.size() / 2];
+  return std::clamp(next_to_middle - 0.5 * mean / flow, 0.0, next_to_middle);
+}
+
 /// Length that two intervals have in common.
 double common(double a, double b, double c, double d) { return std::max(0.0, std::min(b, d) - std::max(a, c)); }
 
@@ -116,6 +124,7 @@ void FailureSearch::add_unit(const Scene& scene, const State& state, int wall, c
   unit.chain = scene.chain[block.first_element + wall - block.first_wall];
   unit.first_section = sections_.size();
   double to = 0.0;
+  double wander = 0.0;
   for (int j = 0; j < block.elements; ++j) {
     const FibreIndex index(scene, block, j, wall);
     for (std::size_t p = 0; p < rule.section_count(); ++p) {
@@ -129,13 +138,20 @@ void FailureSearch::add_unit(const Scene& scene, const State& state, int wall, c
           ((left - right) / material.youngs_modulus + net_left - net_right) / (high - low);  // of the total strain
       const double of_left = at_surface(material, left, net_left, slope * (0.5 - high));
       const double of_right = at_surface(material, right, net_right, slope * (-0.5 - low));
+      double mean = 0.0;
+      for (std::size_t d = 0; d < rule.depth_count(); ++d) {
+        mean += rule.depth_weight[static_cast<Eigen::Index>(d)] * state.fibres.stress[index.of(p, d)];
+      }
       const double from = to;
       to += rule.along_weight[along] * length;
+      wander += std::abs(of_left - of_right) * (to - from) *
+                free_axis(rule, mean, std::max({material.yield_stress, std::abs(left), std::abs(right)}));
       sections_.push_back(
           {0.5 * (of_left + of_right), 0.5 * (of_left - of_right), (j + rule.along[along]) * length, from, to});
     }
     unit.neck += beyond_even(scene, state, block.first_element + j * block.walls + wall - block.first_wall, wall);
   }
+  unit.neck = std::max(0.0, unit.neck - wander);
   neck_[unit.chain] += unit.neck;
   unit.broken_start = is_broken_end(scene, state, scene.walls.start[wall]);
   unit.broken_end = is_broken_end(scene, state, scene.walls.end[wall]);

@@ -204,8 +204,9 @@ void part_state(const Scene& before, const Scene& after, std::span<const FailedE
   copy(state.radius_growth);
   insert_joints(before, ends, state.reaction_impulse, [](int) { return ReactionImpulse(); });
   for (const FailedEnd& end : ends) {
-    const auto joint = static_cast<std::size_t>(joint_at(after.walls, end));
-    if (after.inertia[joint] == 0.0) state.spin[joint] = 0.0;
+    for (const int joint : {joint_at(before.walls, end), joint_at(after.walls, end)}) {
+      if (after.inertia[joint] == 0.0) state.spin[joint] = 0.0;
+    }
   }
   for (std::size_t body = 0; body < after.rigid.count(); ++body) {
     const Vector2 apart = after.rigid.centre[body] - before.rigid.centre[body];

@@ -106,26 +106,31 @@ double energy_to_break(int elements_of_half, double failure_strain) {
   frame.nodes = {{-kHalf, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}, {kHalf, 0.0, 0.0, 0.0}};
   frame.beams = {scenes::beam(0, 1, kThickness, elements_of_half), scenes::beam(1, 2, kThickness, elements_of_half)};
   frame.supports = {{0, false, true, false}, {2, false, true, false}};
-  frame.end_time_s = 6e-3;
-  frame.motions.push_back({1, Component::y, {{0.0, 0.0}, {*frame.end_time_s, -9.0}}});
+  frame.end_time_s = 1e-2;
+  frame.motions.push_back({1, Component::y, {{0.0, 0.0}, {*frame.end_time_s, -5.0}}});
   frame.motions.push_back({1, Component::x, {{0.0, 0.0}, {*frame.end_time_s, 0.0}}});
+  frame.watched_nodes = {1};
   const std::vector<Sample> samples = scenes::run_frame(failing(frame, failure_strain));
   EXPECT_EQ(samples.back().break_count, 2) << elements_of_half;
   const Energies& energies = samples.back().energies;
-  EXPECT_LT(std::abs(energies.residual), 1e-3 * energies.external) << elements_of_half;
+  EXPECT_LT(std::abs(energies.residual), 2e-3 * energies.external) << elements_of_half;
+  EXPECT_LT(std::abs(samples.back().watched.front().rotation), 0.1) << "nothing is left of the joint that could spin";
   return energies.plastic + energies.fracture;
 }
 
-// A hinge turns by twice the failure strain on either side of the middle.
+// A hinge turns by twice the failure strain on either side of the middle. The beam yields beyond the hinge, too, over a
+// third of its length: at small failure strains that adds a few per cent. Larger ones than these are not looked at: a
+// perfectly plastic beam may then turn in the hinge of one side alone.
 TEST(Fracture, TheEnergyOfABrokenBeamDoesNotDependOnTheMesh) {
-  constexpr double kFailure = 0.2;
-  const double of_hinges = kFullMoment * 4.0 * kFailure;
-  const double coarse = energy_to_break(2, kFailure);
-  const double middle = energy_to_break(4, kFailure);
-  const double fine = energy_to_break(8, kFailure);
-  scenes::record_figure("broken beam: energy of 2 elements over 8", coarse / fine, 3, {1.0, 0.05});
-  scenes::record_figure("broken beam: energy of 4 elements over 8", middle / fine, 3, {1.0, 0.05});
-  EXPECT_NEAR(fine / of_hinges, 1.0, 0.12);
+  for (const double failure : {0.02, 0.05, 0.1, 0.2}) {
+    const double of_hinges = kFullMoment * 4.0 * failure;
+    const double fine = energy_to_break(8, failure);
+    scenes::record_bound("broken beam: error of its energy", fine / of_hinges - 1.0, 0.03);
+    for (const int elements : {2, 4}) {
+      scenes::record_bound("broken beam: error of fewer elements", energy_to_break(elements, failure) / fine - 1.0,
+                           0.03);
+    }
+  }
 }
 
 // The front part of a bar flies onto the rest: a pulse of twice its length runs to the free end, comes back as tension,
