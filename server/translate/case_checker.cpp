@@ -35,8 +35,9 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted, const BeforeM
     for (const auto& problem : *problems) out.problems.push_back(to_proto(problem));
   }
   if (!out.problems.empty()) return out;
-  for (const auto& note : verdict.notes) out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
-  if (const auto note = idle_name(submitted)) out.notes.push_back(to_proto(*note, v1::Problem::IMPLAUSIBLE));
+  for (const auto& note : notes_on_named(submitted, verdict.notes)) {
+    out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
+  }
   out.element_count = verdict.element_count;
   const bool has_default_mesh = !reading.spec.elements_per_wall && !submitted.lattice().has_frame();
   if (has_default_mesh) out.default_mesh = *fill_in_fidelity(reading.spec).elements_per_wall;

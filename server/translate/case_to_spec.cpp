@@ -213,11 +213,13 @@ std::optional<RegularLattice> read_regular(const v1::Lattice& in) {
 }
 
 MaterialSpec to_spec(const v1::Material& given, const std::string& path, Problems& problems) {
-  const v1::Material in = with_named(given);
+  v1::Material in = given;
   if (!in.named().empty() && !is_named_material(in.named())) {
     problems.push_back({path + "named", in.named(), "is no material of the list.",
                         "Name one of " + known_materials() + ", or give its numbers."});
+    in.set_named(materials().materials(0).name());  // so that no number is said to be missing besides
   }
+  in = with_named(in);
   MaterialSpec out;
   if (in.has_youngs_modulus_mpa()) out.youngs_modulus_mpa = in.youngs_modulus_mpa();
   if (in.has_yield_stress_mpa()) out.yield_stress_mpa = in.yield_stress_mpa();

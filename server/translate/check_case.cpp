@@ -165,8 +165,9 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   CaseCheck out;
   const auto [spec, scene] = build(submitted, *out.response.mutable_problems(), between_stages);
   if (!scene) return out;
-  if (const auto note = idle_name(submitted)) *out.response.add_notes() = to_proto(*note, v1::Problem::IMPLAUSIBLE);
-  for (const auto& note : find_implausible(spec)) *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
+  for (const auto& note : notes_on_named(submitted, find_implausible(spec))) {
+    *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
+  }
   for (const auto& note : find_costly_walls(spec, *scene)) {
     *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
   }

@@ -51,9 +51,23 @@ v1::Material with_named(const v1::Material& material) {
   const v1::NamedMaterial* named = find_material(material.named());
   if (named == nullptr) return material;
   v1::Material out = named->material();
-  // A table in place of that of the named material, not after it.
-  if (material.has_hardening_table()) out.clear_hardening_table();
-  if (material.has_rate_table()) out.clear_rate_table();
+  // A table in place of what the named material has, not beside it.
+  if (material.has_hardening_table()) {
+    out.clear_hardening_table();
+    out.clear_hardening_modulus_mpa();
+    out.clear_voce_stress_mpa();
+    out.clear_voce_exponent();
+    out.clear_ludwik_stress_mpa();
+    out.clear_ludwik_exponent();
+    out.clear_yield_stress_mpa();
+  }
+  if (material.has_rate_table()) {
+    out.clear_rate_table();
+    out.clear_cowper_symonds_rate_per_s();
+    out.clear_cowper_symonds_exponent();
+    out.clear_johnson_cook_coefficient();
+    out.clear_johnson_cook_reference_rate_per_s();
+  }
   out.MergeFrom(material);
   return out;
 }
@@ -72,10 +86,10 @@ v1::Case with_named_materials(v1::Case of) {
   return of;
 }
 
-std::optional<Problem> idle_name(const v1::Case& of) {
+Problems notes_on_named(const v1::Case& of, Problems notes) {
   const v1::Material& given = of.material();
   const v1::NamedMaterial* named = find_material(given.named());
-  if (named == nullptr) return std::nullopt;
+  if (named == nullptr) return notes;
   bool gives_all = true;
   bool differs = false;
   std::vector<const google::protobuf::FieldDescriptor*> fields;
@@ -83,12 +97,16 @@ std::optional<Problem> idle_name(const v1::Case& of) {
   for (const auto* field : fields) {
     const bool is_given = given.GetReflection()->HasField(given, field);
     gives_all = gives_all && is_given;
+    if (!is_given) std::erase_if(notes, [&](const Problem& note) { return note.field == "material." + field->name(); });
     differs = differs || (is_given && given.GetReflection()->GetDouble(given, field) !=
                                           named->material().GetReflection()->GetDouble(named->material(), field));
   }
-  if (!gives_all || !differs) return std::nullopt;
-  return Problem{"material.named", given.named(), "does not count: the case gives all of its numbers, others than it.",
-                 "Clear the numbers that the name is to give, such as youngs_modulus_mpa."};
+  if (gives_all && differs) {
+    notes.push_back({"material.named", given.named(),
+                     "does not count: the case gives all of its numbers, others than it.",
+                     "Clear the numbers that the name is to give, such as youngs_modulus_mpa."});
+  }
+  return notes;
 }
 
 }  // namespace cellcrush::translate

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "cellcrush/scene_spec.h"
@@ -23,7 +22,8 @@ v1::Material with_named(const v1::Material& material);
 /// The same of all materials of a case: what is computed does not change if the list of materials does.
 v1::Case with_named_materials(v1::Case of);
 
-/// What is to be said of a case whose material is named, but gives all numbers of the named one otherwise.
-std::optional<Problem> idle_name(const v1::Case& of);
+/// Notes on what is implausible in a case: `notes`, less those on numbers that its named material gives, and one if the
+/// case gives all numbers of that material otherwise.
+Problems notes_on_named(const v1::Case& of, Problems notes);
 
 }  // namespace cellcrush::translate

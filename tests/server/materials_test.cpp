@@ -1,4 +1,6 @@
 // The named materials: each can be crushed, tells its sources, and gives way to what a case says itself.
+#include "translate/materials.h"
+
 #include <gmock/gmock.h>
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
@@ -8,7 +10,6 @@
 #include "translate/case_checker.h"
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
-#include "translate/materials.h"
 #include "translate/spec_to_case.h"
 
 namespace cellcrush {
@@ -18,6 +19,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 v1::Case case_of(const std::string& material) {
   v1::Case out = testing::small_case();
@@ -30,6 +32,9 @@ TEST(NamedMaterials, EachCanBeCrushedAndTellsItsSources) {
   for (const v1::NamedMaterial& material : translate::materials().materials()) {
     const auto check = translate::check_case(case_of("named: \"" + material.name() + "\""), [] {});
     EXPECT_EQ(check.response.problems_size(), 0) << material.name() << ": " << check.response.ShortDebugString();
+    for (const v1::Problem& note : check.response.notes()) {
+      EXPECT_THAT(note.field(), Not(StartsWith("material."))) << material.name();
+    }
     EXPECT_GE(material.sources_size(), 1) << material.name();
     EXPECT_THAT(material.numbers(), AllOf(HasSubstr("MPa"), HasSubstr("kg/m3"), Not(HasSubstr(", 0 kg/m3"))));
   }
@@ -43,6 +48,20 @@ TEST(NamedMaterials, FieldsBesideTheNameReplaceItsOwn) {
   EXPECT_EQ(reading.spec.material.johnson_cook_coefficient, 0.014);
 }
 
+TEST(NamedMaterials, ATableBesideTheNameReplacesAllOfItsCurveOrRate) {
+  const v1::Material out = translate::with_named(case_of(R"(named: "AISI 4340"
+    hardening_table { plastic_strains: [0, 0.1] stresses_mpa: [800, 900] }
+    rate_table { rates_per_s: [1, 100] factors: [1, 1.2] })")
+                                                     .material());
+  EXPECT_EQ(out.youngs_modulus_mpa(), 200000.0);
+  EXPECT_FALSE(out.has_yield_stress_mpa());
+  EXPECT_FALSE(out.has_ludwik_stress_mpa());
+  EXPECT_FALSE(out.has_johnson_cook_coefficient());
+  v1::Case of = case_of("");
+  *of.mutable_material() = out;
+  EXPECT_THAT(translate::CaseChecker().check(of).problems, IsEmpty());
+}
+
 TEST(NamedMaterials, AJobKeepsTheNumbersOfTheDayItWasMade) {
   const v1::Case kept = translate::with_named_materials(case_of("named: \"AISI 4340\" yield_stress_mpa: 1000"));
   EXPECT_EQ(kept.material().yield_stress_mpa(), 1000.0);
@@ -53,10 +72,10 @@ TEST(NamedMaterials, AJobKeepsTheNumbersOfTheDayItWasMade) {
 }
 
 TEST(NamedMaterials, OneThatIsUnknownIsAProblemThatNamesThem) {
-  const auto reading = translate::to_spec(case_of("named: \"4340\""));
-  ASSERT_EQ(reading.problems.size(), 1);
-  EXPECT_EQ(reading.problems.front().field, "material.named");
-  EXPECT_THAT(reading.problems.front().remedy, HasSubstr("\"AISI 4340\""));
+  const auto problems = translate::CaseChecker().check(case_of("named: \"4340\"")).problems;
+  ASSERT_EQ(problems.size(), 1);
+  EXPECT_EQ(problems[0].field(), "material.named");
+  EXPECT_THAT(problems[0].remedy(), HasSubstr("\"AISI 4340\""));
 }
 
 TEST(NamedMaterials, TablesComeThroughBothWays) {
