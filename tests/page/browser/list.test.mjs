@@ -10,7 +10,7 @@ const daemon = stage(async (its) => {
   ({ page, errors } = its);
   const swept = await daemon.presetCase('type-i', (each) => {
     each.title = 'Three speeds';
-    each.lattice.hexagon.columns = 32;
+    each.lattice.hexagon.columns = 64;
     each.loading.endStrain = 0.45;
   });
   const axes = [{ field: 'loading.speed_m_per_s', list: { values: speeds } }];
