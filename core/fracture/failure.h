@@ -13,8 +13,8 @@ namespace cellcrush {
 // however long they are: the mean makes the energy of a broken wall independent of it.
 //   Bending:     the strains of the sections within a thickness. A section that stands for more is taken as a hinge.
 //   Stretching:  what the wall has stretched by beyond even stretching (Considere), over a thickness. The strain of the
-//                middle of a section counts no further than that, and by a yield strain. The few fibres of a section let
-//                its neutral axis wander by a thirteenth of the thickness in bending: what that can stretch a wall by
+//                middle of a section counts no further than that, and by a yield strain. In bending, the few fibres of
+//                a section let its neutral axis wander by a thirteenth of the thickness: what that can stretch it by
 //                is taken off.
 // Plastic strains are net: shortening is taken from stretching, so that a surface that is only compressed does not
 // fail, and cycles do no damage of their own. The rate and the state of stress have no influence.
