@@ -152,13 +152,13 @@ test('a material is picked by its name, tables are pasted, and both come back wi
   assert.equal(await page.getByLabel('Ludwik stress').getAttribute('placeholder'), '510');
   await page.getByLabel('Density').fill('7800');
   await inField('Density').getByText('AISI 4340 has 7830').waitFor();
-  await page.getByLabel('Ludwik stress').fill('0');
+  await page.getByLabel('Yield stress').fill('700');
   assert.ok(await page.getByLabel('Hardening beyond the table').isDisabled());
   await page.getByLabel('Hardening table').fill('0\t800\n0,05\t');
   await page.getByText('Row 2 has 1 number, not 2.').waitFor();
   await page.getByLabel('Hardening table').fill('0\t800\n0,05\t900');
-  await inField('Hardening table').getByText('Stresses, row 1 is not the yield stress of 792 MPa.').waitFor();
-  await page.getByLabel('Hardening table').fill('0\t792\n0,05\t900');
+  await inField('Hardening table').getByText('Stresses, row 1 is not the yield stress of 700 MPa.').waitFor();
+  await page.getByLabel('Yield stress').fill('');
   await page.getByLabel('Hardening beyond the table').selectOption('POWER_LAW');
   await page.getByLabel('End strain').fill('0.01');
   await page.getByRole('button', { name: 'Start the job' }).and(page.locator(':enabled')).waitFor();
@@ -167,11 +167,12 @@ test('a material is picked by its name, tables are pasted, and both come back wi
   await page.waitForURL((url) => /jobs/.test(url.pathname));
   const name = new URL(page.url()).pathname.slice(1);
   const { material } = (await daemon.call('Jobs/GetJob', { name })).case;
-  assert.deepEqual([material.named, material.yieldStressMpa, material.densityKgPerM3], ['AISI 4340', 792, 7800]);
+  assert.deepEqual([material.named, material.densityKgPerM3], ['AISI 4340', 7800]);
+  assert.equal(material.ludwikStressMpa, undefined, 'the table stands in its place');
   assert.deepEqual(material.hardeningTable,
-                   { plasticStrains: [0, 0.05], stressesMpa: [792, 900], beyond: 'POWER_LAW' });
+                   { plasticStrains: [0, 0.05], stressesMpa: [800, 900], beyond: 'POWER_LAW' });
   await page.goto(`${daemon.url}/new?from=${name}`);
-  assert.equal(await page.getByLabel('Hardening table').inputValue(), '0\t792\n0.05\t900');
+  assert.equal(await page.getByLabel('Hardening table').inputValue(), '0\t800\n0.05\t900');
   assert.equal(await page.getByLabel('Hardening beyond the table').inputValue(), 'POWER_LAW');
   // A daemon that is older than named materials.
   await page.route('**/cellcrush.v1.Cases/ListMaterials', (route) => route.fulfill({ status: 404 }));
