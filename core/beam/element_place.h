@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "cellcrush/scene.h"
+#include "cellcrush/tuning.h"
 
 namespace cellcrush {
 
@@ -19,10 +23,19 @@ struct ElementPlace {
   }
 };
 
-/// Calls visit(block, first element) for every row, ascending.
+/// Pieces in which a sample looks at some blocks or chunks, for any threads.
+inline std::size_t sampled_pieces(std::size_t items) { return (items + kSampledTogether - 1) / kSampledTogether; }
+
+template <class Item>
+std::span<const Item> sampled_piece(const std::vector<Item>& items, std::size_t piece) {
+  const std::size_t first = piece * kSampledTogether;
+  return std::span(items).subspan(first, std::min(kSampledTogether, items.size() - first));
+}
+
+/// Calls visit(block, first element) for every row of some blocks of walls, ascending.
 template <class Visit>
-void visit_rows(const Scene& scene, Visit&& visit) {
-  for (const WallBlock& block : scene.walls.blocks) {
+void visit_rows(std::span<const WallBlock> blocks, Visit&& visit) {
+  for (const WallBlock& block : blocks) {
     for (int j = 0; j < block.elements; ++j) {
       const std::size_t row = block.first_element + j * block.walls;
       visit(block, row);
@@ -33,7 +46,7 @@ void visit_rows(const Scene& scene, Visit&& visit) {
 /// Calls visit(place, wall) for every element, ascending.
 template <class Visit>
 void visit_elements(const Scene& scene, Visit&& visit) {
-  visit_rows(scene, [&](const WallBlock& block, std::size_t row) {
+  visit_rows(scene.walls.blocks, [&](const WallBlock& block, std::size_t row) {
     for (int w = 0; w < block.walls; ++w) {
       visit(ElementPlace{row + w, row, static_cast<std::size_t>(block.walls)}, block.first_wall + w);
     }

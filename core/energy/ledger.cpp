@@ -1,6 +1,7 @@
 #include "energy/ledger.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -15,30 +16,24 @@
 #include "motion/periodic_sides.h"
 #include "motion/rigid_motion.h"
 #include "push/push.h"
+#include "section/section_rule.h"
 #include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Works on the free particles, in the chunks in which they are moved.
-MotionWorks works_of_particles(const Scene& scene, const State& state) {
+/// Works on some free particles that are moved together.
+MotionWorks works_of_particles(const Scene& scene, const State& state, std::size_t begin, std::size_t end) {
   const StepFactors step = step_factors_of(scene);
   const ParticleArrays<const State> arrays(scene, state);
   MotionWorks sum;
   with_force_kinds(scene, state, [&](auto kinds) HWY_ATTR {
     using Kinds = decltype(kinds);
     constexpr std::size_t kWidth = Kinds::kFrame ? 1 : kSumLanes;
-    const auto add_range = [&](std::size_t first, std::size_t end) HWY_ATTR {
-      for (std::size_t begin = first; begin < end; begin += kParticlesMovedTogether) {
-        const std::size_t chunk_end = std::min(begin + kParticlesMovedTogether, end);
-        sum.add(sum_works<kWidth>(begin, chunk_end, [&](auto d, std::size_t i, auto& works) HWY_ATTR {
-          const auto forces = forces_on<true, Kinds, decltype(d)>(arrays, i);
-          add_works_of_half_step<Kinds>(arrays, step, i, forces, motion_of<Kinds>(arrays, step, forces, i), works);
-        }));
-      }
-    };
-    add_range(scene.rigid.particle_count(), scene.joint_count);
-    add_range(scene.joint_count, scene.particle_count());
+    sum = sum_works<kWidth>(begin, end, [&](auto d, std::size_t i, auto& works) HWY_ATTR {
+      const auto forces = forces_on<true, Kinds, decltype(d)>(arrays, i);
+      add_works_of_half_step<Kinds>(arrays, step, i, forces, motion_of<Kinds>(arrays, step, forces, i), works);
+    });
   });
   return sum;
 }
@@ -53,7 +48,7 @@ class LaneEnergy {
       : scene_(scene), state_(state), memory_(memory) {
     for (const double along : scene.section.along_weight) {
       for (const double through : scene.section.depth_weight) {
-        weight_.push_back(static_cast<T>(along * through));
+        weight_[fibres_++] = static_cast<T>(along * through);
       }
     }
   }
@@ -62,7 +57,7 @@ class LaneEnergy {
   HWY_INLINE void add_row(const WallBlock& block, std::size_t row, double* HWY_RESTRICT energy) const {
     T squares[kMostWallsInBlock];
     for (int lane = 0; lane < block.walls; lane += static_cast<int>(Lane<F>::kWidth)) {
-      weighted_squares(&memory_.stress[row * weight_.size()] + lane, block.walls).store(squares + lane);
+      weighted_squares(&memory_.stress[row * fibres_] + lane, block.walls).store(squares + lane);
     }
     for (int lane = 0; lane < block.walls; lane += static_cast<int>(Lane<D>::kWidth)) {
       const Lane<D> of_lanes = energy_of(block, lane, row + lane, Lane<D>::load(squares + lane));
@@ -74,9 +69,9 @@ class LaneEnergy {
   /// Weighted squares of the stresses of the elements of the lanes; `stride` elements lie side by side for each fibre.
   HWY_INLINE Lane<F> weighted_squares(const T* HWY_RESTRICT stress, int stride) const {
     Lane<F> squares = 0;
-    for (const T weight : weight_) {
+    for (std::size_t fibre = 0; fibre < fibres_; ++fibre) {
       const Lane<F> of_fibre = Lane<F>::load(stress);
-      squares = fma(Lane<F>(weight) * of_fibre, of_fibre, squares);
+      squares = fma(Lane<F>(weight_[fibre]) * of_fibre, of_fibre, squares);
       stress += stride;
     }
     return squares;
@@ -99,17 +94,19 @@ class LaneEnergy {
   const Scene& scene_;
   const State& state_;
   const FibreHistory<T>& memory_;
-  std::vector<T> weight_;  ///< of each fibre, in the integral over the section and along the element
+  T weight_[kMostSections * kMostDepthPoints];  ///< of each fibre, in the integral over section and element
+  std::size_t fibres_ = 0;
 };
 
 template <class T>
-double energy_of_memory(const Scene& scene, const State& state, const FibreHistory<T>& memory) {
+double energy_of_memory(const Scene& scene, const State& state, const FibreHistory<T>& memory,
+                        std::span<const WallBlock> blocks) {
   using Wide = LaneEnergy<WideTag<double, kMostWallsInBlock>, WideTag<T, kMostWallsInBlock>>;
   using One = LaneEnergy<hn::CappedTag<double, 1>, hn::CappedTag<T, 1>>;
   const Wide wide(scene, state, memory);
   const One one(scene, state, memory);
   double energy[kMostWallsInBlock] = {};
-  visit_rows(scene, [&](const WallBlock& block, std::size_t row) HWY_ATTR {
+  visit_rows(blocks, [&](const WallBlock& block, std::size_t row) HWY_ATTR {
     if (block.walls == kMostWallsInBlock) {
       wide.add_row(block, row, energy);
     } else {
@@ -123,9 +120,9 @@ double energy_of_memory(const Scene& scene, const State& state, const FibreHisto
   return sum;
 }
 
-double energy_of_walls(const Scene& scene, const State& state) {
-  return scene.single_fibres ? energy_of_memory(scene, state, state.single_fibres)
-                             : energy_of_memory(scene, state, state.fibres);
+double energy_of_walls(const Scene& scene, const State& state, std::span<const WallBlock> blocks) {
+  return scene.single_fibres ? energy_of_memory(scene, state, state.single_fibres, blocks)
+                             : energy_of_memory(scene, state, state.fibres, blocks);
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -139,11 +136,39 @@ HWY_EXPORT(energy_of_walls);
 
 namespace {
 
+/// Free particles that are moved together, the joints first.
+struct ParticleChunks {
+  explicit ParticleChunks(const Scene& scene)
+      : begin(scene.rigid.particle_count()),
+        joints(static_cast<std::size_t>(scene.joint_count)),
+        end(scene.particle_count()) {}
+
+  static std::size_t chunks_of(std::size_t particles) {
+    return (particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether;
+  }
+  [[nodiscard]] std::size_t count() const { return chunks_of(joints - begin) + chunks_of(end - joints); }
+
+  [[nodiscard]] MotionWorks works_of(const Scene& scene, const State& state, std::size_t chunk) const {
+    const std::size_t of_joints = chunks_of(joints - begin);
+    const bool is_inner = chunk >= of_joints;
+    const std::size_t first =
+        is_inner ? joints + (chunk - of_joints) * kParticlesMovedTogether : begin + chunk * kParticlesMovedTogether;
+    return HWY_DYNAMIC_DISPATCH(works_of_particles)(scene, state, first,
+                                                    std::min(first + kParticlesMovedTogether, is_inner ? end : joints));
+  }
+
+  std::size_t begin;
+  std::size_t joints;
+  std::size_t end;
+};
+
 /// The works of the newest forces over the half step up to the time of the state, and twice the kinetic energy at that
 /// time.
-MotionWorks works_of_half_step(const Scene& scene, const State& state) {
+MotionWorks works_of_half_step(const Scene& scene, const State& state, std::span<const MotionWorks> of_particles) {
   MotionWorks works = half_step_works_of_rigid_bodies(scene, state);
-  works.add(HWY_DYNAMIC_DISPATCH(works_of_particles)(scene, state));
+  MotionWorks free;
+  for (const MotionWorks& chunk : of_particles) free.add(chunk);
+  works.add(free);
   for (const Pusher* pusher : pushers()) {
     works.add(pusher->half_step_works(scene, state));
   }
@@ -154,20 +179,49 @@ MotionWorks works_of_half_step(const Scene& scene, const State& state) {
 }  // namespace
 
 void open_ledger(const Scene& scene, State& state) {
-  const MotionWorks start = works_of_half_step(scene, state);
+  const ParticleChunks chunks(scene);
+  std::vector<MotionWorks> of_particles(chunks.count());
+  for (std::size_t i = 0; i < of_particles.size(); ++i) of_particles[i] = chunks.works_of(scene, state, i);
+  const MotionWorks start = works_of_half_step(scene, state, of_particles);
   start.accumulate(state.ledger, -1.0);
   state.ledger.initial = 0.5 * start.twice_kinetic;
 }
 
-Energies evaluate_energies(const Scene& scene, const State& state) {
-  const MotionWorks newest = works_of_half_step(scene, state);
-  Energies now{state.ledger};
+EnergyPieces::EnergyPieces(const Scene& scene, const State& state)
+    : scene_(scene),
+      state_(state),
+      walls_(sampled_pieces(scene.walls.blocks.size())),
+      particles_(ParticleChunks(scene).count()) {}
+
+std::size_t EnergyPieces::count() const { return walls_.size() + sampled_pieces(particles_.size()); }
+
+void EnergyPieces::evaluate(std::size_t piece) {
+  if (piece < walls_.size()) {
+    walls_[piece] = HWY_DYNAMIC_DISPATCH(energy_of_walls)(scene_, state_, sampled_piece(scene_.walls.blocks, piece));
+    return;
+  }
+  const ParticleChunks chunks(scene_);
+  const std::size_t first = (piece - walls_.size()) * kSampledTogether;
+  for (std::size_t chunk = first; chunk < std::min(first + kSampledTogether, particles_.size()); ++chunk) {
+    particles_[chunk] = chunks.works_of(scene_, state_, chunk);
+  }
+}
+
+Energies EnergyPieces::total() const {
+  const MotionWorks newest = works_of_half_step(scene_, state_, particles_);
+  Energies now{state_.ledger};
   newest.accumulate(now);
   now.kinetic = 0.5 * newest.twice_kinetic;
-  now.elastic = HWY_DYNAMIC_DISPATCH(energy_of_walls)(scene, state);
-  for (const Break& broken : state.breaks) now.fracture += broken.released;
+  for (const double of_blocks : walls_) now.elastic += of_blocks;
+  for (const Break& broken : state_.breaks) now.fracture += broken.released;
   now.residual = residual_of(now);
   return now;
+}
+
+Energies evaluate_energies(const Scene& scene, const State& state) {
+  EnergyPieces pieces(scene, state);
+  for (std::size_t i = 0; i < pieces.count(); ++i) pieces.evaluate(i);
+  return pieces.total();
 }
 
 }  // namespace cellcrush

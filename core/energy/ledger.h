@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "motion/motion_works.h"
 
 namespace cellcrush {
 
@@ -16,7 +20,29 @@ namespace cellcrush {
 /// Opens the ledger at time 0: sets the initial kinetic energy and subtracts the work of the half step before.
 void open_ledger(const Scene& scene, State& state);
 
-/// The ledger at the time of the state, and the energies at that time.
+/// The ledger at the time of a state, and the energies at that time, in pieces for any threads. The pieces depend on the
+/// scene alone, and so do the bits of their sum.
+class EnergyPieces {
+ public:
+  /// The state must outlive it, and not change.
+  EnergyPieces(const Scene& scene, const State& state);
+
+  [[nodiscard]] std::size_t count() const;
+
+  /// Does not throw; each piece once.
+  void evaluate(std::size_t piece);
+
+  /// REQUIRES: every piece is evaluated.
+  [[nodiscard]] Energies total() const;
+
+ private:
+  const Scene& scene_;
+  const State& state_;
+  std::vector<double> walls_;           ///< elastic energy of each piece, N mm
+  std::vector<MotionWorks> particles_;  ///< of each chunk of free particles
+};
+
+/// All of them at once.
 Energies evaluate_energies(const Scene& scene, const State& state);
 
 }  // namespace cellcrush

@@ -10,7 +10,9 @@ namespace cellcrush {
 namespace {
 
 /// The same angle in [-pi, pi].
-double least_angle(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+double least_angle(double angle) {
+  return std::abs(angle) <= std::numbers::pi ? angle : std::remainder(angle, 2.0 * std::numbers::pi);
+}
 
 /// The walls of a block, at one time.
 class BlockStrains {
@@ -102,8 +104,8 @@ class BlockStrains {
 };
 
 template <class Visit>
-void visit_walls(const Scene& scene, const State& state, const Visit& visit) {
-  for (const WallBlock& block : scene.walls.blocks) {
+void visit_walls(const Scene& scene, const State& state, std::span<const WallBlock> blocks, const Visit& visit) {
+  for (const WallBlock& block : blocks) {
     const BlockStrains strains(scene, state, block);
     for (int w = 0; w < block.walls; ++w) visit(block.first_wall + w, strains.of_wall(w));
   }
@@ -111,9 +113,9 @@ void visit_walls(const Scene& scene, const State& state, const Visit& visit) {
 
 }  // namespace
 
-WallStrain find_largest_fibre_strain(const Scene& scene, const State& state) {
+WallStrain find_largest_fibre_strain(const Scene& scene, const State& state, std::span<const WallBlock> blocks) {
   WallStrain largest;
-  visit_walls(scene, state, [&largest](int wall, double strain) {
+  visit_walls(scene, state, blocks, [&largest](int wall, double strain) {
     if (strain > largest.strain) largest = {strain, wall};
   });
   return largest;
@@ -121,7 +123,7 @@ WallStrain find_largest_fibre_strain(const Scene& scene, const State& state) {
 
 void evaluate_fibre_strains(const Scene& scene, const State& state, std::vector<float>& strains) {
   strains.assign(scene.wall_count(), 0.0F);
-  visit_walls(scene, state, [&](int wall, double strain) {
+  visit_walls(scene, state, scene.walls.blocks, [&](int wall, double strain) {
     float& of_wall = strains[scene.list_order.listed_wall(wall)];
     of_wall = std::max(of_wall, static_cast<float>(strain));
   });

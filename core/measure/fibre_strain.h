@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "cellcrush/scene.h"
@@ -19,8 +20,8 @@ struct WallStrain {
   int wall = 0;  ///< into Scene::walls
 };
 
-/// Of all walls; strain 0 before any is strained. Values that are not finite are left out.
-WallStrain find_largest_fibre_strain(const Scene& scene, const State& state);
+/// Of some blocks of walls; strain 0 before any is strained. Values that are not finite are left out.
+WallStrain find_largest_fibre_strain(const Scene& scene, const State& state, std::span<const WallBlock> blocks);
 
 /// Overwrites the strains of all walls (Scene::wall_count), by their numbers (MeshView::element_wall).
 void evaluate_fibre_strains(const Scene& scene, const State& state, std::vector<float>& strains);

@@ -260,10 +260,10 @@ void Sampler::list_breaks(const State& state, Sample& sample) {
   break_count_ = sample.break_count;
 }
 
-Sample Sampler::take(const Run& run) {
+/// What follows from the state without a look at every fibre.
+void Sampler::measure_lattice(const Run& run, Sample& sample) {
   const Scene& scene = run.scene;
   const State& state = run.state;
-  Sample sample;
   sample.step = state.step;
   sample.time = state.time;
   sample.travel = crush_travel_of(scene, state);
@@ -276,19 +276,38 @@ Sample Sampler::take(const Run& run) {
     measure_collapse(run, sample);
   }
   measure_closing(scene, state, sample);
-  sample.energies = evaluate_energies(scene, state);
   sample.energy_contact_stored = state.contact_totals.stored;
   sample.deepest_penetration = state.contact_totals.deepest_penetration;
   sample.contact_count = state.contact_totals.count;
-  const WallStrain largest = find_largest_fibre_strain(scene, state);
-  sample.largest_fibre_strain = largest.strain;
-  sample.most_strained_wall = scene.list_order.listed_wall(largest.wall);
   list_breaks(state, sample);
   find_warnings(scene, state, sample);
   measure_watched(scene, state, sample);
   measure_rigid_walls(scene, state, sample);
   measure_grips(scene, state, sample);
   last_time_ = state.time;
+}
+
+Sample Sampler::take(const Run& run, Workers& workers) {
+  const Scene& scene = run.scene;
+  const std::vector<WallBlock>& blocks = scene.walls.blocks;
+  EnergyPieces energies(scene, run.state);
+  std::vector<WallStrain> strains(sampled_pieces(blocks.size()));
+  const auto look_at = [&](std::size_t piece) {
+    if (piece < strains.size()) {
+      strains[piece] = find_largest_fibre_strain(scene, run.state, sampled_piece(blocks, piece));
+    } else {
+      energies.evaluate(piece - strains.size());
+    }
+  };
+  Sample sample;
+  workers.parallel_overlap(strains.size() + energies.count(), look_at, [&] { measure_lattice(run, sample); });
+  sample.energies = energies.total();
+  WallStrain largest;
+  for (const WallStrain& of_piece : strains) {
+    if (of_piece.strain > largest.strain) largest = of_piece;
+  }
+  sample.largest_fibre_strain = largest.strain;
+  sample.most_strained_wall = scene.list_order.listed_wall(largest.wall);
   return sample;
 }
 

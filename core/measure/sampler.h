@@ -9,6 +9,7 @@
 #include "measure/lateral_strain.h"
 #include "measure/layers.h"
 #include "measure/local_strain.h"
+#include "parallel/workers.h"
 
 namespace cellcrush {
 
@@ -28,7 +29,8 @@ class Sampler {
     const State& joined;    ///< without the new ends; the same if nothing has broken
   };
 
-  Sample take(const Run& run);
+  /// The workers share what looks at every element.
+  Sample take(const Run& run, Workers& workers);
 
   /// Overwrites a frame with positions, the fraction of the section area of each element that has yielded, and the
   /// largest fibre strain and local strain of each wall. REQUIRES: the frame is empty or of the same run.
@@ -63,6 +65,7 @@ class Sampler {
   void measure_closing(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_efficiency(const Scene& scene, Sample& sample);
+  void measure_lattice(const Run& run, Sample& sample);
   void measure_collapse(const Run& run, Sample& sample);
   void list_breaks(const State& state, Sample& sample);
   void find_warnings(const Scene& scene, const State& state, Sample& sample);
@@ -90,7 +93,7 @@ class Sampler {
   bool has_warned_of_necks_ = false;
   bool has_warned_of_density_ = false;
   bool has_warned_of_closing_ = false;
-  std::int64_t break_count_ = 0;      ///< listed so far
+  std::int64_t break_count_ = 0;    ///< listed so far
   double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
   std::vector<Absorbed> absorbed_ = std::vector<Absorbed>(1);  ///< the first at or before the window of the efficiency

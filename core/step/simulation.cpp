@@ -191,7 +191,8 @@ void Simulation::advance(std::int64_t steps, StageObserver* observer) {
 }
 
 Sample Simulation::take_sample() {
-  Sample sample = impl_->look_at_run([&](const Sampler::Run& run) { return impl_->sampler.take(run); });
+  Sample sample = impl_->look_at_run(
+      [&](const Sampler::Run& run) { return impl_->sampler.take(run, impl_->workspace.shared.workers); });
   sample.peak = impl_->peak.peak();
   const RunStatus found = check_run(*impl_->scene, impl_->state, sample);
   if (found.kind != RunStatus::Kind::running) {

@@ -45,6 +45,10 @@ inline constexpr std::size_t kCacheOfBands = 28'000'000;
 /// Bands consist of whole chunks. Changes bits.
 inline constexpr int kParticlesMovedTogether = 256;
 
+/// Blocks of walls, and chunks of particles, that a thread looks at for a sample at once. Changes bits of the elastic
+/// energy in samples.
+inline constexpr std::size_t kSampledTogether = 64;
+
 /// Lanes over which works are summed, whatever the vector width of the target. Changes bits.
 inline constexpr int kSumLanes = 8;
 

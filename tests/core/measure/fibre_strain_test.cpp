@@ -52,7 +52,7 @@ double strain_on_arc(int elements, double turn, double turned_before) {
     state.length[e] = span.norm();
     state.axis[e] = span.normalized();
   }
-  return find_largest_fibre_strain(*scene, state).strain;
+  return find_largest_fibre_strain(*scene, state, scene->walls.blocks).strain;
 }
 
 TEST(FibreStrain, OfAnArcIsHalfOfTheThicknessTimesItsCurvatureWhateverTheTurns) {

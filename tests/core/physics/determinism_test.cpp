@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "cellcrush/tuning.h"
@@ -51,16 +52,19 @@ TEST(Threads, AnyNumberOfThemGivesTheSameBits) {
   }
 }
 
-// Where the contacts do not overlap with the walls.
+// Where the contacts do not overlap with the walls. Threads share what a sample looks at, too.
 TEST(Threads, AnyNumberOfThemGivesTheSameBitsOfALargeLattice) {
   const auto scene = scenes::build(scenes::with_the_papers_elements(scenes::hexagon_specimen(100, 40)));
   ASSERT_GT(scene->element_count(), kMostElementsOverlapped);
   const auto crush_some = [&scene](int threads) {
     Simulation simulation(scene, threads);
     simulation.advance(100);
-    return scenes::hash_of(simulation.state());
+    const Sample sample = simulation.take_sample();
+    return std::tuple(scenes::hash_of(simulation.state()), sample.energies.kinetic, sample.energies.elastic,
+                      sample.energies.residual, sample.largest_fibre_strain, sample.most_strained_wall);
   };
-  const std::uint64_t one = crush_some(1);
+  const auto one = crush_some(1);
+  EXPECT_GT(std::get<4>(one), 0.0);
   EXPECT_EQ(crush_some(2), one);
   EXPECT_EQ(crush_some(3), one);
 }

@@ -227,7 +227,7 @@ TEST(Wavefront, GoOverToBucketsWhenBordersComeNearEachOtherAndTellSoOnce) {
   State state = make_initial_state(*scene);
   Workspace workspace;
   Sampler sampler(*scene);
-  const auto take = [&] { return sampler.take({*scene, state, *scene, state}); };
+  const auto take = [&] { return sampler.take({*scene, state, *scene, state}, workspace.shared.workers); };
   advance_steps(*scene, state, workspace, 20, nullptr);
   EXPECT_TRUE(can_advance_wavefronts(*scene, state));
   EXPECT_TRUE(take().warnings.empty());
