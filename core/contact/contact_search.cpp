@@ -1,5 +1,6 @@
 #include "contact/contact_search.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -91,13 +92,26 @@ bool are_neighbours(const BorderParticle& a, const BorderParticle& b) {
   return std::max(a.last_band, b.last_band) - std::min(a.band, b.band) <= 1;
 }
 
-double highest_speed(const std::vector<BorderParticle>& border, const State& state) {
-  double squared = 0.0;
+/// At least the speed at which any two particles of the border approach each other, mm/s.
+double highest_approach(const std::vector<BorderParticle>& border, const State& state) {
+  Eigen::AlignedBox2d velocities;
   for (const BorderParticle& at : border) {
-    const double of_particle = state.velocity[at.particle].squaredNorm();
-    squared = std::isfinite(of_particle) ? std::max(squared, of_particle) : squared;
+    if (state.velocity[at.particle].allFinite()) velocities.extend(state.velocity[at.particle]);
   }
-  return std::sqrt(squared);
+  return velocities.isEmpty() ? 0.0 : velocities.diagonal().norm();
+}
+
+/// Length of the longest element that ends at the border, mm.
+double longest_at_border(const Scene& scene, const State& state) {
+  double longest = 0.0;
+  for (const BorderParticle& at : scene.faces.border) {
+    for (int k = scene.incidence_offset[at.particle]; k < scene.incidence_offset[at.particle + 1]; ++k) {
+      const Element& element = scene.elements[scene.incidence[k]];
+      const double length = (state.position[element.end] - state.position[element.start]).norm();
+      longest = std::isfinite(length) ? std::max(longest, length) : longest;
+    }
+  }
+  return longest;
 }
 
 /// Whether bands follow each other along a direction, with more than a margin between bands that are not adjacent. This
@@ -124,8 +138,8 @@ bool follow_each_other(const Scene& scene, const State& state, const Vector2& di
   return true;
 }
 
-/// Whether any two particles of bands that are not adjacent are more than a margin apart.
-bool are_apart(const Scene& scene, const State& state, double margin) {
+/// The least distance of two particles of bands that are not adjacent, or a margin if none are nearer.
+double least_distance(const Scene& scene, const State& state, double margin) {
   std::vector<BorderParticle> border;
   std::vector<Vector2> place;
   for (const BorderParticle& at : scene.faces.border) {
@@ -135,17 +149,17 @@ bool are_apart(const Scene& scene, const State& state, double margin) {
     }
   }
   if (place.empty()) {
-    return true;
+    return margin;
   }
   const BucketGrid grid(place, margin);
   const Vector2 reach = Vector2::Constant(margin);
-  bool apart = true;
-  for (std::size_t i = 0; i < place.size() && apart; ++i) {
+  double least = margin;
+  for (std::size_t i = 0; i < place.size(); ++i) {
     grid.visit_box(place[i] - reach, place[i] + reach, [&](int other) {
-      apart = apart && (are_neighbours(border[i], border[other]) || (place[i] - place[other]).norm() > margin);
+      if (!are_neighbours(border[i], border[other])) least = std::min(least, (place[i] - place[other]).norm());
     });
   }
-  return apart;
+  return least;
 }
 
 }  // namespace
@@ -198,15 +212,18 @@ void change_topology(const Scene& scene, State& state, TopologyChange change, st
   }
 }
 
-bool borders_are_apart(const Scene& scene, const State& state, std::int64_t steps) {
-  const double time = scene.schedule.time_step * static_cast<double>(steps);
-  const double longest = *std::max_element(scene.walls.undeformed_length.begin(), scene.walls.undeformed_length.end());
-  const double speed = highest_speed(scene.faces.border, state);
-  const double margin = longest + 2.0 * scene.greatest_radius() + 2.0 * (2.0 * speed) * time;
+std::int64_t steps_with_borders_apart(const Scene& scene, const State& state, std::int64_t most) {
+  // A ball that touches an element is no farther from one of its ends than from its mid-line, plus half of its length.
+  const double touch = 0.5 * longest_at_border(scene, state) + 2.0 * scene.greatest_radius();
+  const double in_a_step = 2.0 * highest_approach(scene.faces.border, state) * scene.schedule.time_step;
+  const double margin = touch + in_a_step * static_cast<double>(most);
   const Vector2 directions[] = {Vector2::UnitX(), Vector2::UnitY(), -Vector2::UnitX(), -Vector2::UnitY()};
-  return std::any_of(std::begin(directions), std::end(directions),
-                     [&](const Vector2& direction) { return follow_each_other(scene, state, direction, margin); }) ||
-         are_apart(scene, state, margin);
+  if (std::any_of(std::begin(directions), std::end(directions),
+                  [&](const Vector2& direction) { return follow_each_other(scene, state, direction, margin); })) {
+    return most;
+  }
+  const double least = least_distance(scene, state, margin);
+  return least < margin ? static_cast<std::int64_t>((least - touch) / in_a_step) : most;
 }
 
 }  // namespace cellcrush

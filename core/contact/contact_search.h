@@ -46,9 +46,9 @@ bool searches_faces(const Scene& scene, const State& state);
 bool has_left_faces(const Scene& scene, const State& state);
 
 /// At the outer face, balls of a band are tested against the segments of its own part of the border and of its
-/// neighbours only (FacesOfBand::is_outer_whole). Returns whether the parts of bands that are not adjacent are far
-/// enough apart: none can touch within `steps` steps unless speeds at the border more than double. REQUIRES: a lattice
-/// that is cut into bands. Non-finite positions are ignored; the check of the state stops such a run.
-bool borders_are_apart(const Scene& scene, const State& state, std::int64_t steps);
+/// neighbours only (FacesOfBand::is_outer_whole). Returns in how many steps, `most` at most, no parts of bands that are
+/// not adjacent can touch, unless speeds at the border more than double; 0 or less if some may. Positions that are not
+/// finite are ignored; the check of the state stops such a run. REQUIRES: a lattice that is cut into bands.
+std::int64_t steps_with_borders_apart(const Scene& scene, const State& state, std::int64_t most);
 
 }  // namespace cellcrush

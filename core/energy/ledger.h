@@ -20,8 +20,8 @@ namespace cellcrush {
 /// Opens the ledger at time 0: sets the initial kinetic energy and subtracts the work of the half step before.
 void open_ledger(const Scene& scene, State& state);
 
-/// The ledger at the time of a state, and the energies at that time, in pieces for any threads. The pieces depend on the
-/// scene alone, and so do the bits of their sum.
+/// The ledger at the time of a state, and the energies at that time, in pieces for any threads. What a piece is depends
+/// on the scene alone, so the bits of the sum do, too.
 class EnergyPieces {
  public:
   /// The state must outlive it, and not change.

@@ -86,8 +86,8 @@ void advance_steps(const Scene& scene, State& state, Workspace& workspace, std::
                    StageObserver* observer) {
   const std::int64_t end = state.step + steps;
   while (state.step < end) {
-    if (can_advance_wavefronts(scene, state)) {
-      advance_wavefront(scene, state, workspace, steps_in_wavefront(end - state.step), observer);
+    if (const std::int64_t at_once = begin_wavefront(scene, state, end - state.step); at_once > 0) {
+      advance_wavefront(scene, state, workspace, at_once, observer);
     } else {
       advance_step(scene, state, workspace, observer);
     }

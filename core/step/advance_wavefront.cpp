@@ -44,15 +44,12 @@ std::size_t place_count(const Scene& scene) {
   return scene.bands.size() + std::ranges::max(kStages, {}, &StageEntry::bands_behind).bands_behind;
 }
 
-/// Switches to a search by buckets if walls have crossed, or if parts of the border that are searched separately may
-/// touch.
-void check_search(const Scene& scene, State& state, std::int64_t first, std::span<const StepRecord> records) {
+/// Switches to a search by buckets if walls have crossed.
+void check_walls(const Scene& scene, State& state, std::int64_t first, std::span<const StepRecord> records) {
   const auto crossed =
       std::find_if(records.begin(), records.end(), [](const StepRecord& record) { return record.has_crossed; });
   if (crossed != records.end()) {
     change_topology(scene, state, TopologyChange::walls_crossed, first + 1 + (crossed - records.begin()));
-  } else if (!borders_are_apart(scene, state, kMostStepsInWavefront)) {
-    change_topology(scene, state, TopologyChange::borders_near, state.step);
   }
 }
 
@@ -62,9 +59,14 @@ bool can_advance_wavefronts(const Scene& scene, const State& state) {
   return scene.bands.size() > 1 && searches_faces(scene, state);
 }
 
-std::int64_t steps_in_wavefront(std::int64_t steps) {
+std::int64_t begin_wavefront(const Scene& scene, State& state, std::int64_t steps) {
+  if (!can_advance_wavefronts(scene, state)) return 0;
   const std::int64_t wavefronts = (steps + kMostStepsInWavefront - 1) / kMostStepsInWavefront;
-  return (steps + wavefronts - 1) / wavefronts;
+  const std::int64_t even = (steps + wavefronts - 1) / wavefronts;
+  const std::int64_t apart = steps_with_borders_apart(scene, state, even);
+  if (apart == even || apart >= kFewestStepsInWavefront) return apart;
+  change_topology(scene, state, TopologyChange::borders_near, state.step);
+  return 0;
 }
 
 void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,
@@ -96,7 +98,7 @@ void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, s
   }
   state.time = static_cast<double>(state.step) * scene.schedule.time_step;
   watch_approach(scene, state);
-  check_search(scene, state, first, records);
+  check_walls(scene, state, first, records);
   scope.end_step();
 }
 

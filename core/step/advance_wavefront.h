@@ -13,8 +13,9 @@ namespace cellcrush {
 /// by faces.
 bool can_advance_wavefronts(const Scene& scene, const State& state);
 
-/// How many of some steps to advance in one wavefront.
-std::int64_t steps_in_wavefront(std::int64_t steps);
+/// How many of some steps to advance in one wavefront; 0 if the next one is to be advanced alone. Ends the search by
+/// faces where parts of the border that bands search separately come so near each other that they may touch soon.
+std::int64_t begin_wavefront(const Scene& scene, State& state, std::int64_t steps);
 
 /// Advances the state by some steps at once, to the same bits as one after the other.
 ///
@@ -25,7 +26,7 @@ std::int64_t steps_in_wavefront(std::int64_t steps);
 /// particle are added in the order of bands, whichever thread computes them. Sums over the lattice are recorded by
 /// chunk and step and added afterwards.
 ///
-/// Walls found to have crossed are reported at the end of the wavefront. REQUIRES: can_advance_wavefronts.
+/// Walls found to have crossed are reported at the end of the wavefront. REQUIRES: so many steps of begin_wavefront.
 void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,
                        StageObserver* observer);
 

@@ -1,7 +1,9 @@
 #include "contact/topology/bands.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace cellcrush {
 namespace {
@@ -77,6 +79,27 @@ bool are_apart(const Scene& scene, const std::vector<FaceLoop>& loops, const std
   return std::find(has_border.begin(), has_border.end(), false) == has_border.end();
 }
 
+/// Whether bands that are not adjacent stay apart as the lattice is crushed: the band between them is pressed together
+/// only if the bands follow each other along the crush. Its walls alone then keep them apart by their area over its
+/// width.
+bool stay_apart(const Scene& scene, const std::vector<LatticeBand>& bands) {
+  if (!scene.plates.present) return true;
+  const int axis = scene.plates.axis;
+  const Vector2 from_first = scene.position[bands.back().first_joint] - scene.position[bands.front().first_joint];
+  if (std::abs(from_first[axis]) <= std::abs(from_first[1 - axis])) return true;
+  const auto across = [axis](const Vector2& place) { return place[1 - axis]; };
+  const auto [low, high] = std::ranges::minmax_element(scene.position, {}, across);
+  double area = 0.0;
+  double longest = 0.0;
+  for (const Element& element : scene.elements) {
+    const double length = (scene.position[element.end] - scene.position[element.start]).norm();
+    area += length * element.thickness;
+    longest = std::max(longest, length);
+  }
+  const double solid_depth = area / (across(*high) - across(*low)) / static_cast<double>(bands.size());
+  return solid_depth >= kSolidDepthOfBand * longest;
+}
+
 }  // namespace
 
 std::size_t bytes_of_band(const Scene& scene) { return kBytesOfElement * scene.element_count() / scene.bands.size(); }
@@ -95,14 +118,15 @@ std::vector<LatticeBand> cut_into_bands(const Scene& scene, const std::vector<Fa
   const auto are_small = [&](std::size_t chunks) {
     return 2 * kBandsBehind * (kBytesOfElement * scene.element_count() * chunks / all_chunks) <= kCacheOfBands;
   };
+  std::vector<LatticeBand> smallest = {whole_band(scene)};
   for (int chunks = kLeastChunksOfBand; may_be_cut && are_small(chunks) && chunks * kLeastBands <= all_chunks;
        chunks += kMoreChunksOfBand) {
     std::vector<LatticeBand> bands = cut(scene, chunks);
-    if (are_apart(scene, loops, bands)) {
-      return bands;
-    }
+    if (!are_apart(scene, loops, bands)) continue;
+    if (stay_apart(scene, bands)) return bands;
+    if (smallest.size() == 1) smallest = std::move(bands);
   }
-  return {whole_band(scene)};
+  return smallest;
 }
 
 std::vector<int> bands_of_particles(const Scene& scene, const std::vector<LatticeBand>& bands) {

@@ -22,7 +22,8 @@ LatticeBand whole_band(const Scene& scene);
 ///  - walls join particles of their own band and of the band before;
 ///  - a face has particles of at most two adjacent bands, and the elements at these particles belong to these bands or
 ///    their neighbours.
-/// Bands are as small as these conditions allow. The lattice stays a single band if
+/// Bands are as small as these conditions allow, and, where the caches hold such bands, so deep that a crush does not
+/// press those on either side of one together. The lattice stays a single band if
 ///  - it is small,
 ///  - the caches do not hold the bands of two steps, as for rows of many thousand elements,
 ///  - a step needs more than walls, plates and contacts without friction, or walls overlap before loading.

@@ -39,6 +39,10 @@ inline constexpr std::size_t kBytesOfElement = 430;
 /// machine. Changes bits.
 inline constexpr std::size_t kCacheOfBands = 28'000'000;
 
+/// Depth that the walls of a band keep, pressed solid along the crush, over the longest element: it keeps the bands on
+/// either side so far apart that contacts need not be searched in space. Changes bits.
+inline constexpr double kSolidDepthOfBand = 2.5;
+
 // Steps.
 
 /// Most particles of a chunk that is moved at once: all joints, or all particles inside walls, counted from the first.
@@ -75,6 +79,10 @@ inline constexpr std::size_t kMostStepsAtOnce = 10;
 /// Most steps in a wavefront: mostly all steps between two samples, so that later steps begin while the first ones end.
 /// Speed only.
 inline constexpr std::int64_t kMostStepsInWavefront = 32;
+
+/// Steps that a wavefront has at least, unless fewer are asked for: with borders so near that it would have fewer, the
+/// contacts are searched in space. Speed only.
+inline constexpr std::int64_t kFewestStepsInWavefront = 4;
 
 /// Checks of a flag before a thread yields: some hundred microseconds, longer than the gaps between the loops of a
 /// step. Speed only.
