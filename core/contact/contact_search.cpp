@@ -223,7 +223,8 @@ std::int64_t steps_with_borders_apart(const Scene& scene, const State& state, st
     return most;
   }
   const double least = least_distance(scene, state, margin);
-  return least < margin ? static_cast<std::int64_t>((least - touch) / in_a_step) : most;
+  if (least >= margin) return most;
+  return least > touch ? static_cast<std::int64_t>((least - touch) / in_a_step) : 0;
 }
 
 }  // namespace cellcrush

@@ -47,7 +47,7 @@ bool has_left_faces(const Scene& scene, const State& state);
 
 /// At the outer face, balls of a band are tested against the segments of its own part of the border and of its
 /// neighbours only (FacesOfBand::is_outer_whole). Returns in how many steps, `most` at most, no parts of bands that are
-/// not adjacent can touch, unless speeds at the border more than double; 0 or less if some may. Positions that are not
+/// not adjacent can touch, unless speeds at the border more than double; 0 if some may now. Positions that are not
 /// finite are ignored; the check of the state stops such a run. REQUIRES: a lattice that is cut into bands.
 std::int64_t steps_with_borders_apart(const Scene& scene, const State& state, std::int64_t most);
 
