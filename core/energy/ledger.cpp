@@ -11,6 +11,7 @@
 
 #include "beam/cross_section-inl.h"
 #include "beam/element_place.h"
+#include "motion/integrate_motion.h"
 #include "motion/motion_works-inl.h"
 #include "motion/particle_motion-inl.h"
 #include "motion/periodic_sides.h"
@@ -136,31 +137,10 @@ HWY_EXPORT(energy_of_walls);
 
 namespace {
 
-/// Free particles that are moved together, the joints first.
-struct ParticleChunks {
-  explicit ParticleChunks(const Scene& scene)
-      : begin(scene.rigid.particle_count()),
-        joints(static_cast<std::size_t>(scene.joint_count)),
-        end(scene.particle_count()) {}
-
-  static std::size_t chunks_of(std::size_t particles) {
-    return (particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether;
-  }
-  [[nodiscard]] std::size_t count() const { return chunks_of(joints - begin) + chunks_of(end - joints); }
-
-  [[nodiscard]] MotionWorks works_of(const Scene& scene, const State& state, std::size_t chunk) const {
-    const std::size_t of_joints = chunks_of(joints - begin);
-    const bool is_inner = chunk >= of_joints;
-    const std::size_t first =
-        is_inner ? joints + (chunk - of_joints) * kParticlesMovedTogether : begin + chunk * kParticlesMovedTogether;
-    return HWY_DYNAMIC_DISPATCH(works_of_particles)(scene, state, first,
-                                                    std::min(first + kParticlesMovedTogether, is_inner ? end : joints));
-  }
-
-  std::size_t begin;
-  std::size_t joints;
-  std::size_t end;
-};
+MotionWorks works_of_chunk(const Scene& scene, const State& state, std::size_t chunk) {
+  const auto [first, end] = moved_chunk(scene, chunk);
+  return HWY_DYNAMIC_DISPATCH(works_of_particles)(scene, state, first, end);
+}
 
 /// The works of the newest forces over the half step up to the time of the state, and twice the kinetic energy at that
 /// time.
@@ -179,9 +159,8 @@ MotionWorks works_of_half_step(const Scene& scene, const State& state, std::span
 }  // namespace
 
 void open_ledger(const Scene& scene, State& state) {
-  const ParticleChunks chunks(scene);
-  std::vector<MotionWorks> of_particles(chunks.count());
-  for (std::size_t i = 0; i < of_particles.size(); ++i) of_particles[i] = chunks.works_of(scene, state, i);
+  std::vector<MotionWorks> of_particles(moved_chunk_count(scene));
+  for (std::size_t i = 0; i < of_particles.size(); ++i) of_particles[i] = works_of_chunk(scene, state, i);
   const MotionWorks start = works_of_half_step(scene, state, of_particles);
   start.accumulate(state.ledger, -1.0);
   state.ledger.initial = 0.5 * start.twice_kinetic;
@@ -191,7 +170,7 @@ EnergyPieces::EnergyPieces(const Scene& scene, const State& state)
     : scene_(scene),
       state_(state),
       walls_(sampled_pieces(scene.walls.blocks.size())),
-      particles_(ParticleChunks(scene).count()) {}
+      particles_(moved_chunk_count(scene)) {}
 
 std::size_t EnergyPieces::count() const { return walls_.size() + sampled_pieces(particles_.size()); }
 
@@ -200,10 +179,9 @@ void EnergyPieces::evaluate(std::size_t piece) {
     walls_[piece] = HWY_DYNAMIC_DISPATCH(energy_of_walls)(scene_, state_, sampled_piece(scene_.walls.blocks, piece));
     return;
   }
-  const ParticleChunks chunks(scene_);
   const std::size_t first = (piece - walls_.size()) * kSampledTogether;
   for (std::size_t chunk = first; chunk < std::min(first + kSampledTogether, particles_.size()); ++chunk) {
-    particles_[chunk] = chunks.works_of(scene_, state_, chunk);
+    particles_[chunk] = works_of_chunk(scene_, state_, chunk);
   }
 }
 

@@ -159,6 +159,16 @@ std::size_t close_up(const Group& group, const std::vector<MovedChunk>& moved, s
 
 }  // namespace
 
+ParticleRange moved_chunk(const Scene& scene, std::size_t chunk) {
+  const auto rigid = static_cast<std::size_t>(scene.rigid.particle_count());
+  const auto joints = static_cast<std::size_t>(scene.joint_count);
+  const auto of_joints = static_cast<std::size_t>(chunks_of(scene.joint_count - scene.rigid.particle_count()));
+  const bool is_inner = chunk >= of_joints;
+  const std::size_t first =
+      is_inner ? joints + (chunk - of_joints) * kParticlesMovedTogether : rigid + chunk * kParticlesMovedTogether;
+  return {first, std::min(first + kParticlesMovedTogether, is_inner ? scene.particle_count() : joints)};
+}
+
 std::size_t moved_chunk_count(const Scene& scene) {
   const Group inner = inner_of(scene, whole_band(scene));
   return inner.first_chunk + inner.chunk_count();

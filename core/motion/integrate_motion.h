@@ -27,6 +27,13 @@ struct MovedChunk {
 /// Chunks of a scene's free particles, those of joints first.
 std::size_t moved_chunk_count(const Scene& scene);
 
+/// The particles of such a chunk, from the first to the one after the last.
+struct ParticleRange {
+  std::size_t first = 0;
+  std::size_t end = 0;
+};
+ParticleRange moved_chunk(const Scene& scene, std::size_t chunk);
+
 /// How many particles of a band may be near a plate. They stand in a list with room for all particles, from the band's
 /// first joint on, and from its first particle inside a wall, ascending.
 struct NearCounts {

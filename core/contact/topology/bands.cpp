@@ -87,17 +87,8 @@ bool stay_apart(const Scene& scene, const std::vector<LatticeBand>& bands) {
   const int axis = scene.plates.axis;
   const Vector2 from_first = scene.position[bands.back().first_joint] - scene.position[bands.front().first_joint];
   if (std::abs(from_first[axis]) <= std::abs(from_first[1 - axis])) return true;
-  const auto across = [axis](const Vector2& place) { return place[1 - axis]; };
-  const auto [low, high] = std::ranges::minmax_element(scene.position, {}, across);
-  double area = 0.0;
-  double longest = 0.0;
-  for (const Element& element : scene.elements) {
-    const double length = (scene.position[element.end] - scene.position[element.start]).norm();
-    area += length * element.thickness;
-    longest = std::max(longest, length);
-  }
-  const double solid_depth = area / (across(*high) - across(*low)) / static_cast<double>(bands.size());
-  return solid_depth >= kSolidDepthOfBand * longest;
+  const double solid_depth = scene.solid_area / scene.width / static_cast<double>(bands.size());
+  return solid_depth >= kSolidDepthOfBand * std::ranges::max(scene.walls.undeformed_length);
 }
 
 }  // namespace
