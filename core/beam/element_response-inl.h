@@ -6,8 +6,6 @@
 #define CELLCRUSH_BEAM_ELEMENT_RESPONSE_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstddef>
 #include <numbers>
 

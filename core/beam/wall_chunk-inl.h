@@ -108,7 +108,19 @@ class WallChunk {
     visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
   }
 
+  /// The three loops for one wall, or for those of the lanes from `lane` on, alone: beside other threads that do so with
+  /// other walls of the block.
+  HWY_INLINE void advance_alone(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) {
+    alone_ = lane;
+    is_squashed_ = false;
+    reverse_motions(block, lane);
+    return_map_fibres(block, lane);
+    put_forces(block, lane, plastic_work);
+  }
+
  private:
+  static constexpr int kTogether = -1;
+
   /// Calls visit(block, lane) for every group of walls that fills the lanes of tag L.
   template <class L, class Visit>
   HWY_INLINE void visit_lanes(Visit&& visit) const {
@@ -213,9 +225,11 @@ class WallChunk {
   HWY_INLINE void note_modulus(Real share, T* to) {
     if (!is_squashed_) {
       for (const WallBlock& block : blocks_) {
+        const int walls = walls_of(block);
+        const int first = alone_ == kTogether ? 0 : std::min(alone_, walls);
+        const int end = alone_ == kTogether ? walls : std::min(alone_ + static_cast<int>(Real::kWidth), walls);
         for (int j = 0; j < block.elements; ++j) {
-          const int walls = walls_of(block);
-          std::fill_n(scratch_.strains(row_of(block, j), 0, walls).modulus_share, walls, T(1.0));
+          std::fill_n(scratch_.strains(row_of(block, j), first, walls).modulus_share, end - first, T(1.0));
         }
       }
       is_squashed_ = true;
@@ -455,6 +469,7 @@ class WallChunk {
   const LaneMaterial<F> uniform_;
   ElasticElement<F> elastic_;  // of walls that shear, of those in the lanes
   bool is_squashed_ = false;
+  int alone_ = kTogether;  // the lane, where one advances alone
 };
 
 }  // namespace cellcrush::HWY_NAMESPACE

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "contact/contact_tiles.h"
+#include "contact/growth_forces-inl.h"
 #include "contact/start_overlaps.h"
-#include "contact/touch_geometry-inl.h"
 
 namespace cellcrush {
 namespace {
@@ -15,30 +13,6 @@ namespace {
 double reach_with(const Scene& scene, int ball, int segment, double growth, double most) {
   const double before = std::min(scene.full_reach_of(ball, segment), most);
   return growth > 0.0 ? std::min(before + growth, most) : before;
-}
-
-/// Adds a force to the end of an element and its reverse to the start.
-void push_ends(const Scene& scene, State& state, int element, const Vector2& on_end) {
-  const Element& ends = scene.elements[element];
-  state.contact_force[ends.end].elastic += on_end;
-  state.contact_force[ends.start].elastic -= on_end;
-  mark_contact_tile(state, ends.start);
-  mark_contact_tile(state, ends.end);
-}
-
-/// The ball is pushed towards the thinner end by the derivative of the reach by the foot's place; `taper` is what the
-/// reach is more at the segment's end than at its start. The couple of this force and its reaction on the mid-line is
-/// that of two forces across the segment.
-void push_along(const Scene& scene, State& state, const GrownTouch& touch, double taper) {
-  const Element& ends = scene.elements[touch.segment];
-  const double inverse_length = state.inverse_length[touch.segment];
-  const Vector2& axis = state.axis[touch.segment];
-  const double slope = 6.0 * touch.share * (1.0 - touch.share);  // of share_of_end
-  const double along = touch.force * slope * taper * inverse_length;
-  state.contact_force[touch.ball].elastic -= along * axis;
-  state.contact_force[ends.start].elastic += (1.0 - touch.share) * along * axis;
-  state.contact_force[ends.end].elastic += touch.share * along * axis;
-  push_ends(scene, state, touch.segment, -along * touch.offset * inverse_length * Vector2(-axis.y(), axis.x()));
 }
 
 }  // namespace
@@ -69,34 +43,11 @@ double growth_of_reach(const Scene& scene, const State& state, std::size_t first
 }
 
 void push_elements_apart(const Scene& scene, State& state, int ball, double force) {
-  const int first = scene.incidence_offset[ball];
-  for (const int element : {scene.incidence[first], scene.incidence[first + 1]}) {
-    if (const double slope = state.thickening_slope[element]; slope != 0.0) {
-      push_ends(scene, state, element, -0.5 * slope * force * state.axis[element]);
-    }
-  }
+  HWY_NAMESPACE::push_elements_apart(scene, state, ball, force);
 }
 
 void push_by_growth(const Scene& scene, State& state, const GrownTouch& touch) {
-  const Element& ends = scene.elements[touch.segment];
-  const double limit =
-      most_reach_now(scene, state, touch.ball, touch.segment) - reach_now(scene, state, touch.ball, touch.segment);
-  const double of_ball = state.radius_growth[touch.ball];
-  const double at_start = of_ball + state.radius_growth[ends.start];
-  const double at_end = of_ball + state.radius_growth[ends.end];
-  const double of_end = HWY_NAMESPACE::share_of_end(touch.share);
-  const double on_start = at_start < limit ? (1.0 - of_end) * touch.force : 0.0;
-  const double on_end = at_end < limit ? of_end * touch.force : 0.0;
-  for (const auto& [ball, force] :
-       {std::pair(touch.ball, on_start + on_end), std::pair(ends.start, on_start), std::pair(ends.end, on_end)}) {
-    if (state.radius_growth[ball] > 0.0) {
-      push_elements_apart(scene, state, ball, force);
-    }
-  }
-  const double taper = std::min(at_end, limit) - std::min(at_start, limit);
-  if (taper != 0.0 && touch.share > 0.0 && touch.share < 1.0) {
-    push_along(scene, state, touch, taper);
-  }
+  HWY_NAMESPACE::push_by_growth(scene, state, touch);
 }
 
 }  // namespace cellcrush

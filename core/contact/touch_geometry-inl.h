@@ -6,10 +6,10 @@
 #define CELLCRUSH_CONTACT_TOUCH_GEOMETRY_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {

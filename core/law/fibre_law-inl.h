@@ -134,6 +134,11 @@ struct NothingCarried {};
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
+#ifdef CELLCRUSH_ON_DEVICE  // those that call no function of Highway's for powers and logarithms
+#include "law/kinds/mixed_hardening-inl.h"
+#include "law/kinds/perfectly_plastic-inl.h"
+#else
 #include "law/kinds-inl.h"  // includes all files of law/kinds; CMake writes it
+#endif
 
 #endif  // CELLCRUSH_LAW_FIBRE_LAW_INL_H_

@@ -10,8 +10,7 @@
 
 #include "contact/contact_tiles.h"
 #include "contact/topology/bands.h"
-#include "motion/motion_works-inl.h"
-#include "motion/particle_motion-inl.h"
+#include "motion/move_particles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
@@ -48,36 +47,6 @@ HWY_INLINE bool bear_contact(const ParticleArrays<State>& arrays, std::size_t i)
   const auto part = [&](std::size_t k) HWY_ATTR { return hn::LoadU(D(), forces + k * Lane<D>::kWidth); };
   const Lane<D> bits = hn::Or(hn::Or(part(0), part(1)), hn::Or(part(2), part(3)));
   return !all(bits == 0);  // not any(bits != 0): the bits of several numbers may be those of a NaN
-}
-
-/// Adds the impulses of the supports of a particle over a step.
-template <class D>
-HWY_INLINE void add_reactions(const ParticleArrays<State>& arrays, const StepFactors& step, std::size_t i,
-                              const ParticleMotion<D>& motion) {
-  if (!arrays.scene.supports.empty()) {
-    ReactionImpulse& impulse = arrays.reaction_impulse[i];
-    impulse.x += step.step * hn::GetLane(motion.reaction.x.raw);
-    impulse.y += step.step * hn::GetLane(motion.reaction.y.raw);
-    impulse.moment += step.step * hn::GetLane(motion.reaction_moment.raw);
-  }
-}
-
-template <bool kContact, class Kinds, class D>
-HWY_INLINE void move(const ParticleArrays<State>& arrays, const StepFactors& step, std::size_t i, LaneWorks<D>& works,
-                     NearPlatesNotes& near_plates) {
-  const ParticleForces<D> forces = forces_on<kContact, Kinds, D>(arrays, i);
-  const ParticleMotion<D> motion = motion_of<Kinds>(arrays, step, forces, i);
-  add_works_of_step<kContact, Kinds>(arrays, step, i, forces, motion, works);
-  if constexpr (Kinds::kFrame) {
-    add_reactions(arrays, step, i, motion);
-  }
-  const Lane<D> dt = step.step;
-  const Points<D> position = fma(dt, motion.next, Points<D>::load(arrays.position + i));
-  near_plates.note(position, i);
-  motion.next.store(arrays.velocity + i);
-  motion.next_spin.store(arrays.spin + i);
-  position.store(arrays.position + i);
-  fma(dt, motion.next_spin, Lane<D>::load(arrays.rotation + i)).store(arrays.rotation + i);
 }
 
 template <class Kinds>

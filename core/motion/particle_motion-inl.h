@@ -12,7 +12,6 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "motion/plate_motion.h"
 #include "simd/lane-inl.h"
 #include "simd/points-inl.h"
 
@@ -164,40 +163,6 @@ HWY_INLINE V next_velocity(const StepFactors& step, const V& velocity, Lane<D> g
   return fma(gain_per_mass, force, Lane<D>(step.keep) * velocity);
 }
 
-/// Imposed velocity v_held of a held degree of freedom over the coming step, mm/s or rad/s (E15); 0 if it is held
-/// still.
-inline double held_velocity(const Scene& scene, const State& state, const Hold& hold) {
-  if (hold.motion == Hold::kStill) {
-    return 0.0;
-  }
-  const double time = state.time;
-  const double step = scene.schedule.time_step;
-  if (hold.motion == Hold::kWithImpactPlate) {
-    return plate_speed_at(scene, state, time + 0.5 * step);
-  }
-  const TimeFunction& motion = scene.motions[hold.motion];
-  return (motion.value_at(time + step) - motion.value_at(time)) / step;
-}
-
-/// Replaces the free velocities of held degrees of freedom by the imposed ones, and computes the reactions (E15).
-template <class D, class S>
-HWY_INLINE void apply_supports(const ParticleArrays<S>& arrays, const StepFactors& step, std::size_t i,
-                               ParticleMotion<D>& motion) {
-  static_assert(Lane<D>::kWidth == 1);
-  const double mass_per_gain = arrays.mass[i] / step.gain;
-  const auto hold = [&](const Hold& support, double per_velocity, Lane<D>& velocity, Lane<D>& reaction) HWY_ATTR {
-    if (support.held) {
-      const Lane<D> held = held_velocity(arrays.scene, arrays.state, support);
-      reaction = Lane<D>(per_velocity) * (held - velocity);
-      velocity = held;
-    }
-  };
-  const Support& support = arrays.scene.supports[i];
-  hold(support.x, mass_per_gain, motion.next.x, motion.reaction.x);
-  hold(support.y, mass_per_gain, motion.next.y, motion.reaction.y);
-  hold(support.rotation, arrays.inertia[i] / step.gain, motion.next_spin, motion.reaction_moment);
-}
-
 /// Motion of the particles from `i` on, which belong to no rigid body.
 template <class Kinds, class D, class S>
 HWY_INLINE ParticleMotion<D> motion_of(const ParticleArrays<S>& arrays, const StepFactors& step,
@@ -218,5 +183,9 @@ HWY_INLINE ParticleMotion<D> motion_of(const ParticleArrays<S>& arrays, const St
 
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+#ifndef CELLCRUSH_ON_DEVICE  // where nothing is held
+#include "motion/supports-inl.h"
+#endif
 
 #endif  // CELLCRUSH_MOTION_PARTICLE_MOTION_INL_H_

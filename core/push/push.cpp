@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "contact/contact_tiles.h"
-#include "contact/thickening.h"
 #include "contact/touch/force_laws.h"
+#include "push/press_ball-inl.h"
 
 namespace cellcrush {
 
@@ -37,21 +36,9 @@ double inverse_mass_of(const Scene& scene, int particle) {
 
 FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int particle, double radius) {
   const double distance = face.distance_of(state.position[particle]);
-  const double depth = radius - distance;
-  FaceForce sum;
-  if (depth > 0.0) {
-    const double rate = face.speed - face.normal.dot(state.velocity[particle]);
-    const NormalForce force = evaluate_normal_force(face.stiffness, scene.contact.damping_ratio,
-                                                    inverse_mass_of(scene, particle), depth, rate);
-    sum = {force.elastic, force.viscous, 0.0, 0.5 * force.elastic * depth};
-    if (face.grows && state.radius_growth[particle] > 0.0) {
-      push_elements_apart(scene, state, particle, force.elastic);
-    }
-    state.contact_force[particle].elastic += force.elastic * face.normal;
-    state.contact_force[particle].viscous += force.viscous * face.normal;
-    mark_contact_tile(state, particle);
-  }
-  if (face.friction_of != nullptr && (depth > 0.0 || face.friction_of[particle] != 0.0)) {
+  FaceForce sum =
+      HWY_NAMESPACE::press_ball(scene, state, face, particle, radius - distance, inverse_mass_of(scene, particle));
+  if (face.friction_of != nullptr && (distance < radius || face.friction_of[particle] != 0.0)) {
     sum.tangential = rub(scene, state, face, particle, distance, face.friction * (sum.elastic + sum.viscous));
   }
   return sum;

@@ -6,7 +6,11 @@
 #define CELLCRUSH_SIMD_LANE_INL_H_
 #endif
 
+#ifdef CELLCRUSH_ON_DEVICE
+#include "device/one_number-inl.h"
+#else
 #include <hwy/highway.h>
+#endif
 
 #include <bit>
 #include <cstddef>

@@ -6,8 +6,6 @@
 #define CELLCRUSH_SIMD_POINTS_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstddef>
 
 #include "cellcrush/vector.h"

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "contact/touch/contact_stages.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -7,103 +5,20 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "contact/thickening.h"
-#include "contact/touch/force_laws.h"
-#include "simd/lane-inl.h"
+#include "contact/touch/normal_forces-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Normal force of the pair of a contact (E8); its sum is kept for friction. 0 if the contact does not have the pair.
-HWY_INLINE NormalForce force_of_pair(const Scene& scene, const Touches& touches, ActiveContact& contact) {
-  if (!contact.has_pair) {
-    return {0.0, 0.0};
-  }
-  const NormalForce net = without_pull(contact.share * scene.contact.stiffness * contact.net_depth,
-                                       contact.share * touches.viscous[contact.touch]);
-  contact.normal_force = net.elastic + net.viscous;
-  return net;
-}
-
-/// Subtracts half of the energy and force of the touch of two balls (E8b). The ball of the node counts this pair as
-/// well, and pushes on its own where the node lies under the segments of the ball.
-HWY_INLINE void subtract_double_count(const Scene& scene, State& state, const TouchMemory& touching,
-                                      const Touches& touches, const ActiveContact& contact, double& stored) {
-  const int node_touch = contact.node_touch;
-  const double stiffness = 0.5 * contact.share * scene.contact.stiffness;
-  const double depth = touches.node_depth[node_touch];
-  const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
-  state.contact_force[touching.ball[node_touch]].elastic -= force;
-  state.contact_force[touches.node[node_touch]].elastic += force;
-  stored -= 0.5 * stiffness * depth * depth;
-  if (touches.growth[node_touch] > 0.0) {
-    const int segment = touching.segment[node_touch];
-    const double share = touches.node[node_touch] == scene.elements[segment].start ? 0.0 : 1.0;
-    push_by_growth(scene, state, {touching.ball[node_touch], segment, share, 0.0, -stiffness * depth});
-  }
-}
-
-/// Adds a share of the forces of a pair, elastic x and y, viscous x and y, to those of a particle.
-HWY_INLINE void add_share(double share, const double* HWY_RESTRICT pair, ContactForce& to) {
-  using Numbers = Lane<WideTag<double, 4>>;
-  double* sums = to.elastic.data();
-  for (std::size_t k = 0; k < 4; k += Numbers::kWidth) {
-    (Numbers::load(sums + k) + share * Numbers::load(pair + k)).store(sums + k);
-  }
-}
-
-/// Records the depth of a touch, divided by the thickness of the thinner wall, if it is the greatest so far.
-HWY_INLINE void record_depth(const Scene& scene, const TouchMemory& touching, int touch, double depth, bool is_new,
-                             ContactTotals& totals) {
-  // Most touches are rejected before the thicknesses of their walls are loaded.
-  if (!(depth > scene.contact.thinnest * (is_new ? totals.deepest_birth : totals.deepest_penetration))) {
-    return;
-  }
-  const double thinner =
-      std::min(2.0 * scene.radius[touching.ball[touch]], scene.elements[touching.segment[touch]].thickness);
-  totals.deepest_penetration = std::max(totals.deepest_penetration, depth / thinner);
-  if (is_new) {
-    totals.deepest_birth = std::max(totals.deepest_birth, depth / thinner);
-  }
-}
-
-// Raw pointers: a store may alias the pointers of the vectors.
 void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
                        ContactTotals& totals) {
-  const Touches& touches = workspace.touches;
-  const int* balls = touching.ball.data();
-  const int* starts = touches.start.data();
-  const int* ends = touches.end.data();
-  const int* known = touches.known.data();
-  const double* growth = touches.growth.data();
-  const double* depths = touches.depth.data();
-  const double* shares = touches.share.data();
-  const Vector2* normals = touches.normal.data();
-  const double stiffness = scene.contact.stiffness;
+  const TouchArrays of = {touching, workspace.touches};
   ContactForce* forces = state.contact_force.data();
   double squared_depths = 0.0;
   for (ActiveContact& contact : workspace.active) {
-    const int touch = contact.touch;
-    const double depth = depths[touch];
-    const Vector2 normal = normals[touch];
-    const NormalForce net = force_of_pair(scene, touches, contact);
-    const double elastic = contact.share * stiffness * depth;
-    const double pair[] = {elastic * normal.x(), elastic * normal.y(), net.viscous * normal.x(),
-                           net.viscous * normal.y()};
-    const double share = shares[touch];
-    add_share(1.0, pair, forces[balls[touch]]);
-    add_share(share - 1.0, pair, forces[starts[touch]]);
-    add_share(-share, pair, forces[ends[touch]]);
-    squared_depths += contact.share * depth * depth;
-    if (contact.node_touch != ActiveContact::kNone) {
-      subtract_double_count(scene, state, touching, touches, contact, totals.stored);
-    }
-    if (HWY_UNLIKELY(growth[touch] > 0.0)) {
-      push_by_growth(scene, state, {balls[touch], touching.segment[touch], share, touches.offset[touch], elastic});
-    }
-    record_depth(scene, touching, touch, depth, known[touch] == Touches::kNew, totals);
+    add_normal_force(scene, state, forces, of, contact, squared_depths, totals);
   }
-  totals.stored += 0.5 * stiffness * squared_depths;
+  totals.stored += 0.5 * scene.contact.stiffness * squared_depths;
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE

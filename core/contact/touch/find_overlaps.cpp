@@ -15,8 +15,7 @@
 #include "cellcrush/tuning.h"
 #include "contact/search/candidate_lists.h"
 #include "contact/start_overlaps.h"
-#include "contact/touch_geometry-inl.h"
-#include "simd/points-inl.h"
+#include "contact/touch/overlap-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
@@ -124,52 +123,11 @@ void collect(const Scene& scene, const State& state, const ContactLists& lists, 
   }
 }
 
-/// Balls relative to segments. w points from the start of the segment to the ball, u is the segment.
-struct RelativePosition {
-  Numbers reach;
-  Numbers taper;
-  Numbers squared_distance;  // w.w, from the start
-  Numbers foot;              // w.u
-  Numbers squared_length;    // u.u
-};
-
-HWY_INLINE RelativePosition relative_position(const Vector2* positions, const Tested& tested, std::size_t i) {
+HWY_INLINE RelativePosition<Wide> position_of(const Vector2* positions, const Tested& tested, std::size_t i) {
   const Points<Wide> start = gather<Wide>(positions, tested.start + i);
   const Points<Wide> end = gather<Wide>(positions, tested.end + i);
   const Points<Wide> ball = gather<Wide>(positions, tested.ball + i);
-  const Points<Wide> u = end - start;
-  const Points<Wide> w = ball - start;
-  return {Numbers::load(tested.reach + i), Numbers::load(tested.taper + i), dot(w, w), dot(w, u), dot(u, u)};
-}
-
-/// Lanes whose ball is nearer to its segment than their reach (E8, E8a): to its line if the ball is beside it,
-/// otherwise to the nearer end. No division is needed: the squared distance from the line is w.w - (w.u)^2 / u.u.
-HWY_INLINE LaneMask<Wide> overlap(const RelativePosition& at) {
-  const Numbers zero = 0.0;
-  const auto beyond_start = fnma(at.reach, at.reach, at.squared_distance);  // w.w - reach^2
-  const auto beside = (at.foot > zero) & (at.foot < at.squared_length);
-  if (HWY_LIKELY(all(at.taper == zero))) {
-    const auto beyond_end = beyond_start - (at.foot + at.foot) + at.squared_length;
-    const auto near_line = beyond_start * at.squared_length < at.foot * at.foot;
-    return (beyond_start < zero) | (beyond_end < zero) | (beside & near_line);
-  }
-  const auto reach_at_end = at.reach + at.taper;
-  const auto from_end = at.squared_distance - (at.foot + at.foot) + at.squared_length;
-  const auto beyond_end = fnma(reach_at_end, reach_at_end, from_end);
-  const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
-  const auto reach_at_foot = fma(at.taper, share_of_end(share), at.reach);
-  const auto beyond_foot = fnma(reach_at_foot, reach_at_foot, at.squared_distance);
-  const auto near_line = beyond_foot * at.squared_length < at.foot * at.foot;
-  return (beyond_start < zero) | (beyond_end < zero) | (beside & near_line);
-}
-
-/// Gaps, mm: distances minus the greatest reach along the segment.
-HWY_INLINE Numbers gap(const RelativePosition& at) {
-  const Numbers zero = 0.0;
-  const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
-  // w.w - 2 s w.u + s^2 u.u
-  const auto squared = fnma(share, fnma(share, at.squared_length, at.foot + at.foot), at.squared_distance);
-  return sqrt(max(squared, zero)) - (at.reach + max(at.taper, zero));
+  return relative_position(ball, start, end, Numbers::load(tested.reach + i), Numbers::load(tested.taper + i));
 }
 
 /// Sets the next checks of candidates that are tested together, whole vectors of them. Appends the indices of those
@@ -181,7 +139,7 @@ void test_some(const Scene& scene, const State& state, ContactLists& lists, std:
   const Vector2* positions = state.position.data();
   double next_checks[kTestedTogether];
   for (std::size_t i = 0; i < awake.size(); i += Numbers::kWidth) {
-    const RelativePosition at = relative_position(positions, tested, i);
+    const RelativePosition<Wide> at = position_of(positions, tested, i);
     const LaneMask<Wide> overlaps = overlap(at);
     select(overlaps, Numbers(kNever), Numbers::load(tested.travel + i) + gap(at)).store(next_checks + i);
     for (unsigned bits = bits_of(overlaps); bits != 0; bits &= bits - 1) {
