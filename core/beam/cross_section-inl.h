@@ -164,7 +164,7 @@ class GrownWalls {
   using Real = Lane<D>;
 
  public:
-  explicit GrownWalls(State& state)
+  HWY_INLINE explicit GrownWalls(State& state)
       : thickening_(state.thickening.data()),
         slope_(state.thickening_slope.data()),
         radius_growth_(state.radius_growth.data()) {}

@@ -346,7 +346,7 @@ struct RowSums {
 template <class T>
 class ChunkScratch {
  public:
-  ChunkScratch(T* values, std::ptrdiff_t first_element) : values_(values), first_(first_element) {}
+  HWY_INLINE ChunkScratch(T* values, std::ptrdiff_t first_element) : values_(values), first_(first_element) {}
 
   HWY_INLINE RowStrains<T> strains(std::ptrdiff_t row, int lane, int walls) const {
     T* const at = begin(row, lane);

@@ -275,8 +275,8 @@ class UnitSections {
   [[nodiscard]] HWY_INLINE ElementEquations<D> elastic_equations(const UnitStrains<kElements, D>& strains,
                                                                  int e) const {
     const auto& factors = rule_.moments[e];
-    ElementEquations<D> of = {
-        1, 0, 0, elastic_.near, elastic_.far, elastic_.near, strains.axial[e], strains.outer[e], 0};
+    ElementEquations<D> of = {1, 0, 0, elastic_.near, elastic_.far, elastic_.near, strains.axial[e], strains.outer[e],
+                              0};
     for (int i = 0; i < rule_.sections(); ++i) {
       of.of_n = fma(Lane<D>(rule_.along_weight[i]), force[e][i].axial, of.of_n);
       of.of_o = fma(Lane<D>(factors.weighted_outer[i]), force[e][i].moment, of.of_o);

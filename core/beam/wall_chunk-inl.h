@@ -60,8 +60,8 @@ class WallChunk {
 
  public:
   /// `scratch` has room for kScratchKinds values per element of the blocks.
-  WallChunk(const Scene& scene, State& state, FibreHistory<T>& memory, double step, const Rule& rule,
-            std::span<const WallBlock> blocks, T* scratch)
+  HWY_INLINE WallChunk(const Scene& scene, State& state, FibreHistory<T>& memory, double step, const Rule& rule,
+                       std::span<const WallBlock> blocks, T* scratch)
       : scene_(scene),
         memory_(memory),
         step_(step),
@@ -100,9 +100,7 @@ class WallChunk {
   HWY_INLINE void respond(bool is_squashed, double* HWY_RESTRICT plastic_work) {
     is_squashed_ = is_squashed;
     visit_lanes<F>([&](const WallBlock& block, int lane) HWY_ATTR {
-      if (HWY_UNLIKELY(shear_ != nullptr)) {
-        elastic_ = ElasticElement<F>(load_shear(block.first_wall + lane));
-      }
+      set_shear(block, lane);
       return_map_fibres(block, lane);
     });
     visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
@@ -114,6 +112,7 @@ class WallChunk {
     alone_ = lane;
     is_squashed_ = false;
     reverse_motions(block, lane);
+    set_shear(block, lane);
     return_map_fibres(block, lane);
     put_forces(block, lane, plastic_work);
   }
@@ -239,7 +238,8 @@ class WallChunk {
 
   HWY_INLINE Fibres<T> fibres_of(std::ptrdiff_t row, int lane, int stride) const {
     const std::ptrdiff_t first = row * rule_.fibres() + lane;
-    return {stress_ + first, Law::kFacts.keeps_back_stress ? &memory_.back_stress[first] : nullptr,
+    return {stress_ + first,
+            Law::kFacts.keeps_back_stress ? &memory_.back_stress[first] : nullptr,
             Law::kFacts.keeps_plastic_strain ? &memory_.plastic_strain[first] : nullptr,
             Law::kFacts.keeps_tangent ? &memory_.tangent[first] : nullptr,
             Law::kFacts.keeps_tangent ? &memory_.flow[first] : nullptr,
@@ -262,7 +262,7 @@ class WallChunk {
     constexpr std::size_t kLine = 64 / sizeof(T);
     const T* const from = stress_ + (row + kRowsAhead * walls + lane) * rule_.fibres();
     for (std::size_t i = 0; i < rule_.fibres() * Stress::kWidth; i += kLine) {
-      __builtin_prefetch(from + i, 1);
+      prefetch_to_change(from + i);
     }
   }
 
@@ -311,6 +311,12 @@ class WallChunk {
     unit.advance(sums);
     for (int e = 0; e < kElements; ++e) {
       put_sums(sums[e], scratch_.sums(row_of(block, j + e), lane, walls));
+    }
+  }
+
+  HWY_INLINE void set_shear(const WallBlock& block, int lane) {
+    if (HWY_UNLIKELY(shear_ != nullptr)) {
+      elastic_ = ElasticElement<F>(load_shear(block.first_wall + lane));
     }
   }
 

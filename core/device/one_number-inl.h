@@ -74,10 +74,10 @@ HWY_INLINE constexpr std::size_t MaxLanes(D) {
   HWY_INLINE RESULT NAME(Vec1<T> a, Vec1<T> b) {   \
     return {EXPRESSION};                           \
   }
-#define CELLCRUSH_OF_THREE(NAME, EXPRESSION)                   \
-  template <class T>                                           \
-  HWY_INLINE Vec1<T> NAME(Vec1<T> a, Vec1<T> b, Vec1<T> c) {   \
-    return {EXPRESSION};                                       \
+#define CELLCRUSH_OF_THREE(NAME, EXPRESSION)                 \
+  template <class T>                                         \
+  HWY_INLINE Vec1<T> NAME(Vec1<T> a, Vec1<T> b, Vec1<T> c) { \
+    return {EXPRESSION};                                     \
   }
 
 CELLCRUSH_OF_ONE(Neg, Vec1<T>, -a.number)
@@ -86,7 +86,7 @@ CELLCRUSH_OF_ONE(Sqrt, Vec1<T>, std::sqrt(a.number))
 CELLCRUSH_OF_ONE(GetLane, T, a.number)
 CELLCRUSH_OF_TWO(Add, Vec1<T>, a.number + b.number)
 CELLCRUSH_OF_TWO(Sub, Vec1<T>, a.number - b.number)
-CELLCRUSH_OF_TWO(Mul, Vec1<T>, a.number * b.number)
+CELLCRUSH_OF_TWO(Mul, Vec1<T>, a.number* b.number)
 CELLCRUSH_OF_TWO(Div, Vec1<T>, a.number / b.number)
 // As on x86: the second where either is not a number.
 CELLCRUSH_OF_TWO(Min, Vec1<T>, a.number < b.number ? a.number : b.number)

@@ -4,13 +4,16 @@
 // (cellcrush/scene.h, cellcrush/state.h). Arrays are pointers into the memory of the device; those that a crush on a
 // device does not have are empty.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "cellcrush/ledger.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "simd/lane-inl.h"
+#include "contact/contact_workspace.h"
+#include "device/one_number-inl.h"
 
 namespace cellcrush::HWY_NAMESPACE {
 
@@ -25,6 +28,10 @@ struct Array {
   [[nodiscard]] HWY_INLINE T& operator[](std::size_t i) const { return values[i]; }
   [[nodiscard]] HWY_INLINE T& front() const { return values[0]; }
 };
+
+/// Most candidates of a ball, and most segments that it touches at once. A crush with more ends on the device.
+inline constexpr int kMostCandidates = 48;
+inline constexpr int kMostTouches = 16;
 
 /// Those that the laws on a device read.
 struct LawParameters {
@@ -55,10 +62,23 @@ struct SectionFacts {
 };
 
 struct ContactFacts {
+  bool present;
   bool bends;
   double stiffness;
   double damping_ratio;
   double thinnest;
+  double face_skin;
+};
+
+struct LimitedReaches {
+  Array<const int> offset;
+  Array<const int> segment;
+  Array<const double> reach;
+};
+
+/// Walls that overlap before loading are not for a device.
+struct NoOverlaps {
+  [[nodiscard]] HWY_INLINE bool empty() const { return true; }
 };
 
 struct PlatesFacts {
@@ -75,6 +95,13 @@ struct Scene {
   Array<const double> inverse_mass;
   Array<const double> inverse_inertia;
   Walls walls;
+  Array<const double> radius;
+  double greatest_radius;  ///< that a ball can have, mm
+  Array<const Element> elements;
+  Array<const int> incidence_offset;
+  Array<const int> incidence;
+  LimitedReaches limited_reaches;
+  NoOverlaps start_overlaps;
   Array<const int> wall_end_offset;
   Array<const int> wall_ends;
   Array<const Material> materials;
@@ -109,6 +136,41 @@ struct FibreHistory {
   Array<T> shear;
 };
 
+/// Pairs of a ball: a part of the arrays of all (TouchMemory of cellcrush/contact_lists.h).
+struct TouchMemory {
+  Array<int> ball;
+  Array<int> segment;
+  Array<double> reach;
+  Array<int> linked;
+  Array<int> side;
+
+  [[nodiscard]] HWY_INLINE std::size_t count() const { return ball.count; }
+};
+
+struct ContactLists {
+  TouchMemory touching;
+  double reach_growth;
+};
+
+/// Of the pairs of a ball (Touches of contact/contact_workspace.h).
+struct Touches {
+  static constexpr int kNew = cellcrush::Touches::kNew;
+
+  Array<int> start;
+  Array<int> end;
+  Array<int> known;
+  Array<double> growth;
+  Array<double> offset;
+  Array<double> share;
+  Array<double> depth;
+  Array<Vector2> normal;
+  Array<double> viscous;
+  Array<double> slip;
+  Array<int> node;
+  Array<double> node_depth;
+  Array<Vector2> node_normal;
+};
+
 struct State {
   Array<Vector2> position;
   Array<Vector2> velocity;
@@ -136,6 +198,36 @@ struct State {
   Array<std::uint64_t> contact_tiles;
   Ledger ledger;
 };
+
+HWY_INLINE double full_reach_of(const Scene& scene, int ball, int segment) {
+  return scene.radius[ball] + 0.5 * scene.elements[segment].thickness;
+}
+
+HWY_INLINE double most_reach_now(const Scene& scene, const State& /*state*/, int ball, int segment) {
+  if (!scene.limited_reaches.offset.empty()) {
+    for (int k = scene.limited_reaches.offset[ball]; k < scene.limited_reaches.offset[ball + 1]; ++k) {
+      if (scene.limited_reaches.segment[k] == segment) return scene.limited_reaches.reach[k];
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+HWY_INLINE double reach_now(const Scene& scene, const State& state, int ball, int segment) {
+  return std::min(full_reach_of(scene, ball, segment), most_reach_now(scene, state, ball, segment));
+}
+
+HWY_INLINE double growth_of_ball(const State& state, int ball) {
+  return state.radius_growth.empty() ? 0.0 : state.radius_growth[ball];
+}
+
+HWY_INLINE double radius_now(const Scene& scene, const State& state, int ball) {
+  return scene.radius[ball] + growth_of_ball(state, ball);
+}
+
+/// All pairs at hand are those of one ball.
+HWY_INLINE PairRange pairs_of_ball(const TouchMemory& touching, int /*ball*/, int /*index*/) {
+  return {0, static_cast<int>(touching.count())};
+}
 
 /// Fibres of a device are not prefetched.
 HWY_INLINE std::size_t last_cache_bytes() { return ~std::size_t{0}; }

@@ -83,7 +83,7 @@ struct ParticleArrays {
   Pointer<double> rotation = state.rotation.data();
   Pointer<double> spin = state.spin.data();
 
-  ParticleArrays(const Scene& of_scene, S& of_state) : scene(of_scene), state(of_state) {}
+  HWY_INLINE ParticleArrays(const Scene& of_scene, S& of_state) : scene(of_scene), state(of_state) {}
 };
 
 /// Forces on the particles of the lanes, N and N mm, without mass damping. Kinds that are absent are left out.

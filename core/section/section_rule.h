@@ -93,9 +93,9 @@ struct RuleFactors {
     }
   }
 
-  [[nodiscard]] int sections() const { return kSections > 0 ? kSections : section_count; }
-  [[nodiscard]] int depth_points() const { return kDepthPoints > 0 ? kDepthPoints : depth_count; }
-  [[nodiscard]] int fibres() const { return sections() * depth_points(); }
+  [[nodiscard]] constexpr int sections() const { return kSections > 0 ? kSections : section_count; }
+  [[nodiscard]] constexpr int depth_points() const { return kDepthPoints > 0 ? kDepthPoints : depth_count; }
+  [[nodiscard]] constexpr int fibres() const { return sections() * depth_points(); }
 
   int section_count;
   int depth_count;

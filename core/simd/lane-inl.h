@@ -120,6 +120,13 @@ struct Lane {
   friend HWY_INLINE Lane masked(Mask mask, Lane value) { return hn::IfThenElseZero(mask.raw, value.raw); }
 };
 
+/// Has the processor load a cache line that will be written.
+HWY_INLINE void prefetch_to_change([[maybe_unused]] const void* at) {
+#ifndef CELLCRUSH_ON_DEVICE
+  __builtin_prefetch(at, 1);
+#endif
+}
+
 /// Numbers of an array at given indices. Each is loaded on its own: a gather instruction takes up to three times as
 /// long.
 template <class D>
@@ -149,5 +156,9 @@ HWY_INLINE std::size_t write_set_lanes(LaneMask<D> mask, std::size_t first, int*
 
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+#ifdef CELLCRUSH_ON_DEVICE  // whose scene and state have the names of those of a processor
+#include "device/scene-inl.h"
+#endif
 
 #endif  // CELLCRUSH_SIMD_LANE_INL_H_

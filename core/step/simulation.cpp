@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "cellcrush/device.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "fracture/new_ends.h"
@@ -92,8 +93,33 @@ struct Simulation::Impl {
     return std::min(next - state.step, steps_to_arrival(*scene, state));
   }
 
+  /// Has the device advance by some steps. Returns false if it fails: the state is then as it was.
+  bool advance_on_device(std::int64_t steps) {
+    if (engine == nullptr) return false;
+    try {
+      if (on_device == nullptr) on_device = engine->begin(*scene, state);
+      if (on_device->advance(steps)) {
+        on_device->take(newest);
+        std::swap(state, newest);
+        return true;
+      }
+      device_failure = "one of its lists had no room";
+    } catch (const DeviceError& error) {
+      device_failure = error.what();
+    }
+    leave_device();
+    return false;
+  }
+
+  void leave_device() {
+    on_device.reset();
+    engine = nullptr;
+    newest = State();
+  }
+
   /// Advances by some steps, and breaks the walls that fail.
   void advance_by(std::int64_t steps, StageObserver* observer) {
+    if (advance_on_device(steps)) return;
     if (!breaker) {
       advance_steps(*scene, state, workspace, steps, observer);
       return;
@@ -148,6 +174,10 @@ struct Simulation::Impl {
   std::shared_ptr<const Scene> scene = unbroken;
   State state;
   Workspace workspace;
+  DeviceEngine* engine = nullptr;
+  std::unique_ptr<CrushOnDevice> on_device;  ///< null until the first step there, and after restore()
+  State newest;                              ///< of the device, until it is whole
+  std::string device_failure;
   Sampler sampler;
   std::optional<WallBreaker> breaker;
   std::vector<StartOverlap> overlaps;  ///< of the scene, if walls have broken
@@ -179,6 +209,13 @@ Simulation::Simulation(std::shared_ptr<const Scene> scene, int threads)
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::use_device(DeviceEngine& engine) {
+  impl_->engine = &engine;
+  impl_->newest = impl_->state;
+}
+
+const std::string& Simulation::device_failure() const { return impl_->device_failure; }
 
 void Simulation::advance(std::int64_t steps, StageObserver* observer) {
   const std::int64_t last = std::min(impl_->state.step + steps, most_steps_of(*impl_->scene));
@@ -220,6 +257,7 @@ void Simulation::checkpoint(const ByteSink& sink) const {
 
 // In place: the largest states do not fit into memory twice.
 bool Simulation::restore(ByteSource checkpoint) {
+  impl_->on_device.reset();
   ByteReader reader(std::move(checkpoint));
   std::uint64_t format = 0;
   reader.take(format);

@@ -29,7 +29,9 @@ struct BallTouches {
     return share_a_node({touches.start[a], touches.end[a]}, {touches.start[b], touches.end[b]});
   }
 
-  [[nodiscard]] HWY_INLINE bool is_inside(int touch) const { return touches.share[touch] > 0.0 && touches.share[touch] < 1.0; }
+  [[nodiscard]] HWY_INLINE bool is_inside(int touch) const {
+    return touches.share[touch] > 0.0 && touches.share[touch] < 1.0;
+  }
 
   /// Share of a touch in the contact of its ball with the polyline: all if it is deeper than the touches with joined
   /// segments, none if one of these is deeper. Two equally deep ones have a half each.
@@ -78,8 +80,8 @@ HWY_INLINE bool lies_before(const Scene& scene, const State& state, int ball, in
 }
 
 /// Divides the normal force between this touch and that of the node ball with the segments of the ball (E8b).
-HWY_INLINE void share_with_node(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
-                     ActiveContact& contact) {
+HWY_INLINE void share_with_node(const Scene& scene, const State& state, const ContactLists& lists,
+                                const Touches& touches, ActiveContact& contact) {
   const int touch = contact.touch;
   const int ball = lists.touching.ball[touch];
   const double share = touches.share[touch];

@@ -14,7 +14,6 @@
 
 #include "cellcrush/tuning.h"
 #include "contact/search/candidate_lists.h"
-#include "contact/start_overlaps.h"
 #include "contact/touch/overlap-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -84,19 +83,6 @@ struct Tested {
   double travel[kTestedTogether];
 };
 
-/// Sets the reach of a candidate with the current thickness.
-HWY_INLINE void grow(const Scene& scene, const State& state, int segment, Tested& tested, std::size_t i) {
-  const double of_ball = state.radius_growth[tested.ball[i]];
-  const double of_start = state.radius_growth[tested.start[i]];
-  const double of_end = state.radius_growth[tested.end[i]];
-  if (of_ball + of_start + of_end > 0.0) {
-    const double most = most_reach_now(scene, state, tested.ball[i], segment);
-    const double before = tested.reach[i];
-    tested.reach[i] = std::min(before + of_ball + of_start, most);
-    tested.taper[i] = std::min(before + of_ball + of_end, most) - tested.reach[i];
-  }
-}
-
 // Raw pointers: a store may alias the pointers of the vectors.
 void collect(const Scene& scene, const State& state, const ContactLists& lists, std::span<const int> awake,
              Tested& tested) {
@@ -117,7 +103,9 @@ void collect(const Scene& scene, const State& state, const ContactLists& lists, 
     tested.reach[i] = reaches[index];
     tested.taper[i] = 0.0;
     if (has_grown) {
-      grow(scene, state, segments[index], tested, i);
+      const GrownReach now = grown_reach(scene, state, tested.ball[i], segments[index], tested.reach[i]);
+      tested.reach[i] = now.at_start;
+      tested.taper[i] = now.taper;
     }
     tested.travel[i] = sleeps ? travels[groups[index / kCandidateBatch]] : -kNever;
   }

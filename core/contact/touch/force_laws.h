@@ -28,7 +28,7 @@ struct NormalForce {
 };
 
 /// Deviation from Eq. 43: the sum is clamped at 0, as a contact does not pull (E8).
-inline NormalForce without_pull(double elastic, double viscous) { return {elastic, std::max(viscous, -elastic)}; }
+constexpr NormalForce without_pull(double elastic, double viscous) { return {elastic, std::max(viscous, -elastic)}; }
 
 /// Penalty force of a contact of depth D > 0 (mm) that deepens at `rate` (mm/s) (Eq. 43, E8). k and c include the
 /// contact area (E9, contact/touch_geometry-inl.h).

@@ -30,8 +30,8 @@ HWY_INLINE NormalForce force_of_pair(const Scene& scene, const Touches& touches,
 /// Subtracts half of the energy and force of the touch of two balls (E8b). The ball of the node counts this pair as
 /// well, and pushes on its own where the node lies under the segments of the ball.
 template <class S>
-HWY_INLINE void subtract_double_count(const Scene& scene, S& state, const TouchMemory& touching,
-                                      const Touches& touches, const ActiveContact& contact, double& stored) {
+HWY_INLINE void subtract_double_count(const Scene& scene, S& state, const TouchMemory& touching, const Touches& touches,
+                                      const ActiveContact& contact, double& stored) {
   const int node_touch = contact.node_touch;
   const double stiffness = 0.5 * contact.share * scene.contact.stiffness;
   const double depth = touches.node_depth[node_touch];

@@ -6,11 +6,33 @@
 #define CELLCRUSH_CONTACT_TOUCH_OVERLAP_INL_H_
 #endif
 
+#include <algorithm>
+
+#include "contact/start_overlaps.h"
 #include "contact/touch_geometry-inl.h"
 #include "simd/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
+
+/// Distance at which a ball and a segment touch with the current thickness, mm (E8d).
+struct GrownReach {
+  double at_start;
+  double taper;  ///< what it is more at the end of the segment
+};
+
+/// `before`: with the thickness before loading.
+HWY_INLINE GrownReach grown_reach(const Scene& scene, const State& state, int ball, int segment, double before) {
+  const double of_ball = state.radius_growth[ball];
+  const double of_start = state.radius_growth[scene.elements[segment].start];
+  const double of_end = state.radius_growth[scene.elements[segment].end];
+  if (!(of_ball + of_start + of_end > 0.0)) {
+    return {before, 0.0};
+  }
+  const double most = most_reach_now(scene, state, ball, segment);
+  const double at_start = std::min(before + of_ball + of_start, most);
+  return {at_start, std::min(before + of_ball + of_end, most) - at_start};
+}
 
 /// Balls relative to segments. w points from the start of the segment to the ball, u is the segment.
 template <class D>

@@ -16,6 +16,7 @@
 
 namespace cellcrush {
 
+class DeviceEngine;
 struct Scene;
 struct State;
 
@@ -104,6 +105,14 @@ class Simulation {
  public:
   /// Steps run on `threads` threads; the results have the same bits for any number of them. REQUIRES: threads >= 1.
   explicit Simulation(std::shared_ptr<const Scene> scene, int threads = 1);
+
+  /// Has a device advance the run from now on, which changes no bit of the motion on a processor with fused
+  /// multiply-add. If the device fails, the run goes on by itself from its newest state. REQUIRES: the engine outlives
+  /// the simulation, and !why_not_on_device(scene()).
+  void use_device(DeviceEngine& engine);
+
+  /// What the device failed by; empty while it advances the run, or if none was asked to.
+  [[nodiscard]] const std::string& device_failure() const;
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

@@ -20,7 +20,7 @@ struct Element {
   int material = 0;        ///< into Scene::materials
 };
 
-inline bool share_a_node(const Element& a, const Element& b) {
+constexpr bool share_a_node(const Element& a, const Element& b) {
   return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
 }
 
@@ -36,7 +36,7 @@ struct WallBlock {
 
   /// Whether force-based elements are solved two by two (E5b): the particle at the end of every other element then has
   /// no rotation.
-  [[nodiscard]] bool has_pairs() const { return elements % 2 == 0; }
+  [[nodiscard]] constexpr bool has_pairs() const { return elements % 2 == 0; }
 };
 
 /// The W walls between joints, block by block, in C chunks. All elements of a wall are alike.

@@ -1,0 +1,51 @@
+#pragma once
+
+// Operations without an order on numbers that several threads of a device write.
+
+#include <cstdint>
+
+#include "simd/lane-inl.h"
+
+namespace cellcrush::HWY_NAMESPACE {
+
+/// Adds and returns the number before.
+HWY_INLINE int add_at(int& number, int added) {
+#ifdef __CUDA_ARCH__
+  return atomicAdd(&number, added);
+#else
+  const int before = number;
+  number += added;
+  return before;
+#endif
+}
+
+/// Replaces and returns the number before.
+HWY_INLINE int exchange_at(int& number, int by) {
+#ifdef __CUDA_ARCH__
+  return atomicExch(&number, by);
+#else
+  const int before = number;
+  number = by;
+  return before;
+#endif
+}
+
+HWY_INLINE void or_at(unsigned& bits, unsigned added) {
+#ifdef __CUDA_ARCH__
+  atomicOr(&bits, added);
+#else
+  bits |= added;
+#endif
+}
+
+/// Of numbers that are not negative, the bits have the order of the numbers. One that is not a number is the greatest.
+HWY_INLINE void raise_at(std::uint64_t& greatest, double number) {
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(number);
+#ifdef __CUDA_ARCH__
+  atomicMax(reinterpret_cast<unsigned long long*>(&greatest), static_cast<unsigned long long>(bits));
+#else
+  greatest = bits > greatest ? bits : greatest;
+#endif
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE

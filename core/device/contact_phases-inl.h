@@ -1,0 +1,285 @@
+#pragma once
+
+// The phases of contacts between walls and at plates; see motion_phases-inl.h.
+
+#include <cmath>
+#include <cstddef>
+
+#include "contact/touch/active_contacts-inl.h"
+#include "contact/touch/evaluate_touches-inl.h"
+#include "contact/touch/normal_forces-inl.h"
+#include "contact/touch/overlap-inl.h"
+#include "device/added_forces-inl.h"
+#include "device/atomics-inl.h"
+#include "device/crush-inl.h"
+#include "push/press_ball-inl.h"
+
+namespace cellcrush::HWY_NAMESPACE {
+
+/// The contacts of a ball: those that it had and still has, and those that begin; their forces, and those of plates.
+class EvaluateContacts {
+ public:
+  static HWY_INLINE std::size_t items(const Crush& crush) { return crush.first_added.size(); }
+
+  static HWY_INLINE void compute(Crush& crush, std::size_t item, std::size_t step) {
+    const int ball = static_cast<int>(item);
+    ForceList forces(crush, ball);
+    AddingState state{crush.state, forces};
+    if (crush.scene.contact.present) touch(crush, state, ball);
+    forces.begin_plates();
+    press(crush, state, ball, crush.plate_steps[step]);
+  }
+
+ private:
+  /// The touches of a ball in this step, in the memory of the thread.
+  struct Room {
+    int start[kMostTouches];
+    int end[kMostTouches];
+    int known[kMostTouches];
+    double growth[kMostTouches];
+    double offset[kMostTouches];
+    double share[kMostTouches];
+    double depth[kMostTouches];
+    Vector2 normal[kMostTouches];
+    double viscous[kMostTouches];
+    double slip[kMostTouches];
+    int node[kMostTouches];
+    double node_depth[kMostTouches];
+    Vector2 node_normal[kMostTouches];
+
+    HWY_INLINE Touches of(std::size_t count) {
+      return {{start, count}, {end, count},        {known, count},      {growth, count},  {offset, count},
+              {share, count}, {depth, count},      {normal, count},     {viscous, count}, {slip, count},
+              {node, count},  {node_depth, count}, {node_normal, count}};
+    }
+  };
+
+  static HWY_INLINE TouchMemory memory_of(const Crush& crush, int ball, std::size_t count) {
+    const std::size_t at = static_cast<std::size_t>(ball) * kMostTouches;
+    return {{&crush.touch_ball[at], count},
+            {&crush.touch_segment[at], count},
+            {&crush.touch_reach[at], count},
+            {&crush.touch_linked[at], count},
+            {&crush.touch_side[at], count}};
+  }
+
+  static HWY_INLINE void touch(Crush& crush, AddingState& state, int ball) {
+    Room room;
+    crush.active_count[ball] = 0;
+    const int kept = drop_released(crush, ball);
+    if (kept == 0 && crush.candidate_count[ball] == 0) {
+      crush.touch_count[ball] = 0;
+      return;
+    }
+    for (int i = 0; i < kept; ++i) room.known[i] = 0;
+    const int count = add_new(crush, ball, kept, room.known);
+    crush.touch_count[ball] = count;
+    if (count == 0) return;
+    ContactLists lists = {memory_of(crush, ball, static_cast<std::size_t>(count)),
+                          crush.state.radius_growth.empty() ? 0.0 : 1.0};
+    link(crush.scene, lists.touching);
+    Touches touches = room.of(static_cast<std::size_t>(count));
+    const PairArrays arrays = {crush.scene, crush.state, lists, touches};
+    for (int i = 0; i < count; ++i) evaluate_pairs<One>(arrays, static_cast<std::size_t>(i));
+    const TouchArrays of = {lists.touching, touches};
+    ContactTotals deepest;
+    for (int i = 0; i < count; ++i) {
+      const std::size_t at = static_cast<std::size_t>(ball) * kMostTouches + i;
+      crush.touch_squared_depth[at] = 0.0;
+      crush.touch_stored[at] = 0.0;
+      ActiveContact contact;
+      if (!is_active(crush.scene, crush.state, lists, touches, i, contact)) continue;
+      ++crush.active_count[ball];
+      ContactTotals totals = deepest;
+      totals.stored = 0.0;
+      add_normal_force(crush.scene, state, state.contact_force, of, contact, crush.touch_squared_depth[at], totals);
+      crush.touch_stored[at] = totals.stored;
+      deepest = totals;
+    }
+    raise_at(crush.totals[0].deepest_penetration, deepest.deepest_penetration);
+    raise_at(crush.totals[0].deepest_birth, deepest.deepest_birth);
+  }
+
+  /// Removes the pairs that were released in the step before. Returns how many are left.
+  static HWY_INLINE int drop_released(Crush& crush, int ball) {
+    const int count = crush.touch_count[ball];
+    const std::size_t at = static_cast<std::size_t>(ball) * kMostTouches;
+    int kept = 0;
+    for (int i = 0; i < count; ++i) {
+      if (crush.touch_side[at + i] == 0) continue;
+      move_touch(crush, at + i, at + kept++);
+    }
+    return kept;
+  }
+
+  static HWY_INLINE void move_touch(Crush& crush, std::size_t from, std::size_t to) {
+    crush.touch_segment[to] = crush.touch_segment[from];
+    crush.touch_reach[to] = crush.touch_reach[from];
+    crush.touch_side[to] = crush.touch_side[from];
+  }
+
+  /// Adds the candidates that have begun to overlap, by segment. Returns how many pairs there are.
+  static HWY_INLINE int add_new(Crush& crush, int ball, int count, int* known) {
+    const std::size_t at = static_cast<std::size_t>(ball) * kMostTouches;
+    const int candidates = std::min<int>(crush.candidate_count[ball], +kMostCandidates);
+    for (int k = 0; k < candidates; ++k) {
+      const int segment = crush.candidate[ball * kMostCandidates + k];
+      int place = 0;
+      while (place < count && crush.touch_segment[at + place] < segment) ++place;
+      if (place < count && crush.touch_segment[at + place] == segment) continue;  // it touches, or is listed twice
+      const double reach = reach_now(crush.scene, crush.state, ball, segment);
+      if (!overlaps(crush, ball, segment, reach)) continue;
+      if (count == kMostTouches) {
+        crush.totals[0].overflow = 1;
+        break;
+      }
+      for (int i = count; i > place; --i) {
+        move_touch(crush, at + i - 1, at + i);
+        known[i] = known[i - 1];
+      }
+      crush.touch_segment[at + place] = segment;
+      crush.touch_reach[at + place] = reach;
+      crush.touch_side[at + place] = 0;
+      known[place] = Touches::kNew;
+      ++count;
+    }
+    return count;
+  }
+
+  static HWY_INLINE bool overlaps(const Crush& crush, int ball, int segment, double reach) {
+    const State& state = crush.state;
+    const GrownReach now =
+        state.radius_growth.empty() ? GrownReach{reach, 0.0} : grown_reach(crush.scene, state, ball, segment, reach);
+    const Element& ends = crush.scene.elements[segment];
+    return all(overlap(relative_position<One>(Points<One>::load(&state.position[ball]),
+                                              Points<One>::load(&state.position[ends.start]),
+                                              Points<One>::load(&state.position[ends.end]), now.at_start, now.taper)));
+  }
+
+  /// Notes which pairs have segments that share a node.
+  static HWY_INLINE void link(const Scene& scene, const TouchMemory& touching) {
+    const int count = static_cast<int>(touching.count());
+    for (int i = 0; i < count; ++i) {
+      int linked = 0;
+      for (int j = 0; j < count; ++j) {
+        const bool joined =
+            j != i && share_a_node(scene.elements[touching.segment[i]], scene.elements[touching.segment[j]]);
+        linked |= joined ? 1 : 0;
+      }
+      touching.linked[i] = linked;
+    }
+  }
+
+  static HWY_INLINE double distance_of(const Face& face, const Vector2& place) {
+    return face.normal.dot(place - face.point);
+  }
+
+  /// Forces of the plates on a ball (push/plates.cpp).
+  static HWY_INLINE void press(Crush& crush, AddingState& state, int ball, const PlateStep& plates) {
+    const double radius = radius_now(crush.scene, crush.state, ball);
+    const int axis = crush.scene.plates.axis;
+    const double place = crush.state.position[ball][axis];
+    Face impact = crush.impact;
+    impact.point[axis] += plates.travel;
+    impact.speed = plates.speed;
+    if (!(place - radius < impact.point[axis] || place + radius > crush.support.point[axis])) return;
+    const double inverse_mass = crush.scene.inverse_mass[ball];
+    const double in_impact = radius - distance_of(impact, crush.state.position[ball]);
+    const double in_support = radius - distance_of(crush.support, crush.state.position[ball]);
+    crush.plate_push[ball] = {press_ball(crush.scene, state, impact, ball, in_impact, inverse_mass),
+                              press_ball(crush.scene, state, crush.support, ball, in_support, inverse_mass)};
+    or_at(crush.pressed[ball / 32], 1U << (ball % 32));
+  }
+};
+
+/// Adds up the forces of contacts and plates on a particle.
+struct AddForces {
+  static HWY_INLINE std::size_t items(const Crush& crush) { return crush.first_added.size(); }
+
+  static HWY_INLINE void compute(Crush& crush, std::size_t particle, std::size_t /*step*/) {
+    const int first = crush.first_added[particle];
+    if (first == AddedForce::kEnd) return;
+    ContactForce& force = crush.state.contact_force[particle];
+    Points<One> elastic = Points<One>::load(&force.elastic);
+    Points<One> viscous = Points<One>::load(&force.viscous);
+    std::uint64_t done = 0;  // keys begin at 1
+    for (int k = next_of(crush, first, done); k != AddedForce::kEnd; k = next_of(crush, first, done)) {
+      const AddedForce& added = crush.added[k];
+      const Points<One> low = {added.value[0], added.value[1]};
+      if (added.part == AddedForce::kBoth) {
+        elastic = elastic + low;
+        viscous = viscous + Points<One>{added.value[2], added.value[3]};
+      } else if (added.part == AddedForce::kElastic) {
+        elastic = elastic + low;
+      } else {
+        viscous = viscous + low;
+      }
+      done = added.key;
+    }
+    elastic.store(&force.elastic);
+    viscous.store(&force.viscous);
+    crush.first_added[particle] = AddedForce::kEnd;
+  }
+
+ private:
+  /// That with the least key above one: lists are short.
+  static HWY_INLINE int next_of(const Crush& crush, int first, std::uint64_t done) {
+    int found = AddedForce::kEnd;
+    for (int k = first; k != AddedForce::kEnd; k = crush.added[k].next) {
+      const std::uint64_t key = crush.added[k].key;
+      if (key > done && (found == AddedForce::kEnd || key < crush.added[found].key)) found = k;
+    }
+    return found;
+  }
+};
+
+/// The forces of the plates.
+struct AddPlates {
+  static HWY_INLINE std::size_t items(const Crush& /*crush*/) { return 1; }
+
+  static HWY_INLINE void compute(Crush& crush, std::size_t /*item*/, std::size_t /*step*/) {
+    Totals& totals = crush.totals[0];
+    totals.impact_force = {0.0, 0.0};
+    totals.support_force = {0.0, 0.0};
+    totals.contacts.stored = 0.0;  // of plates alone; see AddStored
+    for (std::size_t word = 0; word < crush.pressed.size(); ++word) {
+      for (unsigned bits = crush.pressed[word]; bits != 0; bits &= bits - 1) {
+        const PlatePush& push = crush.plate_push[32 * word + std::countr_zero(bits)];
+        totals.impact_force.elastic += push.impact.elastic;
+        totals.impact_force.viscous += push.impact.viscous;
+        totals.support_force.elastic += push.support.elastic;
+        totals.support_force.viscous += push.support.viscous;
+      }
+    }
+  }
+};
+
+/// What contacts store and how many there are, for a sample: before the next step.
+struct AddStored {
+  static HWY_INLINE std::size_t items(const Crush& /*crush*/) { return 1; }
+
+  static HWY_INLINE void compute(Crush& crush, std::size_t /*item*/, std::size_t /*step*/) {
+    ContactTotals& contacts = crush.totals[0].contacts;
+    contacts.stored = 0.0;
+    contacts.count = 0;
+    double squared_depths = 0.0;
+    for (std::size_t ball = 0; ball < crush.active_count.size(); ++ball) {
+      if (crush.active_count[ball] == 0) continue;
+      contacts.count += crush.active_count[ball];
+      for (int i = 0; i < crush.touch_count[ball]; ++i) {
+        squared_depths += crush.touch_squared_depth[ball * kMostTouches + i];
+        contacts.stored += crush.touch_stored[ball * kMostTouches + i];
+      }
+    }
+    contacts.stored += 0.5 * crush.scene.contact.stiffness * squared_depths;
+    for (std::size_t word = 0; word < crush.pressed.size(); ++word) {
+      for (unsigned bits = crush.pressed[word]; bits != 0; bits &= bits - 1) {
+        const PlatePush& push = crush.plate_push[32 * word + std::countr_zero(bits)];
+        contacts.stored += push.impact.stored;
+        contacts.stored += push.support.stored;
+      }
+    }
+  }
+};
+
+}  // namespace cellcrush::HWY_NAMESPACE

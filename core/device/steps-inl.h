@@ -1,0 +1,40 @@
+#pragma once
+
+// The order of the phases of a step, for every kind of device.
+
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+
+#include "device/contact_phases-inl.h"
+#include "device/motion_phases-inl.h"
+#include "device/search_phases-inl.h"
+
+namespace cellcrush::HWY_NAMESPACE {
+
+/// The kinds of walls: formulation, law and section rule. An index into them chooses the kernel.
+using WallKinds = std::tuple<EvaluateWalls<true, PerfectlyPlastic, RuleFactors<4, 6, float>>,
+                             EvaluateWalls<true, PerfectlyPlastic, RuleFactors<4, 6, double>>,
+                             EvaluateWalls<false, PerfectlyPlastic, RuleFactors<2, 6, float>>,
+                             EvaluateWalls<false, PerfectlyPlastic, RuleFactors<2, 6, double>>,
+                             EvaluateWalls<true, MixedHardening, RuleFactors<4, 6, double>>,
+                             EvaluateWalls<false, MixedHardening, RuleFactors<2, 6, float>>,
+                             EvaluateWalls<false, MixedHardening, RuleFactors<2, 6, double>>>;
+
+/// Calls run.phase(Phase(), step) and run.walls() for the phases of a step, each of which begins when the one before
+/// has ended.
+template <class Run>
+void run_step(Run& run, std::size_t step) {
+  run.phase(MoveParticles(), step);
+  run.walls();
+  run.phase(SumJoints(), step);
+  run.phase(AddMotion(), step);
+  run.phase(ClearGrid(), step);
+  run.phase(FileSegments(), step);
+  run.phase(FindCandidates(), step);
+  run.phase(EvaluateContacts(), step);
+  run.phase(AddForces(), step);
+  run.phase(AddPlates(), step);
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE

@@ -1,0 +1,216 @@
+// Crushes on a device, emulated: threads in an order that changes with every phase, and memory filled with bits of no
+// number.
+#include "cellcrush/device.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device/device.h"
+#include "scenes/crushes.h"
+#include "scenes/frames.h"
+#include "scenes/state_hash.h"
+
+namespace cellcrush {
+namespace {
+
+/// A state without what a device leaves out: the lists of the contact search, and flags that only save time.
+State comparable(State state) {
+  for (ContactLists& lists : state.contacts) {
+    TouchMemory touching = lists.touching;
+    for (int& place : touching.place) place = 0;
+    lists = ContactLists();
+    lists.touching = touching;
+  }
+  return state;
+}
+
+std::uint64_t hash_of(const State& state) { return scenes::hash_of(comparable(state)); }
+
+bool has_fused_bits() { return scenes::bits_of_target(simd_target()) == "fused"; }
+
+struct Case {
+  std::string name;
+  SceneSpec spec;
+
+  friend void PrintTo(const Case& of, std::ostream* out) { *out << of.name; }
+};
+
+SceneSpec specimen(const char* lattice) {
+  SceneSpec spec = scenes::spec_of({lattice, 100.0, 0.0}, 7, 5);
+  spec.loading.end_strain = 0.6;
+  return spec;
+}
+
+SceneSpec with_hardening(SceneSpec spec) {
+  spec.material.hardening_modulus_mpa = 700.0;
+  spec.material.isotropic_fraction = 0.5;
+  spec.numerics.mass_damping_per_s = 1000.0;
+  return spec;
+}
+
+SceneSpec with_elements_per_wall(SceneSpec spec, int elements) {
+  spec.elements_per_wall = elements;
+  return spec;
+}
+
+SceneSpec with_shear(SceneSpec spec) {
+  spec.section.shear_deformation = true;
+  return spec;
+}
+
+/// A Voronoi honeycomb with walls left out and an imperfection: faces and walls of any size.
+SceneSpec uneven_cells() {
+  SceneSpec spec = scenes::in_single_precision(specimen("hexagon"));
+  VoronoiWalls cells;
+  cells.columns = 8;
+  cells.rows = 6;
+  cells.side_mm = 4.0;
+  cells.irregularity = 0.2;
+  cells.seed = 3;
+  cells.wall_thickness_mm = 0.3464;
+  spec.lattice = cells;
+  spec.imperfection.amplitude_mm = 0.05;
+  spec.numerics.rigid_link_slenderness = 0.0;
+  spec.loading.end_strain = 0.08;
+  return spec;
+}
+
+std::vector<Case> cases() {
+  using scenes::in_single_precision;
+  using scenes::with_the_papers_elements;
+  return {{"Hexagons", specimen("hexagon")},
+          {"HexagonsInSinglePrecision", in_single_precision(specimen("hexagon"))},
+          {"Squares", in_single_precision(specimen("square"))},
+          {"Triangles", specimen("triangle")},
+          {"ThickEnds", specimen("thick_ends")},
+          {"ThePapersElements", with_the_papers_elements(specimen("hexagon"))},
+          {"ThePapersElementsInSinglePrecision", in_single_precision(with_the_papers_elements(specimen("square")))},
+          {"HardeningAndDamping", with_hardening(specimen("hexagon"))},
+          {"HardeningOfThePapersElements", with_hardening(with_the_papers_elements(specimen("hexagon")))},
+          {"OneElementAWall", with_elements_per_wall(specimen("triangle"), 1)},
+          {"FiveElementsAWall", with_elements_per_wall(specimen("hexagon"), 5)},
+          {"WallsThatShear", with_shear(specimen("hexagon"))},
+          {"CellsOfAnySize", uneven_cells()}};
+}
+
+class EmulatedDevice : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_fused_bits()) GTEST_SKIP() << "A device has the bits of processors with fused multiply-add.";
+  }
+
+  std::unique_ptr<DeviceEngine> engine_ = make_engine(make_emulated_device());
+};
+
+class CrushOnADevice : public EmulatedDevice, public testing::WithParamInterface<Case> {};
+
+/// In pieces of any length, to the end.
+TEST_P(CrushOnADevice, HasTheBitsOfAProcessor) {
+  Simulation own(scenes::build(GetParam().spec));
+  ASSERT_EQ(why_not_on_device(own.scene()), std::nullopt);
+  Simulation on_device(scenes::build(GetParam().spec));
+  on_device.use_device(*engine_);
+  for (std::int64_t piece = 1; !own.has_ended(); piece = 2 * piece % 601) {
+    own.advance(piece);
+    on_device.advance(piece);
+    ASSERT_EQ(on_device.device_failure(), "");
+    ASSERT_EQ(hash_of(on_device.state()), hash_of(own.state())) << "at step " << own.step();
+  }
+  EXPECT_GT(own.state().contact_totals.count, 2);
+  EXPECT_EQ(on_device.take_sample().energies.residual, own.take_sample().energies.residual);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, CrushOnADevice, testing::ValuesIn(cases()),
+                         [](const auto& test) { return test.param.name; });
+
+/// Crushed by any of them, one after the other.
+TEST_F(EmulatedDevice, GoesOnWhereAProcessorStopsAndBack) {
+  const SceneSpec spec = scenes::in_single_precision(specimen("hexagon"));
+  Simulation own(scenes::build(spec));
+  Simulation changing(scenes::build(spec));
+  std::string checkpoint;
+  for (int piece = 0; !own.has_ended(); ++piece) {
+    own.advance(60);
+    if (piece % 2 == 1) changing.use_device(*engine_);
+    changing.advance(60);
+    EXPECT_EQ(hash_of(changing.state()), hash_of(own.state())) << "at step " << own.step();
+    checkpoint = scenes::checkpoint_of(changing);
+    changing = Simulation(scenes::build(spec));
+    ASSERT_TRUE(changing.restore(source_of(checkpoint)));
+  }
+}
+
+/// A device that ends after some calls.
+class LostDevice final : public DeviceEngine {
+ public:
+  explicit LostDevice(int calls) : left_(calls) {}
+
+  [[nodiscard]] std::string name() const override { return own_->name(); }
+  std::unique_ptr<CrushOnDevice> begin(const Scene& scene, const State& state) override {
+    return std::make_unique<Crush>(*this, own_->begin(scene, state));
+  }
+
+ private:
+  class Crush final : public CrushOnDevice {
+   public:
+    Crush(LostDevice& device, std::unique_ptr<CrushOnDevice> own) : device_(device), own_(std::move(own)) {}
+
+    bool advance(std::int64_t steps) override {
+      device_.count();
+      return own_->advance(steps);
+    }
+    void take(State& state) const override {
+      own_->take(state);
+      device_.count();
+    }
+
+   private:
+    LostDevice& device_;
+    std::unique_ptr<CrushOnDevice> own_;
+  };
+
+  void count() {
+    if (left_-- == 0) throw DeviceError("The device is lost.");
+  }
+
+  std::unique_ptr<DeviceEngine> own_ = make_engine(make_emulated_device());
+  int left_;
+};
+
+TEST_F(EmulatedDevice, GoesOnWithoutADeviceThatIsLost) {
+  for (const int calls : {0, 1, 6, 7}) {
+    const SceneSpec spec = scenes::in_single_precision(specimen("hexagon"));
+    Simulation own(scenes::build(spec));
+    Simulation changing(scenes::build(spec));
+    LostDevice device(calls);
+    changing.use_device(device);
+    while (!own.has_ended()) {
+      own.advance(100);
+      changing.advance(100);
+    }
+    EXPECT_EQ(changing.device_failure(), "The device is lost.");
+    EXPECT_EQ(hash_of(changing.state()), hash_of(own.state())) << "lost after " << calls;
+  }
+}
+
+TEST(DevicePremise, SaysWhyACrushIsNotForADevice) {
+  SceneSpec rubbing = specimen("hexagon");
+  rubbing.contact.friction = 0.2;
+  EXPECT_EQ(why_not_on_device(*scenes::build(rubbing)), "its contacts have friction");
+  SceneSpec curved = specimen("hexagon");
+  curved.material.voce_stress_mpa = 50.0;
+  curved.material.voce_exponent = 20.0;
+  EXPECT_EQ(why_not_on_device(*scenes::build(curved)), "the yield stress of its material follows a curve or a rate");
+  SceneSpec stiff = specimen("hexagon");
+  stiff.inclusions.rows = {2};
+  EXPECT_EQ(why_not_on_device(*scenes::build(stiff)), "it has rigid parts");
+}
+
+}  // namespace
+}  // namespace cellcrush
