@@ -33,13 +33,14 @@
 #include "rpc/open_calls.h"
 #include "rpc/request_fields.h"
 #include "service.h"
+#include "worker/open_device.h"
 
 namespace cellcrush {
 namespace {
 
 constexpr std::chrono::seconds kCallsMayLast{2};
 constexpr int kCallsBesideStreams = 100;
-constexpr std::size_t kIntroductions = 4;  // threads
+constexpr std::size_t kIntroductions = 4;       // threads
 constexpr int kBetweenPingsOfAClient = 10'000;  // ms
 constexpr int kMostReadAtOnce = 32 * 1024;      // bytes; gRPC opens all calls in them before it ends one
 /// Services with a status in grpc.health.v1; "" is the whole daemon.
@@ -112,6 +113,19 @@ void prepare_grpc_once() {
   });
 }
 
+// Opens the device once, so that one that cannot be used is told now and not with every job.
+DaemonOptions with_device(DaemonOptions options) {
+  if (options.device.empty()) return options;
+  try {
+    spdlog::info("device: {}", worker::open_device(options.device)->name());
+  } catch (const DeviceError& error) {
+    throw ServiceError(ServiceError::Kind::invalid,
+                       "--device is \"" + options.device + "\". " + error.what() +
+                           " Install its driver and library (core/device/README.md), or leave out --device.");
+  }
+  return options;
+}
+
 DaemonOptions with_descriptors(DaemonOptions options) {
   auto& limits = options.connections;
   limits.connections = net::raise_descriptor_limit(limits.connections, options.worker_count());
@@ -124,7 +138,7 @@ DaemonOptions with_descriptors(DaemonOptions options) {
 // Members are in order of dependence: each uses only those above it.
 struct Daemon::Impl {
   explicit Impl(DaemonOptions given)
-      : options(with_descriptors(std::move(given))),
+      : options(with_descriptors(with_device(std::move(given)))),
         wanted(listen_addresses(options)),
         gate(options.access),
         credentials(credentials_for(gate, wanted)),

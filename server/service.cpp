@@ -45,8 +45,9 @@ watch::WatchTimes times_of_exports(watch::WatchTimes times) {
 std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& options, double step_cost) {
   spdlog::info("workers: {}, on {}", options.worker_count(), usable_cores().text());
   std::vector<jobs::Queues::NamedExecutor> out;
-  out.push_back({store::kLocalExecutor, options.worker_count(),
-                 std::make_unique<jobs::LocalProcess>(options.worker_program, options.stall_limit)});
+  auto local = std::make_unique<jobs::LocalProcess>(options.worker_program, options.stall_limit);
+  local->use_device(options.device);
+  out.push_back({store::kLocalExecutor, options.worker_count(), std::move(local)});
   const jobs::ExecutorSurroundings surroundings{options.data_folder, options.worker_program, options.stall_limit,
                                                 step_cost};
   for (const auto& given : options.executors) out.push_back({given.name, given.slots, given.make(surroundings)});
@@ -95,6 +96,7 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
              mesh_places,
              threads_of_sweep_check(),
              step_cost,
+             !options.device.empty(),
              options.limits.owner.running_jobs,
              {pump, checks, metrics, stream_limits, options.watch_times},
              {pump, checks, metrics, export_limits, times_of_exports(options.watch_times)}},

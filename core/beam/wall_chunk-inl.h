@@ -106,8 +106,8 @@ class WallChunk {
     visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
   }
 
-  /// The three loops for one wall, or for those of the lanes from `lane` on, alone: beside other threads that do so with
-  /// other walls of the block.
+  /// The three loops for the walls of the lanes from `lane` on alone, beside threads that compute other walls of the
+  /// block.
   HWY_INLINE void advance_alone(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) {
     alone_ = lane;
     is_squashed_ = false;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "device/device.h"
+#include "cellcrush/device.h"
+#include "contact/topology/face_loops.h"
 #include "device/steps-inl.h"
 #include "motion/integrate_motion.h"
 #include "section/section_rule.h"
@@ -129,13 +131,25 @@ class CopiedCrush final : public CrushOnDevice {
     state.contact_totals = totals_.contacts;
     state.contact_totals.deepest_penetration = std::bit_cast<double>(totals_.deepest_penetration);
     state.contact_totals.deepest_birth = std::bit_cast<double>(totals_.deepest_birth);
-    state.crossing_step = totals_.crossed != 0 ? step_ : state.crossing_step;
     state.contact_tiles.clear();
     state.contacts.assign(1, ContactLists());
     take_touches(state, state.contacts.front());
+    if (totals_.crossed != 0 || has_turned_face(state)) state.crossing_step = step_;
   }
 
  private:
+  /// Whether a face is turned inside out: the search of a processor sees it too.
+  [[nodiscard]] bool has_turned_face(const State& state) const {
+    if (!scene_.faces.are_enough()) return false;
+    const FacesOfBand& faces = scene_.faces.bands.front();
+    for (int face = 0; face < faces.count(); ++face) {
+      const std::span corners(&faces.particle[faces.offset[face]], static_cast<std::size_t>(faces.corner_count(face)));
+      const double area = area_within(corners, state.position);
+      if (face == faces.count() - 1 ? area > 0.0 : area < 0.0) return true;
+    }
+    return false;
+  }
+
   /// An array on the device with copies of some values.
   template <class T, class Values>
   Array<T> put(const Values& values) {

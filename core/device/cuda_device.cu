@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "device/device.h"
+#include "cellcrush/device.h"
 #include "device/steps-inl.h"
 
 namespace cellcrush {
@@ -44,8 +44,10 @@ class Launches {
   }
   void walls() {
     [&]<std::size_t... Kinds>(std::index_sequence<Kinds...>) {
-      ((static_cast<int>(Kinds) == walls_ ? walls_of<std::tuple_element_t<Kinds, on_device::WallKinds>>() : void()), ...);
-    }(std::make_index_sequence<std::tuple_size_v<on_device::WallKinds>>());
+      ((static_cast<int>(Kinds) == walls_ ? walls_of<std::tuple_element_t<Kinds, on_device::WallKinds>>() : void()),
+       ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<on_device::WallKinds>>());
   }
 
  private:

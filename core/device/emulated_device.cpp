@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "device/device.h"
+#include "cellcrush/device.h"
 #include "device/steps-inl.h"
 
 namespace cellcrush {

@@ -2,7 +2,8 @@
 
 // Scene and state of a crush on a device: what its phases read and write, under the names that the laws use
 // (cellcrush/scene.h, cellcrush/state.h). Arrays are pointers into the memory of the device; those that a crush on a
-// device does not have are empty.
+// device does not have are empty. device/steps-inl.h includes
+// it before any law.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +14,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
-#include "device/one_number-inl.h"
+#include "simd/lane-inl.h"
 
 namespace cellcrush::HWY_NAMESPACE {
 

@@ -6,6 +6,10 @@
 #include <cstdint>
 #include <tuple>
 
+// clang-format off
+#include "device/scene-inl.h"  // before any law: it has the names that these use
+// clang-format on
+
 #include "device/contact_phases-inl.h"
 #include "device/motion_phases-inl.h"
 #include "device/search_phases-inl.h"

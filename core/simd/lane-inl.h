@@ -7,7 +7,7 @@
 #endif
 
 #ifdef CELLCRUSH_ON_DEVICE
-#include "device/one_number-inl.h"
+#include "simd/one_number-inl.h"
 #else
 #include <hwy/highway.h>
 #endif
@@ -156,9 +156,5 @@ HWY_INLINE std::size_t write_set_lanes(LaneMask<D> mask, std::size_t first, int*
 
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#ifdef CELLCRUSH_ON_DEVICE  // whose scene and state have the names of those of a processor
-#include "device/scene-inl.h"
-#endif
 
 #endif  // CELLCRUSH_SIMD_LANE_INL_H_

@@ -204,6 +204,10 @@ void DaemonFlags::add_limits(CLI::App& app) {
   app.add_option("--workers", options_.workers,
                  "Maximum number of jobs running at once on this machine (default: one per core)")
       ->check(CLI::Range(1, 1024));
+  app.add_option("--device", options_.device,
+                 "Device that advances the runs that it can, on this machine, with the same results: cuda, or the path "
+                 "of a library for another one; see core/device/README.md (default: none)")
+      ->type_name("NAME");
   app.add_option("--slurm", clusters_,
                  "Slurm cluster that computes jobs as executor slurm/NAME: NAME:folder=PATH, where PATH lies on a file "
                  "system that the nodes share; see deploy/slurm/README.md for further settings; may be repeated "

@@ -248,7 +248,9 @@ WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order
     return {.kind = WorkerExit::Kind::broken};
   }
   if (process) return follow(*process, follower, events, oom_kills_);
-  write_order(folder, store::put_lattice_apart(folder, order));
+  worker::Order own = store::put_lattice_apart(folder, order);
+  own.set_device(device_);
+  write_order(folder, own);
   pid_t child = 0;
   std::vector<std::string> command = {program_.string(), "worker", "--folder", folder.root().string()};
   if (life_ == Life::ends_with_parent) command.insert(command.end(), {"--end-with", std::to_string(getpid())});

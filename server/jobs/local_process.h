@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "jobs/executor.h"
@@ -29,6 +30,9 @@ class LocalProcess final : public Executor {
                OomKills oom_kills = count_oom_kills, Life life = Life::outlives_parent)
       : program_(std::move(program)), stall_limit_(stall_limit), oom_kills_(std::move(oom_kills)), life_(life) {}
 
+  /// Has a device advance the runs that it can (cellcrush/device.h).
+  void use_device(std::string device) { device_ = std::move(device); }
+
   bool has_worker(const store::JobFolder& folder) override;
   std::optional<WorkerExit> read_final_report(const store::JobFolder& folder, const WorkerEvents& events) override;
   void end_worker(const store::JobFolder& folder) override;
@@ -40,6 +44,7 @@ class LocalProcess final : public Executor {
   std::chrono::milliseconds stall_limit_;
   OomKills oom_kills_;
   Life life_;
+  std::string device_;  ///< empty: none
 };
 
 }  // namespace cellcrush::jobs

@@ -48,6 +48,11 @@ class CaseCalls {
     out.set_predicted_seconds(parts_.step_cost * laws * static_cast<double>(out.element_count()) *
                               static_cast<double>(out.step_count()));
     translate::add_fidelities(request.case_(), parts_.step_cost, check);
+    if (parts_.has_device) {
+      out.add_modelled(check.why_not_on_device
+                           ? "Device: does not advance this run, because " + *check.why_not_on_device + "."
+                           : "Device: advances this run, to the bits of the processor.");
+    }
     out.set_predicted_bytes(store::predicted_result_bytes(out.particle_count(), out.element_count(), check.wall_count,
                                                           check.sample_count, check.frame_count));
     // While it runs, a job has its newest checkpoint, the one before and the one being written.

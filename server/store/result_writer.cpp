@@ -225,6 +225,7 @@ void ResultWriter::finish(const ResultHeader& header) {
   write_attribute(file_.id(), "modelled", as_lines(header.modelled));
   write_attribute(file_.id(), "solver_revision", header.solver_revision);
   write_attribute(file_.id(), "simd_target", header.simd_target);
+  write_attribute(file_.id(), "device", header.device);
   write_attribute(file_.id(), "threads", static_cast<std::int64_t>(header.threads));
   write_attribute(file_.id(), "time_step_s", header.time_step_s);
   write_attribute(file_.id(), "complete", static_cast<std::int64_t>(header.job.state() == v1::Job::SUCCEEDED));

@@ -22,6 +22,7 @@ struct ResultHeader {
   double time_step_s = 0.0;
   std::vector<std::string> modelled;
   std::string citation{};
+  std::string device = "none";  ///< what advanced the run beside the processor, or why nothing did
 };
 
 /// Writes one result.h5 (result_format.md). Not thread-safe. Failures throw ServiceError: storage_full or internal.

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "cellcrush/device.h"
 #include "cellcrush/run_memory.h"
 #include "cellcrush/simulation.h"
 #include "cellcrush/spec_checker.h"
@@ -190,6 +191,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;
   out.checkpoint_bytes = checkpoint_of_run(spec, *scene);
+  out.why_not_on_device = why_not_on_device(*scene);
   out.response.set_predicted_memory_bytes(
       memory_of_worker(spec, {memory_of_run(spec, *scene), facts.element_count, out.sample_count}));
   return out;

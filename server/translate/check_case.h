@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "cellcrush/spec_checker.h"
 #include "cellcrush/v1/case.pb.h"
@@ -28,9 +30,10 @@ void cut_problems(google::protobuf::RepeatedPtrField<v1::Problem>& problems);
 struct CaseCheck {
   v1::CheckCaseResponse response;  ///< all but predicted time and disk space, or only problems
   std::int64_t wall_count = 0;
-  std::int64_t sample_count = 0;      ///< of the run
-  std::int64_t frame_count = 0;       ///< of the run, including the undeformed frame
-  std::int64_t checkpoint_bytes = 0;  ///< of its largest checkpoint
+  std::int64_t sample_count = 0;                 ///< of the run
+  std::int64_t frame_count = 0;                  ///< of the run, including the undeformed frame
+  std::int64_t checkpoint_bytes = 0;             ///< of its largest checkpoint
+  std::optional<std::string> why_not_on_device;  ///< nothing: a device can advance it
   std::unique_ptr<SpecChecker> meshes = std::make_unique<SpecChecker>();  ///< holds the mesh of a case without problems
 };
 

@@ -21,6 +21,7 @@
 #include "translate/results.h"
 #include "translate/worker_memory.h"
 #include "worker/checkpoint_file.h"
+#include "worker/device_of_run.h"
 #include "worker/give_up.h"
 #include "worker/large_pages.h"
 #include "worker/memory_limit.h"
@@ -72,9 +73,13 @@ class Run {
         requested_stop_(requested_stop),
         origin_(origin_of(order)),
         scene_(scene_of(order)),
-        memory_limit_(memory_limit_of(order, *scene_), [this] { end_for_memory(); }),
+        device_(order.device(), *scene_),
+        // The driver of a device reserves far more than it uses.
+        memory_limit_(device_.advances() ? 0 : memory_limit_of(order, *scene_), [this] { end_for_memory(); }),
         facts_(facts_of(*scene_)),
-        simulation_(scene_, order.threads()) {}
+        simulation_(scene_, order.threads()) {
+    device_.advance(simulation_);
+  }
 
   Final to_the_end() {
     const auto found = find_checkpoint(folder_, origin_);
@@ -256,7 +261,7 @@ class Run {
         out = out_of_time();
       }
     }
-    *out.mutable_summary() = output_->finish(out, {seconds_used(), stage_timer_.seconds()});
+    *out.mutable_summary() = output_->finish(out, {seconds_used(), stage_timer_.seconds()}, device_.words(simulation_));
     return out;
   }
 
@@ -283,6 +288,7 @@ class Run {
   const RequestedStop& requested_stop_;
   Checkpoint::Origin origin_;
   std::shared_ptr<const Scene> scene_;
+  DeviceOfRun device_;
   MemoryLimit memory_limit_;
   SceneFacts facts_;
   Simulation simulation_;

@@ -158,13 +158,13 @@ v1::Job RunOutput::ended_job(const Final& end, v1::Summary summary) const {
   return out;
 }
 
-v1::Summary RunOutput::finish(const Final& end, const translate::RunTime& time) {
+v1::Summary RunOutput::finish(const Final& end, const translate::RunTime& time, const std::string& device) {
   auto summary = translate::to_proto(summarize(*scene_, samples_), samples_.empty() ? Sample{} : samples_.back(), time,
                                      order_.case_());
   translate::add_moduli(translate::to_spec(order_.case_()).spec, *summary.mutable_theory());
   if (end.cancelled() || end.cause() != v1::Job::JOB_CAUSE_UNSPECIFIED) summary.clear_end();
   writer_.finish({ended_job(end, summary), kSolverRevision, simd_target(), order_.threads(), facts_.time_step,
-                  facts_.modelled, kCitation});
+                  facts_.modelled, kCitation, device});
   store::publish_file(folder_.partial_result(), folder_.result());
   return summary;
 }

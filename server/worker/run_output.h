@@ -63,8 +63,8 @@ class RunOutput {
   /// Only if enough time has passed since the last one.
   void put_progress(std::int64_t step, double strain, ProgressMeter::Clock::time_point now);
 
-  /// Makes the result durable and renames it. `end`: how the run ended.
-  v1::Summary finish(const Final& end, const translate::RunTime& time);
+  /// Makes the result durable and renames it. `end`: how the run ended; `device`: for ResultHeader.
+  v1::Summary finish(const Final& end, const translate::RunTime& time, const std::string& device = "none");
 
   [[nodiscard]] int sample_count() const { return static_cast<int>(samples_.size()); }
   [[nodiscard]] std::int64_t last_sampled_step() const { return samples_.empty() ? 0 : samples_.back().step; }

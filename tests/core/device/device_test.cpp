@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "device/device.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/state_hash.h"
@@ -122,7 +121,7 @@ TEST_P(CrushOnADevice, HasTheBitsOfAProcessor) {
     ASSERT_EQ(on_device.device_failure(), "");
     ASSERT_EQ(hash_of(on_device.state()), hash_of(own.state())) << "at step " << own.step();
   }
-  EXPECT_GT(own.state().contact_totals.count, 2);
+  EXPECT_GT(own.state().contact_totals.deepest_penetration, 0.0);
   EXPECT_EQ(on_device.take_sample().energies.residual, own.take_sample().energies.residual);
 }
 

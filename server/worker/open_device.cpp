@@ -1,11 +1,8 @@
+#include "worker/open_device.h"
+
 #include <dlfcn.h>
 
-#include <string>
-
-#include "cellcrush/device.h"
-#include "device/device.h"
-
-namespace cellcrush {
+namespace cellcrush::worker {
 namespace {
 
 /// The library stays loaded: a device's driver does not survive being unloaded.
@@ -25,4 +22,4 @@ std::unique_ptr<DeviceEngine> open_device(const std::string& name) {
   return make_engine(load(name == "cuda" ? "libcellcrush_cuda.so" : name));
 }
 
-}  // namespace cellcrush
+}  // namespace cellcrush::worker

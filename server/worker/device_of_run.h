@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cellcrush/device.h"
+#include "cellcrush/simulation.h"
+
+namespace cellcrush::worker {
+
+/// The device that advances a run, if its order names one and it can. Must outlive the simulation.
+class DeviceOfRun {
+ public:
+  /// `name`: of open_device; empty: none.
+  DeviceOfRun(const std::string& name, const Scene& scene);
+
+  /// Whether there is one.
+  [[nodiscard]] bool advances() const { return engine_ != nullptr; }
+  void advance(Simulation& simulation) const;
+
+  /// What advanced the run beside the processor, or why nothing did.
+  [[nodiscard]] std::string words(const Simulation& simulation) const;
+
+ private:
+  std::unique_ptr<DeviceEngine> engine_;
+  std::string why_not_;
+};
+
+}  // namespace cellcrush::worker
