@@ -33,7 +33,7 @@
 #include "rpc/open_calls.h"
 #include "rpc/request_fields.h"
 #include "service.h"
-#include "worker/open_device.h"
+#include "worker/device_of_run.h"
 
 namespace cellcrush {
 namespace {

@@ -37,7 +37,7 @@ struct DaemonOptions {
   std::string public_url;
   /// Number of jobs that run at once on this machine. 0: the number of cores that the daemon may use (allotment.h).
   int workers = 0;
-  /// Device that advances the runs that it can, on this machine: see worker/open_device.h. Empty: none.
+  /// Device that advances the runs that it can, on this machine: see open_device (worker/device_of_run.h). Empty: none.
   std::string device;
   /// Program started as `PROGRAM worker ...`.
   std::filesystem::path worker_program = "/proc/self/exe";

@@ -16,7 +16,8 @@ class ForceList {
   HWY_INLINE ForceList(Crush& crush, int ball)
       : crush_(crush), next_key_((static_cast<std::uint64_t>(ball) << kBitsOfOne) + 1) {}
 
-  /// Plates come after the contacts of all balls.
+  /// Friction comes after the normal forces of all balls, and plates after both.
+  HWY_INLINE void begin_friction() { next_key_ |= kFriction; }
   HWY_INLINE void begin_plates() { next_key_ |= kPlates; }
 
   HWY_INLINE void add(int particle, AddedForce::Part part, double x, double y, double z = 0.0, double w = 0.0) {
@@ -30,6 +31,7 @@ class ForceList {
 
  private:
   static constexpr int kBitsOfOne = 24;
+  static constexpr std::uint64_t kFriction = std::uint64_t{1} << 61;
   static constexpr std::uint64_t kPlates = std::uint64_t{1} << 62;
 
   Crush& crush_;
@@ -58,6 +60,13 @@ struct AddedForces {
   AddedPart viscous = {list, particle, AddedForce::kViscous};
 };
 
+/// The friction forces, in place of an array of them.
+struct FrictionArray {
+  ForceList& list;
+
+  HWY_INLINE AddedPart operator[](int particle) const { return {list, particle, AddedForce::kFriction}; }
+};
+
 struct ForceArray {
   ForceList& list;
 
@@ -70,6 +79,7 @@ struct AddingState {
   ForceList& list;
 
   ForceArray contact_force = {list};
+  FrictionArray friction_force = {list};
   Array<const Vector2> position = {state.position.values, state.position.count};
   Array<const Vector2> velocity = {state.velocity.values, state.velocity.count};
   Array<const Vector2> axis = {state.axis.values, state.axis.count};

@@ -7,6 +7,7 @@
 
 #include "contact/touch/active_contacts-inl.h"
 #include "contact/touch/evaluate_touches-inl.h"
+#include "contact/touch/friction-inl.h"
 #include "contact/touch/normal_forces-inl.h"
 #include "contact/touch/overlap-inl.h"
 #include "device/added_forces-inl.h"
@@ -16,7 +17,61 @@
 
 namespace cellcrush::HWY_NAMESPACE {
 
-/// The contacts of a ball: those that it had and still has, and those that begin; their forces, and those of plates.
+/// The contacts of a ball in this step, in the memory of the thread.
+class BallContacts {
+ public:
+  HWY_INLINE BallContacts(Crush& crush, int ball)
+      : first_(static_cast<std::size_t>(ball) * kMostTouches), lists_(), touches_() {
+    lists_.reach_growth = crush.state.radius_growth.empty() ? 0.0 : 1.0;
+  }
+
+  /// Place of the touches among those of all balls.
+  [[nodiscard]] HWY_INLINE std::size_t first() const { return first_; }
+  [[nodiscard]] HWY_INLINE int* known() { return known_; }
+  [[nodiscard]] HWY_INLINE ContactLists& lists() { return lists_; }
+  [[nodiscard]] HWY_INLINE Touches& touches() { return touches_; }
+
+  /// Evaluates that many touches.
+  HWY_INLINE void evaluate(const Crush& crush, int touches) {
+    const auto count = static_cast<std::size_t>(touches);
+    lists_.touching = {{&crush.touch_ball[first_], count},  {&crush.touch_segment[first_], count},
+                       {&crush.touch_reach[first_], count}, {&crush.touch_linked[first_], count},
+                       {&crush.touch_side[first_], count},  part(crush.touch_pushed, count),
+                       part(crush.touch_friction, count)};
+    touches_ = {{start_, count}, {end_, count},   {known_, count},      {growth_, count},     {offset_, count},
+                {share_, count}, {depth_, count}, {nullptr, 0},         {normal_, count},     {viscous_, count},
+                {slip_, count},  {node_, count},  {node_depth_, count}, {node_normal_, count}};
+    const PairArrays arrays = {crush.scene, crush.state, lists_, touches_};
+    for (std::size_t i = 0; i < count; ++i) evaluate_pairs<One>(arrays, i);
+  }
+
+ private:
+  /// Those of the ball, of an array that may be empty.
+  template <class T>
+  [[nodiscard]] HWY_INLINE Array<T> part(const Array<T>& array, std::size_t count) const {
+    return array.empty() ? array : Array<T>{array.values + first_, count};
+  }
+
+  std::size_t first_;
+  ContactLists lists_;
+  Touches touches_;
+  int start_[kMostTouches];
+  int end_[kMostTouches];
+  int known_[kMostTouches];
+  double growth_[kMostTouches];
+  double offset_[kMostTouches];
+  double share_[kMostTouches];
+  double depth_[kMostTouches];
+  Vector2 normal_[kMostTouches];
+  double viscous_[kMostTouches];
+  double slip_[kMostTouches];
+  int node_[kMostTouches];
+  double node_depth_[kMostTouches];
+  Vector2 node_normal_[kMostTouches];
+};
+
+/// The contacts of a ball: those that it had and still has, and those that begin; their normal forces, and what plates
+/// do to it.
 class EvaluateContacts {
  public:
   static HWY_INLINE std::size_t items(const Crush& crush) { return crush.first_added.size(); }
@@ -31,82 +86,60 @@ class EvaluateContacts {
   }
 
  private:
-  /// The touches of a ball in this step, in the memory of the thread.
-  struct Room {
-    int start[kMostTouches];
-    int end[kMostTouches];
-    int known[kMostTouches];
-    double growth[kMostTouches];
-    double offset[kMostTouches];
-    double share[kMostTouches];
-    double depth[kMostTouches];
-    Vector2 normal[kMostTouches];
-    double viscous[kMostTouches];
-    double slip[kMostTouches];
-    int node[kMostTouches];
-    double node_depth[kMostTouches];
-    Vector2 node_normal[kMostTouches];
-
-    HWY_INLINE Touches of(std::size_t count) {
-      return {{start, count}, {end, count},        {known, count},      {growth, count},  {offset, count},
-              {share, count}, {depth, count},      {normal, count},     {viscous, count}, {slip, count},
-              {node, count},  {node_depth, count}, {node_normal, count}};
-    }
-  };
-
-  static HWY_INLINE TouchMemory memory_of(const Crush& crush, int ball, std::size_t count) {
-    const std::size_t at = static_cast<std::size_t>(ball) * kMostTouches;
-    return {{&crush.touch_ball[at], count},
-            {&crush.touch_segment[at], count},
-            {&crush.touch_reach[at], count},
-            {&crush.touch_linked[at], count},
-            {&crush.touch_side[at], count}};
-  }
-
   static HWY_INLINE void touch(Crush& crush, AddingState& state, int ball) {
-    Room room;
     crush.active_count[ball] = 0;
-    const int kept = drop_released(crush, ball);
-    if (kept == 0 && crush.candidate_count[ball] == 0) {
-      crush.touch_count[ball] = 0;
-      return;
-    }
-    for (int i = 0; i < kept; ++i) room.known[i] = 0;
-    const int count = add_new(crush, ball, kept, room.known);
+    if (!crush.before_count.empty()) keep_friction(crush, ball);
+    BallContacts contacts(crush, ball);
+    const int kept = drop_released(crush, ball, contacts.known());
+    const int count = crush.candidate_count[ball] == 0 ? kept : add_new(crush, ball, kept, contacts.known());
     crush.touch_count[ball] = count;
     if (count == 0) return;
-    ContactLists lists = {memory_of(crush, ball, static_cast<std::size_t>(count)),
-                          crush.state.radius_growth.empty() ? 0.0 : 1.0};
-    link(crush.scene, lists.touching);
-    Touches touches = room.of(static_cast<std::size_t>(count));
-    const PairArrays arrays = {crush.scene, crush.state, lists, touches};
-    for (int i = 0; i < count; ++i) evaluate_pairs<One>(arrays, static_cast<std::size_t>(i));
-    const TouchArrays of = {lists.touching, touches};
+    contacts.evaluate(crush, count);
+    link(crush.scene, contacts.lists().touching);
+    const TouchArrays of = {contacts.lists().touching, contacts.touches()};
     ContactTotals deepest;
     for (int i = 0; i < count; ++i) {
-      const std::size_t at = static_cast<std::size_t>(ball) * kMostTouches + i;
+      const std::size_t at = contacts.first() + i;
       crush.touch_squared_depth[at] = 0.0;
       crush.touch_stored[at] = 0.0;
       ActiveContact contact;
-      if (!is_active(crush.scene, crush.state, lists, touches, i, contact)) continue;
+      if (!is_active(crush.scene, crush.state, contacts.lists(), contacts.touches(), i, contact)) continue;
       ++crush.active_count[ball];
       ContactTotals totals = deepest;
       totals.stored = 0.0;
       add_normal_force(crush.scene, state, state.contact_force, of, contact, crush.touch_squared_depth[at], totals);
       crush.touch_stored[at] = totals.stored;
       deepest = totals;
+      const int known = contacts.known()[i];
+      if (!crush.before_count.empty() && contact.has_pair && known != Touches::kNew) crush.before_goes_on[known] = 1;
+    }
+    if (!crush.before_count.empty()) {
+      for (int i = 0; i < count; ++i) crush.touch_known[contacts.first() + i] = contacts.known()[i];
     }
     raise_at(crush.totals[0].deepest_penetration, deepest.deepest_penetration);
     raise_at(crush.totals[0].deepest_birth, deepest.deepest_birth);
   }
 
+  /// Keeps what the friction of this step begins with.
+  static HWY_INLINE void keep_friction(Crush& crush, int ball) {
+    const std::size_t at = static_cast<std::size_t>(ball) * kMostTouches;
+    crush.before_count[ball] = crush.touch_count[ball];
+    for (std::size_t i = at; i < at + crush.touch_count[ball]; ++i) {
+      crush.before_segment[i] = crush.touch_segment[i];
+      crush.before_pushed[i] = crush.touch_pushed[i];
+      crush.before_friction[i] = crush.touch_friction[i];
+      crush.before_goes_on[i] = 0;
+    }
+  }
+
   /// Removes the pairs that were released in the step before. Returns how many are left.
-  static HWY_INLINE int drop_released(Crush& crush, int ball) {
+  static HWY_INLINE int drop_released(Crush& crush, int ball, int* known) {
     const int count = crush.touch_count[ball];
     const std::size_t at = static_cast<std::size_t>(ball) * kMostTouches;
     int kept = 0;
     for (int i = 0; i < count; ++i) {
       if (crush.touch_side[at + i] == 0) continue;
+      known[kept] = static_cast<int>(at) + i;
       move_touch(crush, at + i, at + kept++);
     }
     return kept;
@@ -174,6 +207,17 @@ class EvaluateContacts {
     return face.normal.dot(place - face.point);
   }
 
+  /// See push_by_face of push/push.h.
+  static HWY_INLINE FaceForce push(const Crush& crush, AddingState& state, const Face& face, int ball, double radius,
+                                   double inverse_mass) {
+    const double distance = distance_of(face, crush.state.position[ball]);
+    FaceForce sum = press_ball(crush.scene, state, face, ball, radius - distance, inverse_mass);
+    if (face.friction_of != nullptr && (distance < radius || face.friction_of[ball] != 0.0)) {
+      sum.tangential = rub(crush.scene, state, face, ball, distance, face.friction * (sum.elastic + sum.viscous));
+    }
+    return sum;
+  }
+
   /// Forces of the plates on a ball (push/plates.cpp).
   static HWY_INLINE void press(Crush& crush, AddingState& state, int ball, const PlateStep& plates) {
     const double radius = radius_now(crush.scene, crush.state, ball);
@@ -182,14 +226,59 @@ class EvaluateContacts {
     Face impact = crush.impact;
     impact.point[axis] += plates.travel;
     impact.speed = plates.speed;
-    if (!(place - radius < impact.point[axis] || place + radius > crush.support.point[axis])) return;
+    const bool rubs = impact.friction_of != nullptr;
+    const bool rubbed = rubs && (impact.friction_of[ball] != 0.0 || crush.support.friction_of[ball] != 0.0);
+    if (!(place - radius < impact.point[axis] || place + radius > crush.support.point[axis] || rubbed)) return;
     const double inverse_mass = crush.scene.inverse_mass[ball];
-    const double in_impact = radius - distance_of(impact, crush.state.position[ball]);
-    const double in_support = radius - distance_of(crush.support, crush.state.position[ball]);
-    crush.plate_push[ball] = {press_ball(crush.scene, state, impact, ball, in_impact, inverse_mass),
-                              press_ball(crush.scene, state, crush.support, ball, in_support, inverse_mass)};
+    crush.plate_push[ball].impact = push(crush, state, impact, ball, radius, inverse_mass);
+    crush.plate_push[ball].support = push(crush, state, crush.support, ball, radius, inverse_mass);
     or_at(crush.pressed[ball / 32], 1U << (ball % 32));
   }
+};
+
+/// Friction of the contacts of a ball. A phase of its own: it looks at the touches that other balls had and have.
+class RubContacts {
+ public:
+  static HWY_INLINE std::size_t items(const Crush& crush) { return crush.before_count.size(); }
+
+  static HWY_INLINE void compute(Crush& crush, std::size_t item, std::size_t /*step*/) {
+    const int count = crush.touch_count[item];
+    if (count == 0) return;
+    const int ball = static_cast<int>(item);
+    BallContacts contacts(crush, ball);
+    for (int i = 0; i < count; ++i) {
+      const std::size_t at = contacts.first() + i;
+      contacts.known()[i] = crush.touch_known[at];
+      crush.touch_pushed[at] = 0;
+      crush.touch_friction[at] = 0.0;
+    }
+    if (crush.active_count[ball] == 0) return;
+    contacts.evaluate(crush, count);
+    ForceList forces(crush, ball);
+    forces.begin_friction();
+    AddingState state{crush.state, forces};
+    const Before before = {crush};
+    for (int i = 0; i < count; ++i) {
+      ActiveContact contact;
+      if (!is_active(crush.scene, crush.state, contacts.lists(), contacts.touches(), i, contact)) continue;
+      force_of_pair(crush.scene, contacts.touches(), contact);
+      rub_pair(crush.scene, state, contacts.lists().touching, contacts.touches(), before, contact);
+    }
+  }
+
+ private:
+  /// See FrictionTransfer.
+  struct Before {
+    const Crush& crush;
+
+    [[nodiscard]] HWY_INLINE PairRange range_of(int ball) const {
+      return {ball * kMostTouches, ball * kMostTouches + crush.before_count[ball]};
+    }
+    [[nodiscard]] HWY_INLINE int segment(int earlier) const { return crush.before_segment[earlier]; }
+    [[nodiscard]] HWY_INLINE int pushed(int earlier) const { return crush.before_pushed[earlier]; }
+    [[nodiscard]] HWY_INLINE double friction(int earlier) const { return crush.before_friction[earlier]; }
+    [[nodiscard]] HWY_INLINE bool has_friction(int earlier) const { return crush.before_goes_on[earlier] != 0; }
+  };
 };
 
 /// Adds up the forces of contacts and plates on a particle.
@@ -202,6 +291,7 @@ struct AddForces {
     ContactForce& force = crush.state.contact_force[particle];
     Points<One> elastic = Points<One>::load(&force.elastic);
     Points<One> viscous = Points<One>::load(&force.viscous);
+    Points<One> friction = {0, 0};
     std::uint64_t done = 0;  // keys begin at 1
     for (int k = next_of(crush, first, done); k != AddedForce::kEnd; k = next_of(crush, first, done)) {
       const AddedForce& added = crush.added[k];
@@ -211,13 +301,16 @@ struct AddForces {
         viscous = viscous + Points<One>{added.value[2], added.value[3]};
       } else if (added.part == AddedForce::kElastic) {
         elastic = elastic + low;
-      } else {
+      } else if (added.part == AddedForce::kViscous) {
         viscous = viscous + low;
+      } else {
+        friction = friction + low;
       }
       done = added.key;
     }
     elastic.store(&force.elastic);
     viscous.store(&force.viscous);
+    if (!crush.state.friction_force.empty()) friction.store(&crush.state.friction_force[particle]);
     crush.first_added[particle] = AddedForce::kEnd;
   }
 

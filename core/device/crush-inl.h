@@ -5,6 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
+// clang-format off
+#include "device/scene-inl.h"  // before any law: it has the names that these use
+// clang-format on
+
 #include "motion/integrate_motion.h"
 #include "motion/motion_works-inl.h"
 #include "motion/particle_motion-inl.h"
@@ -18,7 +22,7 @@ using One = hn::CappedTag<double, 1>;
 /// A force on a particle that is to be added to State::contact_force. The items of a phase add theirs in any order to a
 /// list; the particle then adds them up by ascending key, which is the order on a processor.
 struct AddedForce {
-  enum Part : int { kBoth, kElastic, kViscous };
+  enum Part : int { kBoth, kElastic, kViscous, kFriction };
 
   std::uint64_t key;
   int particle;
@@ -87,6 +91,16 @@ struct Crush {
   Array<double> touch_squared_depth;  ///< of a contact, with its share
   Array<double> touch_stored;         ///< that is counted twice, negative
   Array<int> active_count;
+  // With friction alone. Of the touches now, their place before; of those before, in these places, what TouchMemory has
+  // and whether the pair has friction in this step too.
+  Array<int> touch_known;
+  Array<int> touch_pushed;
+  Array<double> touch_friction;
+  Array<int> before_count;
+  Array<int> before_segment;
+  Array<int> before_pushed;
+  Array<double> before_friction;
+  Array<int> before_goes_on;
   Array<PlatePush> plate_push;
   Array<unsigned> pressed;  ///< a bit for each particle on which a plate pushes
 

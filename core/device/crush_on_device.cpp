@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "beam/internal_forces.h"
 #include "cellcrush/device.h"
 #include "contact/topology/face_loops.h"
-#include "device/steps-inl.h"
-#include "motion/integrate_motion.h"
-#include "section/section_rule.h"
+#include "device/copy_scene.h"
+#include "device/device_memory.h"
 
 namespace cellcrush {
 namespace {
@@ -53,64 +53,43 @@ void visit_shared(OnDevice& device, Own& own, const Visit& visit) {
   visit(device.internal_force, own.internal_force);
   visit(device.internal_moment, own.internal_moment);
   visit(device.contact_force, own.contact_force);
+  visit(device.friction_force, own.friction_force);
+  visit(device.impact_friction, own.impact_friction);
+  visit(device.support_friction, own.support_friction);
 }
 
-/// Calls visit(kind) for the kind of walls of a scene, with its index.
-template <class Visit>
-void visit_kind(const Scene& scene, const Visit& visit) {
-  const auto is_of = [&]<class Law, class Rule, bool kForceBased>(
-                         std::type_identity<on_device::EvaluateWalls<kForceBased, Law, Rule>>) {
-    bool has_law = false;
-    Laws::visit(scene.law, [&](auto law) { has_law = std::is_same_v<decltype(law), Law>; });
-    return has_law && kForceBased == scene.section.force_based &&
-           std::is_same_v<typename Rule::Number, float> == scene.single_fibres;
-  };
-  [&]<std::size_t... Kinds>(std::index_sequence<Kinds...>) {
-    const auto visit_one = [&]<std::size_t kIndex>(std::integral_constant<std::size_t, kIndex>) {
-      using Kind = std::tuple_element_t<kIndex, on_device::WallKinds>;
-      if (is_of(std::type_identity<Kind>())) visit(std::type_identity<Kind>(), static_cast<int>(kIndex));
-    };
-    (visit_one(std::integral_constant<std::size_t, Kinds>()), ...);
-  }
-  (std::make_index_sequence<std::tuple_size_v<on_device::WallKinds>>());
-}
-
-/// Room for the forces that are added in a step: a few for each particle.
-std::size_t most_added_forces(const Scene& scene) { return 16 * scene.particle_count() + 4096; }
-
-Face face_of(const Scene& scene, double place, double outward) {
+/// The face of a plate; see face_of_plate of push/plates.cpp.
+Face face_of(const Scene& scene, double place, double outward, double* friction_of) {
   Face face = {};
   face.point = face.normal = face.tangent = Vector2::Zero();
   face.point[scene.plates.axis] = place;
   face.normal[scene.plates.axis] = outward;
   face.tangent[1 - scene.plates.axis] = 1.0;
   face.stiffness = scene.plates.stiffness;
+  face.friction = scene.plates.friction;
+  face.friction_of = scene.plates.friction > 0.0 ? friction_of : nullptr;
   face.grows = scene.thickens();
   return face;
 }
 
+/// Room for the forces that are added in a step: a few for each particle.
+std::size_t most_added_forces(const Scene& scene) { return 16 * scene.particle_count() + 4096; }
+
 /// A crush whose arrays are copies of those of a state.
 class CopiedCrush final : public CrushOnDevice {
  public:
-  CopiedCrush(Device& device, const Scene& scene, const State& state) : device_(device), scene_(scene) {
-    put_scene();
+  CopiedCrush(Device& device, const Scene& scene, const State& state)
+      : device_(device), memory_(device), scene_(scene), walls_(copy_scene(scene, memory_, crush_)) {
     put_state(state);
-    put_search();
     put_contacts(state);
     put_scratch();
-    address_ = device_.allocate(sizeof crush_);
-    memory_.push_back(address_);
     put_crush();
-  }
-
-  ~CopiedCrush() override {
-    for (void* of : memory_) device_.free(of);
   }
 
   bool advance(std::int64_t steps) override {
     if (steps <= 0) return true;
     put_plate_steps(steps);
-    device_.advance(&crush_, address_, walls_, steps);
+    device_.advance(&crush_, on_device_.data(), walls_, steps);
     device_.read(&totals_, crush_.totals.data(), sizeof totals_);
     return totals_.overflow == 0;
   }
@@ -119,10 +98,7 @@ class CopiedCrush final : public CrushOnDevice {
     state.step = step_;
     state.time = time_;
     state.impact_travel = totals_.impact_travel;
-    visit_shared(crush_.state, state, [&](const auto& from, auto& to) {
-      to.resize(from.size());
-      if (!to.empty()) device_.read(to.data(), from.data(), from.size() * sizeof(to[0]));
-    });
+    visit_shared(crush_.state, state, [&](const auto& from, auto& to) { memory_.read(from, to); });
     state.ledger = totals_.ledger;
     state.impact_impulse = totals_.impact_impulse;
     state.support_impulse = totals_.support_impulse;
@@ -150,87 +126,11 @@ class CopiedCrush final : public CrushOnDevice {
     return false;
   }
 
-  /// An array on the device with copies of some values.
-  template <class T, class Values>
-  Array<T> put(const Values& values) {
-    using Value = std::remove_const_t<T>;
-    static_assert(std::is_same_v<Value, std::remove_cvref_t<decltype(values[0])>>);
-    const std::size_t bytes = values.size() * sizeof(Value);
-    Array<T> array = room<T>(values.size());
-    if (bytes > 0) device_.write(const_cast<Value*>(array.data()), values.data(), bytes);
-    return array;
-  }
-
-  template <class T>
-  Array<T> room(std::size_t count) {
-    if (count == 0) return {};
-    void* const of = device_.allocate(count * sizeof(T));
-    memory_.push_back(of);
-    return {static_cast<T*>(of), count};
-  }
-
-  template <class T>
-  Array<T> zeros(std::size_t count) {
-    return put<T>(std::vector<T>(count, T{}));
-  }
-
-  void put_scene() {
-    on_device::Scene& to = crush_.scene;
-    to.mass = put<const double>(scene_.mass);
-    to.inertia = put<const double>(scene_.inertia);
-    to.inverse_mass = put<const double>(scene_.inverse_mass);
-    to.inverse_inertia = put<const double>(scene_.inverse_inertia);
-    to.radius = put<const double>(scene_.radius);
-    to.greatest_radius = scene_.greatest_radius();
-    to.elements = put<const Element>(scene_.elements);
-    to.incidence_offset = put<const int>(scene_.incidence_offset);
-    to.incidence = put<const int>(scene_.incidence);
-    to.limited_reaches = {put<const int>(scene_.limited_reaches.offset), put<const int>(scene_.limited_reaches.segment),
-                          put<const double>(scene_.limited_reaches.reach)};
-    to.wall_end_offset = put<const int>(scene_.wall_end_offset);
-    to.wall_ends = put<const int>(scene_.wall_ends);
-    to.walls.blocks = put<const WallBlock>(scene_.walls.blocks);
-    to.walls.chunk_offset = put<const int>(scene_.walls.chunk_offset);
-    to.walls.start = put<const int>(scene_.walls.start);
-    to.walls.end = put<const int>(scene_.walls.end);
-    to.walls.thickness = put<const double>(scene_.walls.thickness);
-    to.walls.undeformed_length = put<const double>(scene_.walls.undeformed_length);
-    to.walls.material = put<const int>(scene_.walls.material);
-    to.walls.shear = put<const double>(scene_.walls.shear);
-    std::vector<on_device::Material> materials;
-    for (const Material& of : scene_.materials) {
-      materials.push_back({of.youngs_modulus,
-                           of.yield_stress,
-                           {of.law.hardening_modulus_mpa, of.law.isotropic_fraction},
-                           of.plane_strain});
-    }
-    to.materials = put<const on_device::Material>(materials);
-    to.depth = scene_.depth;
-    to.constant_area = scene_.constant_area;
-    to.section = {scene_.section.force_based};
-    to.plates = {scene_.plates.axis};
-    to.contact = {scene_.contact.present,       scene_.contact.bends,    scene_.contact.stiffness,
-                  scene_.contact.damping_ratio, scene_.contact.thinnest, scene_.contact.face_skin};
-    to.mass_scaling = scene_.mass_scaling;
-    to.mass_damping = scene_.mass_damping;
-    to.schedule = {scene_.schedule.time_step};
-    crush_.factors = on_device::step_factors_of(to);
-    crush_.impact = face_of(scene_, scene_.plates.impact_face, 1.0);
-    crush_.support = face_of(scene_, scene_.plates.support_face, -1.0);
-    std::vector<ParticleRange> moved;
-    for (std::size_t chunk = 0; chunk < moved_chunk_count(scene_); ++chunk) moved.push_back(moved_chunk(scene_, chunk));
-    crush_.moved = put<const ParticleRange>(moved);
-    visit_kind(scene_, [&]<class Kind>(std::type_identity<Kind>, int index) {
-      const typename Kind::Factors factors(scene_.section);
-      const auto* bytes = reinterpret_cast<const unsigned char*>(&factors);
-      crush_.rule = put<const unsigned char>(std::vector<unsigned char>(bytes, bytes + sizeof factors));
-      walls_ = index;
-    });
-  }
-
   void put_state(const State& state) {
     visit_shared(crush_.state, state,
-                 [&](auto& to, const auto& from) { to = put<std::remove_reference_t<decltype(to[0])>>(from); });
+                 [&](auto& to, const auto& from) { to = memory_.put<std::remove_reference_t<decltype(to[0])>>(from); });
+    crush_.impact = face_of(scene_, scene_.plates.impact_face, 1.0, crush_.state.impact_friction.values);
+    crush_.support = face_of(scene_, scene_.plates.support_face, -1.0, crush_.state.support_friction.values);
     totals_ = {};
     totals_.ledger = state.ledger;
     totals_.impact_impulse = state.impact_impulse;
@@ -241,49 +141,9 @@ class CopiedCrush final : public CrushOnDevice {
     totals_.deepest_penetration = std::bit_cast<std::uint64_t>(state.contact_totals.deepest_penetration);
     totals_.deepest_birth = std::bit_cast<std::uint64_t>(state.contact_totals.deepest_birth);
     totals_.search_travel = 2.0 * scene_.contact.face_skin + 1.0;  // the first step searches
-    crush_.totals = put<on_device::Totals>(std::vector<on_device::Totals>{totals_});
+    crush_.totals = memory_.put<on_device::Totals>(std::vector<on_device::Totals>{totals_});
     time_ = state.time;
     step_ = state.step;
-  }
-
-  void put_search() {
-    if (!scene_.contact.present) return;
-    double longest = 0.0;
-    for (const double length : scene_.walls.undeformed_length) longest = std::max(longest, length);
-    // Segments may stretch by half; beyond that the crush ends on the device.
-    crush_.square_size = 0.75 * longest + 2.0 * scene_.greatest_radius() + scene_.contact.face_skin;
-    crush_.first_segment = room<int>(std::bit_ceil(scene_.element_count()));
-    crush_.next_segment = room<int>(scene_.element_count());
-    if (scene_.faces.are_enough()) put_faces();
-  }
-
-  /// The faces of every ball and segment.
-  void put_faces() {
-    const std::vector<int>& side = scene_.faces.side;
-    std::vector<std::vector<int>> of_segment(scene_.element_count());
-    for (std::size_t e = 0; e < of_segment.size(); ++e) of_segment[e] = {side[2 * e], side[2 * e + 1]};
-    for (const ThickEnd& end : scene_.faces.thick_ends) of_segment[end.element].push_back(end.face);
-    std::vector<std::vector<int>> of_ball(scene_.particle_count());
-    for (std::size_t ball = 0; ball < of_ball.size(); ++ball) {
-      for (int k = scene_.incidence_offset[ball]; k < scene_.incidence_offset[ball + 1]; ++k) {
-        for (const int face : {side[2 * scene_.incidence[k]], side[2 * scene_.incidence[k] + 1]}) {
-          if (std::ranges::find(of_ball[ball], face) == of_ball[ball].end()) of_ball[ball].push_back(face);
-        }
-      }
-    }
-    put_lists(of_ball, crush_.ball_faces_offset, crush_.ball_faces);
-    put_lists(of_segment, crush_.segment_faces_offset, crush_.segment_faces);
-  }
-
-  void put_lists(const std::vector<std::vector<int>>& lists, Array<const int>& offset, Array<const int>& all) {
-    std::vector<int> ends = {0};
-    std::vector<int> joined;
-    for (const std::vector<int>& list : lists) {
-      joined.insert(joined.end(), list.begin(), list.end());
-      ends.push_back(static_cast<int>(joined.size()));
-    }
-    offset = put<const int>(ends);
-    all = put<const int>(joined);
   }
 
   void put_contacts(const State& state) {
@@ -293,6 +153,8 @@ class CopiedCrush final : public CrushOnDevice {
     std::vector<int> segment(ball.size(), 0);
     std::vector<double> reach(ball.size(), 0.0);
     std::vector<int> side(ball.size(), 0);
+    std::vector<int> pushed(ball.size(), 0);
+    std::vector<double> friction(ball.size(), 0.0);
     for (std::size_t i = 0; i < ball.size(); ++i) ball[i] = static_cast<int>(i / on_device::kMostTouches);
     const cellcrush::TouchMemory& touching = state.contacts.front().touching;
     for (std::size_t i = 0; i < touching.count(); ++i) {
@@ -302,37 +164,53 @@ class CopiedCrush final : public CrushOnDevice {
       segment[at] = touching.segment[i];
       reach[at] = touching.reach[i];
       side[at] = touching.side[i];
+      if (touching.pushed.empty()) continue;
+      pushed[at] = touching.pushed[i];
+      friction[at] = touching.friction[i];
     }
-    crush_.touch_count = put<int>(count);
-    crush_.touch_ball = put<int>(ball);
-    crush_.touch_segment = put<int>(segment);
-    crush_.touch_reach = put<double>(reach);
-    crush_.touch_side = put<int>(side);
-    crush_.touch_linked = zeros<int>(ball.size());
-    crush_.touch_squared_depth = zeros<double>(ball.size());
-    crush_.touch_stored = zeros<double>(ball.size());
-    crush_.active_count = zeros<int>(balls);
-    crush_.candidate_count = zeros<int>(scene_.contact.present ? balls : 0);
-    crush_.candidate = room<int>(balls * on_device::kMostCandidates);
-    crush_.plate_push = room<on_device::PlatePush>(balls);
-    crush_.pressed = zeros<unsigned>(balls / 32 + 1);
-    crush_.first_added = put<int>(std::vector<int>(balls, on_device::AddedForce::kEnd));
-    crush_.added = room<on_device::AddedForce>(most_added_forces(scene_));
+    if (scene_.contact.friction > 0.0) {
+      crush_.touch_pushed = memory_.put<int>(pushed);
+      crush_.touch_friction = memory_.put<double>(friction);
+      crush_.touch_known = memory_.room<int>(ball.size());
+      crush_.before_count = memory_.zeros<int>(balls);
+      crush_.before_segment = memory_.room<int>(ball.size());
+      crush_.before_pushed = memory_.room<int>(ball.size());
+      crush_.before_friction = memory_.room<double>(ball.size());
+      crush_.before_goes_on = memory_.room<int>(ball.size());
+    }
+    crush_.touch_count = memory_.put<int>(count);
+    crush_.touch_ball = memory_.put<int>(ball);
+    crush_.touch_segment = memory_.put<int>(segment);
+    crush_.touch_reach = memory_.put<double>(reach);
+    crush_.touch_side = memory_.put<int>(side);
+    crush_.touch_linked = memory_.zeros<int>(ball.size());
+    crush_.touch_squared_depth = memory_.zeros<double>(ball.size());
+    crush_.touch_stored = memory_.zeros<double>(ball.size());
+    crush_.active_count = memory_.zeros<int>(balls);
+    crush_.candidate_count = memory_.zeros<int>(scene_.contact.present ? balls : 0);
+    crush_.candidate = memory_.room<int>(balls * on_device::kMostCandidates);
+    crush_.plate_push = memory_.room<on_device::PlatePush>(balls);
+    crush_.pressed = memory_.zeros<unsigned>(balls / 32 + 1);
+    crush_.first_added = memory_.put<int>(std::vector<int>(balls, on_device::AddedForce::kEnd));
+    crush_.added = memory_.room<on_device::AddedForce>(most_added_forces(scene_));
   }
 
   void put_scratch() {
-    crush_.lane_works = room<double>(on_device::kWorkTerms * kSumLanes * crush_.moved.size());
-    crush_.lane_plastic = room<double>(static_cast<std::size_t>(kMostWallsInBlock) *
-                                       static_cast<std::size_t>(scene_.walls.chunk_count()));
+    crush_.lane_works = memory_.room<double>(on_device::kWorkTerms * kSumLanes * crush_.moved.size());
+    crush_.lane_plastic = memory_.room<double>(static_cast<std::size_t>(kMostWallsInBlock) *
+                                               static_cast<std::size_t>(scene_.walls.chunk_count()));
     const std::size_t values = kScratchKinds * scene_.element_count();
     if (scene_.single_fibres) {
-      crush_.single_scratch = room<float>(values);
+      crush_.single_scratch = memory_.room<float>(values);
     } else {
-      crush_.double_scratch = room<double>(values);
+      crush_.double_scratch = memory_.room<double>(values);
     }
   }
 
-  void put_crush() { device_.write(address_, &crush_, sizeof crush_); }
+  void put_crush() {
+    if (on_device_.empty()) on_device_ = memory_.room<on_device::Crush>(1);
+    memory_.write(on_device_, std::vector<on_device::Crush>{crush_});
+  }
 
   /// The motion of the plate over the coming steps, which does not depend on the lattice.
   void put_plate_steps(std::int64_t steps) {
@@ -343,16 +221,16 @@ class CopiedCrush final : public CrushOnDevice {
       time_ = static_cast<double>(++step_) * scene_.schedule.time_step;
     }
     if (crush_.plate_steps.size() < plates.size()) {
-      crush_.plate_steps = room<const PlateStep>(plates.size());
+      crush_.plate_steps = memory_.room<const PlateStep>(plates.size());
       put_crush();
     }
-    device_.write(const_cast<PlateStep*>(crush_.plate_steps.data()), plates.data(), plates.size() * sizeof(PlateStep));
+    memory_.write(crush_.plate_steps, plates);
   }
 
   template <class T>
-  std::vector<std::remove_const_t<T>> values_of(const Array<T>& array) const {
-    std::vector<std::remove_const_t<T>> values(array.size());
-    if (!values.empty()) device_.read(values.data(), array.data(), values.size() * sizeof(T));
+  std::vector<T> values_of(const Array<T>& array) const {
+    std::vector<T> values;
+    memory_.read(array, values);
     return values;
   }
 
@@ -362,6 +240,8 @@ class CopiedCrush final : public CrushOnDevice {
     const std::vector<double> reach = values_of(crush_.touch_reach);
     const std::vector<int> linked = values_of(crush_.touch_linked);
     const std::vector<int> side = values_of(crush_.touch_side);
+    const std::vector<int> pushed = values_of(crush_.touch_pushed);
+    const std::vector<double> friction = values_of(crush_.touch_friction);
     cellcrush::TouchMemory& touching = lists.touching;
     for (std::size_t ball = 0; ball < count.size(); ++ball) {
       for (std::size_t i = ball * on_device::kMostTouches; i < ball * on_device::kMostTouches + count[ball]; ++i) {
@@ -372,19 +252,22 @@ class CopiedCrush final : public CrushOnDevice {
         touching.place.push_back(0);
         touching.linked.push_back(linked[i]);
         touching.side.push_back(side[i]);
+        if (pushed.empty()) continue;
+        touching.pushed.push_back(pushed[i]);
+        touching.friction.push_back(friction[i]);
       }
     }
     for (const double growth : state.radius_growth) lists.reach_growth = std::max(lists.reach_growth, 2.0 * growth);
   }
 
   Device& device_;
+  DeviceMemory memory_;
   const Scene& scene_;
   const State no_drive_;  ///< of plates whose speed is not controlled
-  std::vector<void*> memory_;
   on_device::Crush crush_ = {};
+  const int walls_;  ///< their kind
+  Array<on_device::Crush> on_device_;
   on_device::Totals totals_ = {};
-  void* address_ = nullptr;
-  int walls_ = 0;
   double time_ = 0.0;
   std::int64_t step_ = 0;
 };

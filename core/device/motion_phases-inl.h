@@ -27,10 +27,14 @@ struct MoveParticles {
   static HWY_INLINE void compute(Crush& crush, std::size_t item, std::size_t /*step*/) {
     const ParticleRange range = crush.moved[item / kSumLanes];
     LaneWorks<One> works = WorkSums().load<One>(0);
-    if (crush.scene.mass_damping > 0.0) {
-      move_lane<ForceKinds<false, true, false>>(crush, range, item % kSumLanes, works);
+    const std::size_t lane = item % kSumLanes;
+    const bool is_damped = crush.scene.mass_damping > 0.0;
+    if (crush.state.friction_force.empty()) {
+      is_damped ? move_lane<ForceKinds<false, true, false>>(crush, range, lane, works)
+                : move_lane<ForceKinds<false, false, false>>(crush, range, lane, works);
     } else {
-      move_lane<ForceKinds<false, false, false>>(crush, range, item % kSumLanes, works);
+      is_damped ? move_lane<ForceKinds<true, true, false>>(crush, range, lane, works)
+                : move_lane<ForceKinds<true, false, false>>(crush, range, lane, works);
     }
     double* const to = &crush.lane_works[kWorkTerms * item];
     works.contact.store(to);
@@ -56,6 +60,7 @@ struct MoveParticles {
       } else {
         move<false, Kinds>(arrays, crush.factors, i, works, notes);
       }
+      if constexpr (Kinds::kFriction) crush.state.friction_force[i] = Vector2(0.0, 0.0);
       const Vector2& velocity = crush.state.velocity[i];
       greatest = std::max(greatest, velocity.x() * velocity.x() + velocity.y() * velocity.y());
     }

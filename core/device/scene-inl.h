@@ -2,8 +2,8 @@
 
 // Scene and state of a crush on a device: what its phases read and write, under the names that the laws use
 // (cellcrush/scene.h, cellcrush/state.h). Arrays are pointers into the memory of the device; those that a crush on a
-// device does not have are empty. device/steps-inl.h includes
-// it before any law.
+// device does not have are empty. Included before any law, by
+// device/crush-inl.h.
 
 #include <algorithm>
 #include <cstddef>
@@ -67,6 +67,7 @@ struct ContactFacts {
   bool bends;
   double stiffness;
   double damping_ratio;
+  double friction;
   double thinnest;
   double face_skin;
 };
@@ -144,6 +145,8 @@ struct TouchMemory {
   Array<double> reach;
   Array<int> linked;
   Array<int> side;
+  Array<int> pushed;
+  Array<double> friction;
 
   [[nodiscard]] HWY_INLINE std::size_t count() const { return ball.count; }
 };
@@ -164,6 +167,7 @@ struct Touches {
   Array<double> offset;
   Array<double> share;
   Array<double> depth;
+  Array<double> deflection;
   Array<Vector2> normal;
   Array<double> viscous;
   Array<double> slip;
@@ -196,6 +200,8 @@ struct State {
   Array<ContactForce> contact_force;
   Array<double> contact_moment;
   Array<Vector2> friction_force;
+  Array<double> impact_friction;
+  Array<double> support_friction;
   Array<std::uint64_t> contact_tiles;
   Ledger ledger;
 };

@@ -7,7 +7,7 @@
 #include <tuple>
 
 // clang-format off
-#include "device/scene-inl.h"  // before any law: it has the names that these use
+#include "device/crush-inl.h"  // first: with the names that the laws use
 // clang-format on
 
 #include "device/contact_phases-inl.h"
@@ -37,6 +37,7 @@ void run_step(Run& run, std::size_t step) {
   run.phase(FileSegments(), step);
   run.phase(FindCandidates(), step);
   run.phase(EvaluateContacts(), step);
+  run.phase(RubContacts(), step);
   run.phase(AddForces(), step);
   run.phase(AddPlates(), step);
 }

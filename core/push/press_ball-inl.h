@@ -6,9 +6,12 @@
 #define CELLCRUSH_PUSH_PRESS_BALL_INL_H_
 #endif
 
+#include <algorithm>
+
 #include "contact/contact_tiles.h"
 #include "contact/growth_forces-inl.h"
 #include "contact/touch/force_laws.h"
+#include "contact/touch/rubbed_surface-inl.h"
 #include "contact/touch_geometry-inl.h"
 #include "push/push.h"
 
@@ -32,6 +35,20 @@ HWY_INLINE FaceForce press_ball(const Scene& scene, S& state, const Face& face, 
   state.contact_force[particle].viscous += force.viscous * face.normal;
   mark_contact_tile(state, particle);
   return {force.elastic, force.viscous, 0.0, 0.5 * force.elastic * depth};
+}
+
+/// Friction on a particle whose centre is `distance` mm from the face, at most `limit` N.
+template <class S>
+HWY_INLINE double rub(const Scene& scene, S& state, const Face& face, int particle, double distance, double limit) {
+  const double side = cross(face.tangent, face.normal);  // of a turn that moves the ball's surface along the tangent
+  const RubbedSurface surface = {elements_at(scene, particle), distance};
+  const double speed = face.tangent.dot(state.velocity[particle]) + side * speed_by_turning(scene, state, surface);
+  const double stiffness = face.stiffness / std::max(1.0, stiffening(state, surface));
+  double& friction = face.friction_of[particle];
+  friction = evaluate_friction(friction, stiffness, scene.schedule.time_step * speed, limit);
+  state.friction_force[particle] += friction * face.tangent;
+  add_couple(scene, state, surface, side * friction);
+  return friction;
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE

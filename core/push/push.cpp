@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "contact/touch/force_laws.h"
 #include "push/press_ball-inl.h"
 
 namespace cellcrush {
@@ -12,19 +11,6 @@ extern const Pusher kPlates;
 extern const Pusher kHalfPlanes;
 
 namespace {
-
-/// Friction on a particle whose centre is `distance` mm from the face, at most `limit` N.
-double rub(const Scene& scene, State& state, const Face& face, int particle, double distance, double limit) {
-  const double side = cross(face.tangent, face.normal);  // of a turn that moves the ball's surface along the tangent
-  const RubbedSurface surface = {elements_at(scene, particle), distance};
-  const double speed = face.tangent.dot(state.velocity[particle]) + side * speed_by_turning(scene, state, surface);
-  const double stiffness = face.stiffness / std::max(1.0, stiffening(state, surface));
-  double& friction = face.friction_of[particle];
-  friction = evaluate_friction(friction, stiffness, scene.schedule.time_step * speed, limit);
-  state.friction_force[particle] += friction * face.tangent;
-  add_couple(scene, state, surface, side * friction);
-  return friction;
-}
 
 /// 1 / tonne of what a ball moves: of a joint that has an image, both.
 double inverse_mass_of(const Scene& scene, int particle) {
@@ -39,7 +25,8 @@ FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int p
   FaceForce sum =
       HWY_NAMESPACE::press_ball(scene, state, face, particle, radius - distance, inverse_mass_of(scene, particle));
   if (face.friction_of != nullptr && (distance < radius || face.friction_of[particle] != 0.0)) {
-    sum.tangential = rub(scene, state, face, particle, distance, face.friction * (sum.elastic + sum.viscous));
+    sum.tangential =
+        HWY_NAMESPACE::rub(scene, state, face, particle, distance, face.friction * (sum.elastic + sum.viscous));
   }
   return sum;
 }

@@ -8,6 +8,10 @@
 
 namespace cellcrush::worker {
 
+/// Opens a device: `cuda`, the path of a library for another one, or `emulated`, which is slow and for tests. A library
+/// has a function `extern "C" cellcrush::Device* cellcrush_open_device()`. Throws DeviceError.
+std::unique_ptr<DeviceEngine> open_device(const std::string& name);
+
 /// The device that advances a run, if its order names one and it can. Must outlive the simulation.
 class DeviceOfRun {
  public:

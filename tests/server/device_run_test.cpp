@@ -16,6 +16,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
+v1::Case with_a_curve(v1::Case submitted) {
+  submitted.mutable_material()->set_voce_stress_mpa(50.0);
+  submitted.mutable_material()->set_voce_exponent(20.0);
+  return submitted;
+}
+
 class DeviceRunTest : public DaemonFixture {
  protected:
   void SetUp() override {
@@ -54,9 +60,8 @@ TEST_F(DeviceRunTest, ADeviceGivesTheResultsOfTheProcessorAndIsNamed) {
 }
 
 TEST_F(DeviceRunTest, AResultSaysWhyNoDeviceAdvancedIt) {
-  auto rubbing = tiny_case();
-  rubbing.mutable_contact()->set_friction(0.2);
-  EXPECT_EQ(device_of(finished_job(rubbing)), "none: its contacts have friction");
+  EXPECT_EQ(device_of(finished_job(with_a_curve(tiny_case()))),
+            "none: the yield stress of its material follows a curve or a rate");
 }
 
 TEST_F(DeviceRunTest, ACheckSaysWhatAdvancesTheRun) {
@@ -68,9 +73,8 @@ TEST_F(DeviceRunTest, ACheckSaysWhatAdvancesTheRun) {
     return answer.modelled(answer.modelled_size() - 1);
   };
   EXPECT_EQ(modelled(small_case()), "Device: advances this run, to the bits of the processor.");
-  auto rubbing = small_case();
-  rubbing.mutable_contact()->set_friction(0.2);
-  EXPECT_EQ(modelled(rubbing), "Device: does not advance this run, because its contacts have friction.");
+  EXPECT_EQ(modelled(with_a_curve(small_case())),
+            "Device: does not advance this run, because the yield stress of its material follows a curve or a rate.");
 }
 
 TEST_F(DeviceRunTest, ADaemonDoesNotStartWithADeviceThatCannotBeUsed) {

@@ -1,25 +1,28 @@
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
-#include "contact/thickening.h"
 #include "contact/touch/contact_stages.h"
-#include "contact/touch/force_laws.h"
-#include "contact/touch_geometry-inl.h"
+#include "contact/touch/friction-inl.h"
 
 namespace cellcrush {
 namespace {
 
-/// Transfer of friction from one contact to the next.
-struct Friction {
-  const Scene& scene;
-  const TouchMemory& touching;
+/// The touches of the step before, sorted by ball.
+struct TouchesBefore {
+  const TouchMemory& touching;  ///< now
   const Touches& touches;
-  const TouchMemory& before;  ///< pairs that touched in the step before
+  const TouchMemory& before;
   std::span<const ActiveContact> active;
 
-  /// Whether a pair that touched before still has friction in this step.
+  [[nodiscard]] PairRange range_of(int ball) const {
+    const auto [first, end] = std::equal_range(before.ball.begin(), before.ball.end(), ball);
+    return {static_cast<int>(first - before.ball.begin()), static_cast<int>(end - before.ball.begin())};
+  }
+  [[nodiscard]] int segment(int earlier) const { return before.segment[earlier]; }
+  [[nodiscard]] int pushed(int earlier) const { return before.pushed[earlier]; }
+  [[nodiscard]] double friction(int earlier) const { return before.friction[earlier]; }
+
   [[nodiscard]] bool has_friction(int earlier) const {
     const auto precedes = [&](const ActiveContact& contact, int memory) {
       return std::pair(touching.ball[contact.touch], touching.segment[contact.touch]) <
@@ -28,93 +31,16 @@ struct Friction {
     const auto found = std::lower_bound(active.begin(), active.end(), earlier, precedes);
     return found != active.end() && touches.known[found->touch] == earlier && found->has_pair;
   }
-
-  /// Friction, along the polyline, of a touch of the ball in the step before that has no friction now and whose element
-  /// satisfies `follows`.
-  template <class Follows>
-  [[nodiscard]] double ended_friction(int ball, const Follows& follows) const {
-    const auto [first, end] = std::equal_range(before.ball.begin(), before.ball.end(), ball);
-    for (auto at = first; at != end; ++at) {
-      const auto earlier = static_cast<int>(at - before.ball.begin());
-      if (before.pushed[earlier] != 0 && !has_friction(earlier) && follows(scene.elements[before.segment[earlier]])) {
-        return before.friction[earlier] * before.pushed[earlier];
-      }
-    }
-    return 0.0;
-  }
-
-  /// Friction with which a touch begins the step: its own, or that of a touch which it follows. A ball that slides to a
-  /// neighbouring segment keeps its friction. Of two balls that touch, one hands it over to the other. Friction is
-  /// measured along the polyline, in one direction on its left and in the other on its right.
-  [[nodiscard]] double initial_friction(const ActiveContact& contact) const {
-    const int ball = touching.ball[contact.touch];
-    const int side = touching.side[contact.touch];
-    const int known = touches.known[contact.touch];
-    if (known != Touches::kNew && before.pushed[known] != 0) {
-      return before.friction[known] * before.pushed[known] * side;
-    }
-    const Element& own = scene.elements[touching.segment[contact.touch]];
-    const double of_neighbour = ended_friction(ball, [&](const Element& other) { return share_a_node(other, own); });
-    if (of_neighbour != 0.0 || contact.node_touch == ActiveContact::kNone) {
-      return of_neighbour * side;
-    }
-    return side * ended_friction(touches.node[contact.node_touch],
-                                 [&](const Element& other) { return other.start == ball || other.end == ball; });
-  }
-};
-
-/// The surfaces of a touch. The point of contact divides the distance of the mid-lines as R and h/2 do, so that the
-/// arms sum to that distance and angular momentum is kept. At its ends a segment turns as the balls there.
-struct RubbedPair {
-  RubbedSurface ball;
-  RubbedSurface segment;
-
-  RubbedPair(const Scene& scene, const State& state, const TouchMemory& touching, const Touches& touches, int touch) {
-    const double share = touches.share[touch];
-    const Element& element = scene.elements[touching.segment[touch]];
-    const double radius = radius_now(scene, state, touching.ball[touch]);
-    const double half_thickness =
-        0.5 * element.thickness + std::lerp(growth_of_ball(state, element.start), growth_of_ball(state, element.end),
-                                            HWY_NAMESPACE::share_of_end(share));
-    const double deflection = scene.contact.bends ? touches.deflection[touch] : 0.0;
-    const double distance = touching.reach[touch] + touches.growth[touch] + deflection - touches.depth[touch];
-    const double of_ball = distance * radius / (radius + half_thickness);
-    ball = {elements_at(scene, touching.ball[touch]), of_ball};
-    segment = {
-        share > 0.0 && share < 1.0 ? std::span(&touching.segment[touch], 1) : elements_at(scene, touches.node[touch]),
-        distance - of_ball};
-  }
 };
 
 }  // namespace
 
 void apply_friction(const Scene& scene, State& state, TouchMemory& touching, const ContactWorkspace& workspace) {
-  const Touches& touches = workspace.touches;
   touching.pushed.assign(touching.count(), 0);
   touching.friction.assign(touching.count(), 0.0);
-  const Friction friction = {scene, touching, touches, workspace.before, workspace.active};
+  const TouchesBefore before = {touching, workspace.touches, workspace.before, workspace.active};
   for (const ActiveContact& contact : workspace.active) {
-    const int touch = contact.touch;
-    const int side = touching.side[touch];
-    const RubbedPair pair(scene, state, touching, touches, touch);
-    const double turning = speed_by_turning(scene, state, pair.ball) + speed_by_turning(scene, state, pair.segment);
-    const double slip = touches.slip[touch] + scene.schedule.time_step * side * turning;
-    const double stiffness =
-        scene.contact.stiffness / std::max(1.0, stiffening(state, pair.ball) + stiffening(state, pair.segment));
-    const double now = evaluate_friction(friction.initial_friction(contact), stiffness, slip,
-                                         scene.contact.friction * contact.normal_force);
-    touching.friction[touch] = now;
-    touching.pushed[touch] = contact.has_pair ? side : 0;
-    // Along the segment where the ball touches its side, turned with the normal round its ends. The nodes of the
-    // segment share the reaction by the lever rule.
-    const Vector2& normal = touches.normal[touch];
-    const Vector2 force = now * side * Vector2(normal.y(), -normal.x());
-    const double share = touches.share[touch];
-    state.friction_force[touching.ball[touch]] += force;
-    state.friction_force[touches.start[touch]] -= (1.0 - share) * force;
-    state.friction_force[touches.end[touch]] -= share * force;
-    add_couple(scene, state, pair.ball, now * side);
-    add_couple(scene, state, pair.segment, now * side);
+    HWY_NAMESPACE::rub_pair(scene, state, touching, workspace.touches, before, contact);
   }
 }
 

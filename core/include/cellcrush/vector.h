@@ -12,10 +12,10 @@ namespace cellcrush {
 using Vector2 = Eigen::Vector2d;
 
 /// z component of the cross product: positive if `b` points counter-clockwise of `a`.
-inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+EIGEN_DEVICE_FUNC inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// `a` rotated by 90 degrees counter-clockwise.
-inline Vector2 normal_of(const Vector2& a) { return {-a.y(), a.x()}; }
+EIGEN_DEVICE_FUNC inline Vector2 normal_of(const Vector2& a) { return {-a.y(), a.x()}; }
 
 /// Allocates memory aligned to the widest vector register and to a cache line, so that no load of a full block crosses
 /// a line.

@@ -40,8 +40,8 @@ struct Case {
   friend void PrintTo(const Case& of, std::ostream* out) { *out << of.name; }
 };
 
-SceneSpec specimen(const char* lattice) {
-  SceneSpec spec = scenes::spec_of({lattice, 100.0, 0.0}, 7, 5);
+SceneSpec specimen(const char* lattice, double friction = 0.0) {
+  SceneSpec spec = scenes::spec_of({lattice, 100.0, friction}, 7, 5);
   spec.loading.end_strain = 0.6;
   return spec;
 }
@@ -95,6 +95,9 @@ std::vector<Case> cases() {
           {"OneElementAWall", with_elements_per_wall(specimen("triangle"), 1)},
           {"FiveElementsAWall", with_elements_per_wall(specimen("hexagon"), 5)},
           {"WallsThatShear", with_shear(specimen("hexagon"))},
+          {"HexagonsWithFriction", specimen("hexagon", 0.2)},
+          {"TrianglesWithFriction", in_single_precision(specimen("triangle", 0.2))},
+          {"ThePapersElementsWithFriction", with_the_papers_elements(specimen("square", 0.3))},
           {"CellsOfAnySize", uneven_cells()}};
 }
 
@@ -199,9 +202,6 @@ TEST_F(EmulatedDevice, GoesOnWithoutADeviceThatIsLost) {
 }
 
 TEST(DevicePremise, SaysWhyACrushIsNotForADevice) {
-  SceneSpec rubbing = specimen("hexagon");
-  rubbing.contact.friction = 0.2;
-  EXPECT_EQ(why_not_on_device(*scenes::build(rubbing)), "its contacts have friction");
   SceneSpec curved = specimen("hexagon");
   curved.material.voce_stress_mpa = 50.0;
   curved.material.voce_exponent = 20.0;
