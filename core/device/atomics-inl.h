@@ -2,6 +2,10 @@
 
 // Operations without an order on numbers that several threads of a device write.
 
+#ifndef __CUDACC__
+#include <atomic>
+#endif
+#include <bit>
 #include <cstdint>
 
 #include "simd/lane-inl.h"
@@ -13,9 +17,7 @@ HWY_INLINE int add_at(int& number, int added) {
 #ifdef __CUDA_ARCH__
   return atomicAdd(&number, added);
 #else
-  const int before = number;
-  number += added;
-  return before;
+  return std::atomic_ref(number).fetch_add(added, std::memory_order_relaxed);
 #endif
 }
 
@@ -24,9 +26,7 @@ HWY_INLINE int exchange_at(int& number, int by) {
 #ifdef __CUDA_ARCH__
   return atomicExch(&number, by);
 #else
-  const int before = number;
-  number = by;
-  return before;
+  return std::atomic_ref(number).exchange(by, std::memory_order_relaxed);
 #endif
 }
 
@@ -34,7 +34,7 @@ HWY_INLINE void or_at(unsigned& bits, unsigned added) {
 #ifdef __CUDA_ARCH__
   atomicOr(&bits, added);
 #else
-  bits |= added;
+  std::atomic_ref(bits).fetch_or(added, std::memory_order_relaxed);
 #endif
 }
 
@@ -44,7 +44,10 @@ HWY_INLINE void raise_at(std::uint64_t& greatest, double number) {
 #ifdef __CUDA_ARCH__
   atomicMax(reinterpret_cast<unsigned long long*>(&greatest), static_cast<unsigned long long>(bits));
 #else
-  greatest = bits > greatest ? bits : greatest;
+  std::atomic_ref most(greatest);
+  for (std::uint64_t before = most.load(std::memory_order_relaxed);
+       bits > before && !most.compare_exchange_weak(before, bits, std::memory_order_relaxed);) {
+  }
 #endif
 }
 

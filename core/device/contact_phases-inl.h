@@ -246,14 +246,21 @@ class RubContacts {
     if (count == 0) return;
     const int ball = static_cast<int>(item);
     BallContacts contacts(crush, ball);
+    unsigned released = 0;  // bits
     for (int i = 0; i < count; ++i) {
       const std::size_t at = contacts.first() + i;
       contacts.known()[i] = crush.touch_known[at];
       crush.touch_pushed[at] = 0;
       crush.touch_friction[at] = 0.0;
+      released |= crush.touch_side[at] == 0 ? 1U << i : 0U;
     }
     if (crush.active_count[ball] == 0) return;
     contacts.evaluate(crush, count);
+    for (int i = 0; i < count; ++i) {
+      if ((released >> i & 1U) == 0) continue;
+      crush.touch_side[contacts.first() + i] = 0;  // a ball pressed through touches from the other side, but not yet
+      contacts.touches().depth[i] = std::min(contacts.touches().depth[i], 0.0);
+    }
     ForceList forces(crush, ball);
     forces.begin_friction();
     AddingState state{crush.state, forces};

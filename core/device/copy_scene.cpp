@@ -144,6 +144,8 @@ std::optional<std::string> why_not_on_device(const Scene& scene) {
   if (scene.plates.kinetic_share > 0.0) return "the speed of its plate is controlled";
   if (scene.rigid.count() > 0) return "it has rigid parts";
   if (!scene.supports.empty() || scene.is_loaded()) return "it has supports or loads";
+  if (scene.pins.count() > 0) return "ends of its beams are pinned";
+  if (scene.contact.most_travel > 0.0) return "the approach of its parts is watched";
   if (scene.period.repeats()) return "its sides repeat";
   if (scene.can_break()) return "its walls can break";
   if (!scene.start_overlaps.empty()) return "its walls overlap before loading";

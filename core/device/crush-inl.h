@@ -116,6 +116,9 @@ struct Crush {
   Array<Totals> totals;          ///< one
 };
 
+/// Changes with what a library for a device reads and writes.
+inline constexpr std::size_t kLayout = sizeof(Crush) + 1000 * (sizeof(Totals) + 1000 * sizeof(AddedForce));
+
 /// Contact, damping, friction, mass damping and external work.
 inline constexpr std::size_t kWorkTerms = 5;
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -72,8 +74,11 @@ Face face_of(const Scene& scene, double place, double outward, double* friction_
   return face;
 }
 
-/// Room for the forces that are added in a step: a few for each particle.
-std::size_t most_added_forces(const Scene& scene) { return 16 * scene.particle_count() + 4096; }
+/// Room for the forces that are added in a step. A contact adds up to five, with friction or growth up to forty.
+std::size_t most_added_forces(const Scene& scene) {
+  const std::size_t of_particle = scene.contact.friction > 0.0 || scene.thickens() ? 64 : 16;
+  return of_particle * scene.particle_count() + 4096;
+}
 
 /// A crush whose arrays are copies of those of a state.
 class CopiedCrush final : public CrushOnDevice {
@@ -86,12 +91,15 @@ class CopiedCrush final : public CrushOnDevice {
     put_crush();
   }
 
-  bool advance(std::int64_t steps) override {
-    if (steps <= 0) return true;
+  std::optional<std::string> advance(std::int64_t steps) override {
+    if (steps <= 0) return std::nullopt;
     put_plate_steps(steps);
     device_.advance(&crush_, on_device_.data(), walls_, steps);
     device_.read(&totals_, crush_.totals.data(), sizeof totals_);
-    return totals_.overflow == 0;
+    if (totals_.overflow != 0) return "a list had no room";
+    // The processor finds the step, and searches otherwise from it on.
+    if (totals_.crossed != 0 || has_turned_face()) return "walls crossed";
+    return std::nullopt;
   }
 
   void take(State& state) const override {
@@ -110,17 +118,17 @@ class CopiedCrush final : public CrushOnDevice {
     state.contact_tiles.clear();
     state.contacts.assign(1, ContactLists());
     take_touches(state, state.contacts.front());
-    if (totals_.crossed != 0 || has_turned_face(state)) state.crossing_step = step_;
   }
 
  private:
   /// Whether a face is turned inside out: the search of a processor sees it too.
-  [[nodiscard]] bool has_turned_face(const State& state) const {
+  [[nodiscard]] bool has_turned_face() const {
     if (!scene_.faces.are_enough()) return false;
+    const std::vector<Vector2> position = values_of(crush_.state.position);
     const FacesOfBand& faces = scene_.faces.bands.front();
     for (int face = 0; face < faces.count(); ++face) {
       const std::span corners(&faces.particle[faces.offset[face]], static_cast<std::size_t>(faces.corner_count(face)));
-      const double area = area_within(corners, state.position);
+      const double area = area_within(corners, position);
       if (face == faces.count() - 1 ? area > 0.0 : area < 0.0) return true;
     }
     return false;
@@ -286,6 +294,8 @@ class Engine final : public DeviceEngine {
 };
 
 }  // namespace
+
+std::size_t layout_of_crush() { return on_device::kLayout; }
 
 std::unique_ptr<DeviceEngine> make_engine(std::unique_ptr<Device> device) {
   return std::make_unique<Engine>(std::move(device));

@@ -15,8 +15,11 @@ namespace on_device = HWY_NAMESPACE;
 
 constexpr unsigned kThreads = 128;
 
+/// The next call does not see the error again.
 void check(cudaError_t result, const char* what) {
-  if (result != cudaSuccess) throw DeviceError(std::string(what) + ": " + cudaGetErrorString(result) + ".");
+  if (result == cudaSuccess) return;
+  cudaGetLastError();
+  throw DeviceError(std::string(what) + ": " + cudaGetErrorString(result) + ".");
 }
 
 template <class Phase>
@@ -68,6 +71,8 @@ class CudaDevice final : public Device {
     cudaDeviceProp properties;
     check(cudaGetDeviceProperties(&properties, 0), "No CUDA device");
     name_ = properties.name;
+    cudaFuncAttributes attributes;
+    check(cudaFuncGetAttributes(&attributes, compute_phase<HWY_NAMESPACE::SumJoints>), "No kernels for this device");
   }
 
   [[nodiscard]] std::string name() const override { return name_; }
@@ -77,7 +82,10 @@ class CudaDevice final : public Device {
     check(cudaMalloc(&memory, bytes), "Memory of the device");
     return memory;
   }
-  void free(void* memory) override { cudaFree(memory); }
+  void free(void* memory) override {
+    cudaFree(memory);
+    cudaGetLastError();
+  }
   void write(void* to, const void* from, std::size_t bytes) override {
     check(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice), "Copy to the device");
   }
@@ -98,6 +106,9 @@ class CudaDevice final : public Device {
 
 }  // namespace
 }  // namespace cellcrush
+
+/// See layout_of_crush.
+extern "C" std::size_t cellcrush_device_layout() { return cellcrush::HWY_NAMESPACE::kLayout; }
 
 /// What open_device looks for in a library. Throws DeviceError.
 extern "C" cellcrush::Device* cellcrush_open_device() { return new cellcrush::CudaDevice(); }

@@ -3,7 +3,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <numeric>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "cellcrush/device.h"
 #include "device/steps-inl.h"
@@ -13,10 +15,10 @@ namespace {
 
 namespace on_device = HWY_NAMESPACE;
 
-/// Computes the items of phases, each time in another order.
-class ItemByItem {
+/// Computes the items of phases on some threads, each time in another order.
+class ScatteredItems {
  public:
-  ItemByItem(on_device::Crush& crush, int walls) : crush_(crush), walls_(walls) {}
+  ScatteredItems(on_device::Crush& crush, int walls) : crush_(crush), walls_(walls) {}
 
   template <class Phase>
   void phase(Phase /*phase*/, std::size_t step) {
@@ -38,19 +40,25 @@ class ItemByItem {
     visit(Kind::items(crush_), [&](std::size_t item) { Kind::compute(crush_, rule, item); });
   }
 
-  /// Every item once: from one of them on, by a stride without a common divisor.
+  /// Every item once: from one of them on, by a stride without a common divisor, dealt out to the threads in turn.
   template <class Visit>
   void visit(std::size_t items, const Visit& visit) {
     if (items == 0) return;
     drawn_ = drawn_ * 6364136223846793005U + 1442695040888963407U;
     std::size_t stride = (drawn_ >> 33U) % items + 1;
     while (std::gcd(stride, items) != 1) ++stride;
-    std::size_t item = (drawn_ >> 17U) % items;
-    for (std::size_t k = 0; k < items; ++k) {
-      visit(item);
-      item = (item + stride) % items;
-    }
+    const std::size_t first = (drawn_ >> 17U) % items;
+    const std::size_t threads = items < kThreads ? 1 : kThreads;
+    const auto visit_some = [&](std::size_t thread) {
+      for (std::size_t k = thread; k < items; k += threads) visit((first + k * stride) % items);
+    };
+    std::vector<std::thread> others;
+    for (std::size_t thread = 1; thread < threads; ++thread) others.emplace_back(visit_some, thread);
+    visit_some(0);
+    for (std::thread& other : others) other.join();
   }
+
+  static constexpr std::size_t kThreads = 3;
 
   on_device::Crush& crush_;
   const int walls_;
@@ -71,7 +79,7 @@ class EmulatedDevice final : public Device {
   void read(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
 
   void advance(const void* /*crush*/, void* on_device, int walls, std::int64_t steps) override {
-    ItemByItem run(*static_cast<HWY_NAMESPACE::Crush*>(on_device), walls);
+    ScatteredItems run(*static_cast<HWY_NAMESPACE::Crush*>(on_device), walls);
     for (std::size_t step = 0; step < static_cast<std::size_t>(steps); ++step) HWY_NAMESPACE::run_step(run, step);
     run.phase(HWY_NAMESPACE::AddStored(), 0);
   }

@@ -62,7 +62,8 @@ struct MoveParticles {
       }
       if constexpr (Kinds::kFriction) crush.state.friction_force[i] = Vector2(0.0, 0.0);
       const Vector2& velocity = crush.state.velocity[i];
-      greatest = std::max(greatest, velocity.x() * velocity.x() + velocity.y() * velocity.y());
+      const double squared = velocity.x() * velocity.x() + velocity.y() * velocity.y();
+      greatest = squared <= greatest ? greatest : squared;  // also where it is not a number
     }
     raise_at(crush.totals[0].greatest_velocity, greatest);
   }

@@ -15,6 +15,9 @@ namespace cellcrush::HWY_NAMESPACE {
 
 inline constexpr int kEndOfSegments = -1;
 
+/// Positions beyond it are not searched, mm: the numbers of squares are whole.
+inline constexpr double kFarthest = 1e7;
+
 /// A square of the grid.
 struct Square {
   int x;
@@ -59,7 +62,9 @@ struct FileSegments {
     const double reach = crush.scene.greatest_radius + 0.5 * crush.state.length[segment] +
                          0.5 * crush.scene.elements[segment].thickness + growth_at(crush, number) +
                          crush.scene.contact.face_skin;
-    if (!(reach <= crush.square_size)) {
+    const Vector2& start = crush.state.position[crush.scene.elements[segment].start];
+    const bool is_far = !(std::fabs(start.x()) < kFarthest && std::fabs(start.y()) < kFarthest);
+    if (is_far || !(reach <= crush.square_size)) {
       crush.totals[0].overflow = 1;  // also where a position is not finite
       return;
     }
@@ -84,6 +89,10 @@ class FindCandidates {
     crush.candidate_count[ball] = 0;
     if (crush.scene.incidence_offset[ball] == crush.scene.incidence_offset[ball + 1]) return;
     const Vector2& place = crush.state.position[ball];
+    if (!(std::fabs(place.x()) < kFarthest && std::fabs(place.y()) < kFarthest)) {
+      crush.totals[0].overflow = 1;
+      return;
+    }
     const Square own = square_at(crush, place.x(), place.y());
     for (int x = own.x - 1; x <= own.x + 1; ++x) {
       for (int y = own.y - 1; y <= own.y + 1; ++y) look_into(crush, ball, {x, y});

@@ -95,15 +95,19 @@ struct Simulation::Impl {
 
   /// Has the device advance by some steps. Returns false if it fails: the state is then as it was.
   bool advance_on_device(std::int64_t steps) {
-    if (engine == nullptr) return false;
+    if (engine == nullptr || state.crossing_step >= 0) return false;
     try {
-      if (on_device == nullptr) on_device = engine->begin(*scene, state);
-      if (on_device->advance(steps)) {
+      if (on_device == nullptr) {
+        on_device = engine->begin(*scene, state);
+        newest = state;
+      }
+      const std::optional<std::string> failure = on_device->advance(steps);
+      if (!failure) {
         on_device->take(newest);
         std::swap(state, newest);
         return true;
       }
-      device_failure = "one of its lists had no room";
+      device_failure = *failure;
     } catch (const DeviceError& error) {
       device_failure = error.what();
     }
@@ -210,10 +214,7 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-void Simulation::use_device(DeviceEngine& engine) {
-  impl_->engine = &engine;
-  impl_->newest = impl_->state;
-}
+void Simulation::use_device(DeviceEngine& engine) { impl_->engine = &engine; }
 
 const std::string& Simulation::device_failure() const { return impl_->device_failure; }
 

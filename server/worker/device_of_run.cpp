@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <cstddef>
 #include <optional>
 
 #include "cellcrush/simd.h"
@@ -14,8 +15,11 @@ std::unique_ptr<Device> load(const std::string& library) {
   void* const loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (loaded == nullptr) throw DeviceError(std::string("The library cannot be loaded: ") + dlerror() + ".");
   using Open = Device*();
+  using Layout = std::size_t();
   auto* const open = reinterpret_cast<Open*>(dlsym(loaded, "cellcrush_open_device"));
-  if (open == nullptr) throw DeviceError(library + " is no library for a device.");
+  auto* const layout = reinterpret_cast<Layout*>(dlsym(loaded, "cellcrush_device_layout"));
+  if (open == nullptr || layout == nullptr) throw DeviceError(library + " is no library for a device.");
+  if (layout() != layout_of_crush()) throw DeviceError(library + " is of another version: build it again.");
   return std::unique_ptr<Device>(open());
 }
 

@@ -9,7 +9,8 @@
 namespace cellcrush::worker {
 
 /// Opens a device: `cuda`, the path of a library for another one, or `emulated`, which is slow and for tests. A library
-/// has a function `extern "C" cellcrush::Device* cellcrush_open_device()`. Throws DeviceError.
+/// has the functions `extern "C" cellcrush::Device* cellcrush_open_device()` and, of the same version as this program,
+/// `extern "C" std::size_t cellcrush_device_layout()` (layout_of_crush). Throws DeviceError.
 std::unique_ptr<DeviceEngine> open_device(const std::string& name);
 
 /// The device that advances a run, if its order names one and it can. Must outlive the simulation.

@@ -26,9 +26,9 @@ class CrushOnDevice {
   CrushOnDevice(const CrushOnDevice&) = delete;
   CrushOnDevice& operator=(const CrushOnDevice&) = delete;
 
-  /// Advances by some steps. Returns false if one of the lists on the device had no room: the crush is then of no use.
-  /// Throws DeviceError.
-  virtual bool advance(std::int64_t steps) = 0;
+  /// Advances by some steps. Returns why the processor has to take these steps: walls have crossed, or a list had no
+  /// room. The crush is then of no use. Throws DeviceError.
+  virtual std::optional<std::string> advance(std::int64_t steps) = 0;
 
   /// Overwrites a state of the scene by that of the crush, with the bits that it has on a processor with fused
   /// multiply-add. Only the lists of the contact search are left out: it begins again, which changes no motion. Throws
@@ -73,11 +73,14 @@ class Device {
   virtual void advance(const void* crush, void* on_device, int walls, std::int64_t steps) = 0;
 };
 
-/// An engine on a device. This and the next are in the library cellcrush_device.
+/// Tells the memory of a crush apart from that of another version.
+std::size_t layout_of_crush();
+
+/// An engine on a device. All functions here are in the library cellcrush_device.
 std::unique_ptr<DeviceEngine> make_engine(std::unique_ptr<Device> device);
 
-/// A device that is emulated: threads are computed one after the other, in another order in every phase, and its memory
-/// is filled with bits of no number.
+/// A device that is emulated: the items of a phase are computed by three threads, in another order every time, and its
+/// memory is filled with bits of no number.
 std::unique_ptr<Device> make_emulated_device();
 
 /// Why no device can advance a scene, as the end of a sentence; nothing if one can.

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -58,6 +59,16 @@ SceneSpec with_elements_per_wall(SceneSpec spec, int elements) {
   return spec;
 }
 
+SceneSpec with_friction_at_plates(SceneSpec spec) {
+  spec.plates.friction = 0.3;
+  return spec;
+}
+
+SceneSpec in_plane_strain(SceneSpec spec) {
+  spec.material.plane = MaterialSpec::Plane::strain;
+  return spec;
+}
+
 SceneSpec with_shear(SceneSpec spec) {
   spec.section.shear_deformation = true;
   return spec;
@@ -97,6 +108,8 @@ std::vector<Case> cases() {
           {"WallsThatShear", with_shear(specimen("hexagon"))},
           {"HexagonsWithFriction", specimen("hexagon", 0.2)},
           {"TrianglesWithFriction", in_single_precision(specimen("triangle", 0.2))},
+          {"FrictionAtPlatesAlone", with_friction_at_plates(specimen("hexagon"))},
+          {"PlaneStrain", in_plane_strain(specimen("square"))},
           {"ThePapersElementsWithFriction", with_the_papers_elements(specimen("square", 0.3))},
           {"CellsOfAnySize", uneven_cells()}};
 }
@@ -163,7 +176,7 @@ class LostDevice final : public DeviceEngine {
    public:
     Crush(LostDevice& device, std::unique_ptr<CrushOnDevice> own) : device_(device), own_(std::move(own)) {}
 
-    bool advance(std::int64_t steps) override {
+    std::optional<std::string> advance(std::int64_t steps) override {
       device_.count();
       return own_->advance(steps);
     }
@@ -199,6 +212,28 @@ TEST_F(EmulatedDevice, GoesOnWithoutADeviceThatIsLost) {
     EXPECT_EQ(changing.device_failure(), "The device is lost.");
     EXPECT_EQ(hash_of(changing.state()), hash_of(own.state())) << "lost after " << calls;
   }
+}
+
+/// The search of the processor goes on otherwise from the step in which it finds them, and the run ends. Which step
+/// that is depends on when it searches.
+TEST_F(EmulatedDevice, LeavesWallsThatCrossToTheProcessor) {
+  const auto too_soft = [] {
+    std::shared_ptr<Scene> scene = scenes::build(scenes::spec_of({"hexagon", 200.0, 0.0}, 12, 6));
+    scene->contact.stiffness *= 0.01;
+    return scene;
+  };
+  Simulation own(too_soft());
+  Simulation on_device(too_soft());
+  on_device.use_device(*engine_);
+  while (own.status().kind == RunStatus::Kind::running && !own.has_ended()) {
+    own.advance(30);
+    on_device.advance(30);
+    own.take_sample();
+    on_device.take_sample();
+  }
+  EXPECT_EQ(own.status().kind, RunStatus::Kind::wall_crossing);
+  EXPECT_EQ(on_device.status().kind, RunStatus::Kind::wall_crossing);
+  EXPECT_EQ(on_device.device_failure(), "walls crossed");
 }
 
 TEST(DevicePremise, SaysWhyACrushIsNotForADevice) {
