@@ -1,13 +1,12 @@
 #define CELLCRUSH_ON_DEVICE
 
-#include "device/copy_scene.h"
-
 #include <algorithm>
 #include <bit>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "device/device_memory.h"
 #include "device/steps-inl.h"
 #include "motion/integrate_motion.h"
 #include "section/section_rule.h"

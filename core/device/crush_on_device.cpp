@@ -13,7 +13,6 @@
 #include "beam/internal_forces.h"
 #include "cellcrush/device.h"
 #include "contact/topology/face_loops.h"
-#include "device/copy_scene.h"
 #include "device/device_memory.h"
 
 namespace cellcrush {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cellcrush/device.h"
+#include "cellcrush/scene.h"
 #include "device/crush-inl.h"
 
 namespace cellcrush {
@@ -64,5 +65,9 @@ class DeviceMemory {
   Device& device_;
   std::vector<void*> blocks_;
 };
+
+/// Copies to a device what a crush reads of a scene and never changes. Returns the kind of its walls
+/// (device/steps-inl.h). In device/copy_scene.cpp.
+int copy_scene(const Scene& scene, DeviceMemory& memory, HWY_NAMESPACE::Crush& crush);
 
 }  // namespace cellcrush
