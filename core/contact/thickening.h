@@ -23,17 +23,20 @@ inline constexpr double kSquashedStretch = 0.95;
 inline constexpr double kGrowthLeftOut = 0.1;
 
 /// What the radius of a ball has grown by, mm.
-inline double growth_of_ball(const State& state, int ball) {
+template <class S>
+constexpr double growth_of_ball(const S& state, int ball) {
   return state.radius_growth.empty() ? 0.0 : state.radius_growth[ball];
 }
 
 /// Current radius of a ball, mm.
-inline double radius_now(const Scene& scene, const State& state, int ball) {
+template <class OfScene, class S>
+constexpr double radius_now(const OfScene& scene, const S& state, int ball) {
   return scene.radius[ball] + growth_of_ball(state, ball);
 }
 
 /// Half of the current thickness of a segment where it is thickest, mm.
-inline double half_thickness_now(const Scene& scene, const State& state, int segment) {
+template <class OfScene, class S>
+constexpr double half_thickness_now(const OfScene& scene, const S& state, int segment) {
   const Element& element = scene.elements[segment];
   return 0.5 * element.thickness + std::max(growth_of_ball(state, element.start), growth_of_ball(state, element.end));
 }

@@ -59,20 +59,6 @@ void visit_shared(OnDevice& device, Own& own, const Visit& visit) {
   visit(device.support_friction, own.support_friction);
 }
 
-/// The face of a plate; see face_of_plate of push/plates.cpp.
-Face face_of(const Scene& scene, double place, double outward, double* friction_of) {
-  Face face = {};
-  face.point = face.normal = face.tangent = Vector2::Zero();
-  face.point[scene.plates.axis] = place;
-  face.normal[scene.plates.axis] = outward;
-  face.tangent[1 - scene.plates.axis] = 1.0;
-  face.stiffness = scene.plates.stiffness;
-  face.friction = scene.plates.friction;
-  face.friction_of = scene.plates.friction > 0.0 ? friction_of : nullptr;
-  face.grows = scene.thickens();
-  return face;
-}
-
 /// Room for the forces that are added in a step. A contact adds up to five, with friction or growth up to forty.
 std::size_t most_added_forces(const Scene& scene) {
   const std::size_t of_particle = scene.contact.friction > 0.0 || scene.thickens() ? 64 : 16;
@@ -136,8 +122,10 @@ class CopiedCrush final : public CrushOnDevice {
   void put_state(const State& state) {
     visit_shared(crush_.state, state,
                  [&](auto& to, const auto& from) { to = memory_.put<std::remove_reference_t<decltype(to[0])>>(from); });
-    crush_.impact = face_of(scene_, scene_.plates.impact_face, 1.0, crush_.state.impact_friction.values);
-    crush_.support = face_of(scene_, scene_.plates.support_face, -1.0, crush_.state.support_friction.values);
+    const Plates& plates = scene_.plates;
+    const bool grows = scene_.thickens();
+    crush_.impact = face_of_plate(scene_, plates.impact_face, 1.0, 0.0, crush_.state.impact_friction.values, grows);
+    crush_.support = face_of_plate(scene_, plates.support_face, -1.0, 0.0, crush_.state.support_friction.values, grows);
     totals_ = {};
     totals_.ledger = state.ledger;
     totals_.impact_impulse = state.impact_impulse;

@@ -3,7 +3,6 @@
 #include <cuda_runtime.h>
 
 #include <string>
-#include <utility>
 
 #include "cellcrush/device.h"
 #include "device/steps-inl.h"
@@ -46,11 +45,7 @@ class Launches {
     }
   }
   void walls() {
-    [&]<std::size_t... Kinds>(std::index_sequence<Kinds...>) {
-      ((static_cast<int>(Kinds) == walls_ ? walls_of<std::tuple_element_t<Kinds, on_device::WallKinds>>() : void()),
-       ...);
-    }
-    (std::make_index_sequence<std::tuple_size_v<on_device::WallKinds>>());
+    on_device::visit_kind_of_walls(walls_, [this]<class Kind>(Kind /*kind*/) { walls_of<Kind>(); });
   }
 
  private:

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <numeric>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "cellcrush/device.h"
@@ -26,11 +25,7 @@ class ScatteredItems {
   }
 
   void walls() {
-    [&]<std::size_t... Kinds>(std::index_sequence<Kinds...>) {
-      ((static_cast<int>(Kinds) == walls_ ? walls_of<std::tuple_element_t<Kinds, on_device::WallKinds>>() : void()),
-       ...);
-    }
-    (std::make_index_sequence<std::tuple_size_v<on_device::WallKinds>>());
+    on_device::visit_kind_of_walls(walls_, [this]<class Kind>(Kind /*kind*/) { walls_of<Kind>(); });
   }
 
  private:

@@ -148,13 +148,10 @@ struct AddMotion {
   static HWY_INLINE void compute(Crush& crush, std::size_t /*item*/, std::size_t step) {
     Totals& totals = crush.totals[0];
     for (std::size_t chunk = 0; chunk < crush.moved.size(); ++chunk) {
-      add(works_of(crush, chunk), totals.ledger);
+      works_of(crush, chunk).accumulate(totals.ledger);
     }
     const PlateStep& plates = crush.plate_steps[step];
-    add({.contact = totals.impact_force.elastic * plates.displacement,
-         .contact_damping = totals.impact_force.viscous * plates.displacement,
-         .external = (totals.impact_force.elastic + totals.impact_force.viscous) * plates.displacement},
-        totals.ledger);
+    face_works(totals.impact_force, plates.displacement).accumulate(totals.ledger);
     const double dt = crush.factors.step;
     totals.impact_impulse += dt * (totals.impact_force.elastic + totals.impact_force.viscous);
     totals.support_impulse += dt * (totals.support_force.elastic + totals.support_force.viscous);
@@ -185,14 +182,6 @@ struct AddMotion {
       }
     }
     return {sums[0], sums[1], sums[2], sums[3], sums[4]};
-  }
-
-  static HWY_INLINE void add(const MotionWorks& works, Ledger& ledger) {
-    ledger.contact += works.contact;
-    ledger.contact_damping += works.contact_damping;
-    ledger.friction += works.friction;
-    ledger.mass_damping += works.mass_damping;
-    ledger.external += works.external;
   }
 };
 

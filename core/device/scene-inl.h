@@ -223,14 +223,6 @@ HWY_INLINE double reach_now(const Scene& scene, const State& state, int ball, in
   return std::min(full_reach_of(scene, ball, segment), most_reach_now(scene, state, ball, segment));
 }
 
-HWY_INLINE double growth_of_ball(const State& state, int ball) {
-  return state.radius_growth.empty() ? 0.0 : state.radius_growth[ball];
-}
-
-HWY_INLINE double radius_now(const Scene& scene, const State& state, int ball) {
-  return scene.radius[ball] + growth_of_ball(state, ball);
-}
-
 /// All pairs at hand are those of one ball.
 HWY_INLINE PairRange pairs_of_ball(const TouchMemory& touching, int /*ball*/, int /*index*/) {
   return {0, static_cast<int>(touching.count())};

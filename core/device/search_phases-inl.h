@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "contact/thickening.h"
 #include "device/atomics-inl.h"
 #include "device/crush-inl.h"
 #include "simd/points-inl.h"
@@ -60,8 +61,7 @@ struct FileSegments {
     if (crush.totals[0].searches == 0) return;
     const int number = static_cast<int>(segment);
     const double reach = crush.scene.greatest_radius + 0.5 * crush.state.length[segment] +
-                         0.5 * crush.scene.elements[segment].thickness + growth_at(crush, number) +
-                         crush.scene.contact.face_skin;
+                         half_thickness_now(crush.scene, crush.state, number) + crush.scene.contact.face_skin;
     const Vector2& start = crush.state.position[crush.scene.elements[segment].start];
     const bool is_far = !(std::fabs(start.x()) < kFarthest && std::fabs(start.y()) < kFarthest);
     if (is_far || !(reach <= crush.square_size)) {
@@ -69,12 +69,6 @@ struct FileSegments {
       return;
     }
     crush.next_segment[segment] = exchange_at(crush.first_segment[list_of(crush, square_of(crush, number))], number);
-  }
-
-  /// What half of its thickness has grown by where it is thickest, mm.
-  static HWY_INLINE double growth_at(const Crush& crush, int segment) {
-    const Element& ends = crush.scene.elements[segment];
-    return std::max(growth_of_ball(crush.state, ends.start), growth_of_ball(crush.state, ends.end));
   }
 };
 
@@ -117,8 +111,8 @@ class FindCandidates {
     const Points<One> away = Points<One>::load(&crush.state.position[ball]) - start;
     const Lane<One> share = min(max(dot(away, span) / dot(span, span), Lane<One>(0)), Lane<One>(1));
     const Points<One> off = away - share * span;
-    const Lane<One> range = radius_now(crush.scene, crush.state, ball) + 0.5 * ends.thickness +
-                            FileSegments::growth_at(crush, segment) + crush.scene.contact.face_skin;
+    const Lane<One> range = radius_now(crush.scene, crush.state, ball) +
+                            half_thickness_now(crush.scene, crush.state, segment) + crush.scene.contact.face_skin;
     return all(dot(off, off) < range * range);
   }
 

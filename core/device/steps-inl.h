@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 
 // clang-format off
 #include "device/crush-inl.h"  // first: with the names that the laws use
@@ -24,6 +25,15 @@ using WallKinds = std::tuple<EvaluateWalls<true, PerfectlyPlastic, RuleFactors<4
                              EvaluateWalls<true, MixedHardening, RuleFactors<4, 6, double>>,
                              EvaluateWalls<false, MixedHardening, RuleFactors<2, 6, float>>,
                              EvaluateWalls<false, MixedHardening, RuleFactors<2, 6, double>>>;
+
+/// Calls visit(kind) for the kind of an index, which is that of a crush.
+template <class Visit>
+void visit_kind_of_walls(int index, const Visit& visit) {
+  [&]<std::size_t... Kinds>(std::index_sequence<Kinds...>) {
+    ((static_cast<int>(Kinds) == index ? visit(std::tuple_element_t<Kinds, WallKinds>()) : void()), ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<WallKinds>>());
+}
 
 /// Calls run.phase(Phase(), step) and run.walls() for the phases of a step, each of which begins when the one before
 /// has ended.

@@ -24,7 +24,7 @@ struct MotionWorks {
     twice_kinetic += other.twice_kinetic;
   }
 
-  void accumulate(Ledger& ledger, double factor = 1.0) const {
+  constexpr void accumulate(Ledger& ledger, double factor = 1.0) const {
     ledger.contact += factor * contact;
     ledger.contact_damping += factor * contact_damping;
     ledger.friction += factor * friction;

@@ -9,24 +9,6 @@
 namespace cellcrush {
 namespace {
 
-/// A plate at `place` mm along the crush, on the side of the lattice to which `outward` points, +1 or -1 along it.
-Face face_of_plate(const Scene& scene, double place, double outward, double velocity, std::vector<double>& friction_of,
-                   bool grows) {
-  const Plates& plates = scene.plates;
-  Face face = {Vector2::Zero(),
-               Vector2::Zero(),
-               Vector2::Zero(),
-               outward * velocity,
-               plates.stiffness,
-               plates.friction,
-               plates.friction > 0.0 ? friction_of.data() : nullptr,
-               grows};
-  face.point[plates.axis] = place;
-  face.normal[plates.axis] = outward;
-  face.tangent[1 - plates.axis] = 1.0;
-  return face;
-}
-
 /// Adds a force to that of a plate, and to the stored energy.
 void add_force(const FaceForce& force, PlateForce& plate, double& stored) {
   plate.elastic += force.elastic;
@@ -58,8 +40,8 @@ void press_by_plates(const Scene& scene, State& state, const PlateStep& motion, 
   const bool grows = !state.radius_growth.empty();
   const double impact_place = plates.impact_face + motion.travel;
   const double support_place = plates.support_face;
-  const Face impact = face_of_plate(scene, impact_place, 1.0, motion.speed, state.impact_friction, grows);
-  const Face support = face_of_plate(scene, support_place, -1.0, 0.0, state.support_friction, grows);
+  const Face impact = face_of_plate(scene, impact_place, 1.0, motion.speed, state.impact_friction.data(), grows);
+  const Face support = face_of_plate(scene, support_place, -1.0, 0.0, state.support_friction.data(), grows);
   // For most lattices; then no radius is loaded from memory.
   const bool is_uniform = scene.smallest_radius == scene.largest_radius;
   for (const std::span<const int> near : {on.near_joints, on.near_inner}) {
@@ -109,6 +91,22 @@ extern const Pusher kPlates = {.place = place_plates,
                                .accumulate = accumulate_plates,
                                .half_step_works = half_step_works_of_plates,
                                .describe = describe_plates};
+
+Face face_of_plate(const Scene& scene, double place, double outward, double velocity, double* friction_of, bool grows) {
+  const Plates& plates = scene.plates;
+  Face face = {Vector2::Zero(),
+               Vector2::Zero(),
+               Vector2::Zero(),
+               outward * velocity,
+               plates.stiffness,
+               plates.friction,
+               plates.friction > 0.0 ? friction_of : nullptr,
+               grows};
+  face.point[plates.axis] = place;
+  face.normal[plates.axis] = outward;
+  face.tangent[1 - plates.axis] = 1.0;
+  return face;
+}
 
 PlateStep plate_step_of(const Scene& scene, const State& state, double time, double travel) {
   const double step = scene.schedule.time_step;

@@ -31,12 +31,6 @@ FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int p
   return sum;
 }
 
-MotionWorks face_works(const PlateForce& force, double displacement) {
-  return {.contact = force.elastic * displacement,
-          .contact_damping = force.viscous * displacement,
-          .external = force.total() * displacement};
-}
-
 std::span<const Pusher* const> pushers() {
   static constexpr std::array kPushers = {&kPlates, &kHalfPlanes};
   return kPushers;

@@ -68,6 +68,10 @@ struct Face {
   [[nodiscard]] double distance_of(const Vector2& place) const { return normal.dot(place - point); }
 };
 
+/// A plate at `place` mm along the crush, on the side of the lattice to which `outward` points, +1 or -1 along it.
+/// `friction_of`: as in Face.
+Face face_of_plate(const Scene& scene, double place, double outward, double velocity, double* friction_of, bool grows);
+
 /// What a face does to one particle.
 struct FaceForce {
   double elastic = 0.0;     ///< N along the normal
@@ -84,6 +88,10 @@ FaceForce push_by_face(const Scene& scene, State& state, const Face& face, int p
 
 /// The works of the force of a face over its mean displacement, mm (E10). What it exerts on particles is among the
 /// contact forces.
-MotionWorks face_works(const PlateForce& force, double displacement);
+constexpr MotionWorks face_works(const PlateForce& force, double displacement) {
+  return {.contact = force.elastic * displacement,
+          .contact_damping = force.viscous * displacement,
+          .external = (force.elastic + force.viscous) * displacement};
+}
 
 }  // namespace cellcrush

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/presets.h"
 #include "scenes/state_hash.h"
+#include "scenes/whole_crushes.h"
 
 namespace cellcrush {
 namespace {
@@ -32,66 +32,10 @@ struct GoldenCrush {
 
 using Hashes = std::map<std::string, std::string>;  ///< of "crush,fused" or "crush,separate"
 
-/// Seven columns and five rows leave some walls over after whole vectors.
-SceneSpec specimen(const char* lattice, double friction = 0.0) {
-  SceneSpec spec = scenes::spec_of({lattice, 100.0, friction}, 7, 5);
-  spec.loading.end_strain = 0.6;
-  return spec;
-}
-
-SceneSpec with_hardening(SceneSpec spec, double isotropic_fraction) {
-  spec.material.hardening_modulus_mpa = 700.0;
-  spec.material.isotropic_fraction = isotropic_fraction;
-  spec.numerics.mass_damping_per_s = 1000.0;
-  return spec;
-}
-
-SceneSpec with_a_curve_and_a_rate(SceneSpec spec) {
-  spec.material.voce_stress_mpa = 50.0;
-  spec.material.voce_exponent = 20.0;
-  spec.material.isotropic_fraction = 0.5;
-  spec.material.cowper_symonds_rate_per_s = 6500.0;
-  spec.material.cowper_symonds_exponent = 4.0;
-  return spec;
-}
-
-SceneSpec with_elements_per_wall(SceneSpec spec, int elements) {
-  spec.elements_per_wall = elements;
-  return spec;
-}
-
-SceneSpec with_shear(SceneSpec spec) {
-  spec.section.shear_deformation = true;
-  return spec;
-}
-
-SceneSpec with_a_rigid_row(SceneSpec spec) {
-  spec.inclusions.rows = {2};
-  return spec;
-}
-
-/// Small specimens crushed to 60 %: lattices, rules, precisions, hardening, friction, damping, rigid cells, two
-/// thicknesses, shear.
 std::vector<GoldenCrush> whole_crushes() {
-  using scenes::in_single_precision;
-  using scenes::with_the_papers_elements;
-  return {{"hexagons", specimen("hexagon", 0.2)},
-          {"squares", specimen("square")},
-          {"triangles", specimen("triangle", 0.2)},
-          {"thick ends", specimen("thick_ends")},
-          {"hexagons of the paper's elements", with_the_papers_elements(specimen("hexagon"))},
-          {"squares of the paper's elements",
-           with_elements_per_wall(in_single_precision(with_the_papers_elements(specimen("square", 0.2))), 2)},
-          {"hexagons in single precision", in_single_precision(specimen("hexagon"))},
-          {"mixed hardening and damping", with_hardening(specimen("hexagon", 0.2), 0.5)},
-          {"kinematic hardening", with_hardening(with_the_papers_elements(specimen("hexagon")), 0.0)},
-          {"a curve and a rate", with_a_curve_and_a_rate(specimen("hexagon", 0.2))},
-          {"a curve and a rate in the paper's elements",
-           with_a_curve_and_a_rate(with_the_papers_elements(specimen("hexagon")))},
-          {"one element a wall", with_elements_per_wall(specimen("triangle"), 1)},
-          {"five elements a wall", with_elements_per_wall(specimen("hexagon"), 5)},
-          {"a rigid row", with_a_rigid_row(specimen("hexagon"))},
-          {"walls that shear", with_shear(specimen("hexagon"))}};
+  std::vector<GoldenCrush> crushes;
+  for (const auto& [name, spec] : scenes::whole_crushes()) crushes.push_back({name, spec});
+  return crushes;
 }
 
 Hashes read_hashes() {
