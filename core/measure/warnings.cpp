@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 #include "contact/thickening.h"
 #include "contact/touch/force_laws.h"
@@ -49,11 +50,13 @@ double even_stretch(const LawFacts& law, const Material& material) {
 template <class Visit>
 void visit_elongations(const Scene& scene, const State& state, const Visit& visit) {
   const Walls& walls = scene.walls;
+  std::vector<double> stretch;
+  stretch.reserve(scene.materials.size());
+  for (const Material& material : scene.materials) stretch.push_back(even_stretch(Laws::kFacts[scene.law], material));
   for (const WallBlock& block : walls.blocks) {
     for (int w = 0; w < block.walls; ++w) {
       const int wall = block.first_wall + w;
-      const double even =
-          even_stretch(Laws::kFacts[scene.law], scene.materials[walls.material[wall]]) * walls.undeformed_length[wall];
+      const double even = stretch[walls.material[wall]] * walls.undeformed_length[wall];
       double elongation = 0.0;
       for (int j = 0; j < block.elements; ++j) {
         elongation += std::max(0.0, state.length[block.first_element + j * block.walls + w] - even);

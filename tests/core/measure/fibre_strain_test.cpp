@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -24,34 +25,50 @@ using scenes::Cantilever;
 using scenes::PlasticFrame;
 using Component = FrameLattice::Component;
 
-/// A bar of length 10 mm and thickness 0.5 mm whose particles lie on an arc of a given whole turn, first turned as a
-/// whole. Particles are found from start to end by their place before loading.
-double strain_on_arc(int elements, double turn, double turned_before) {
-  const auto scene = scenes::build(scenes::elastic_frame(scenes::bar(10.0, 0.5, elements)));
+/// Bars of length 10 mm and thickness 0.5 mm, one above the other, whose particles lie on arcs of given whole turns,
+/// first turned as a whole. Particles are found from start to end by their place before loading.
+struct Arcs {
+  std::shared_ptr<const Scene> scene;
+  State state;
+};
+
+Arcs make_arcs(int elements, const std::vector<double>& turns, double turned_before) {
+  FrameLattice frame;
+  for (std::size_t b = 0; b < turns.size(); ++b) {
+    const auto y = static_cast<double>(b);
+    const int start = static_cast<int>(2 * b);
+    frame.nodes.insert(frame.nodes.end(), {{0.0, y, 0.0, 0.0}, {10.0, y, 0.0, 0.0}});
+    frame.beams.push_back(scenes::bar(10.0, 0.5, elements).beams.front());
+    frame.beams.back().start = start;
+    frame.beams.back().end = start + 1;
+  }
+  const auto scene = scenes::build(scenes::elastic_frame(std::move(frame)));
   State state = make_initial_state(*scene);
   const double chord = 10.0 / elements;
-  Vector2 place = Vector2::Zero();
-  double angle = turned_before;
-  for (int j = 0; j < elements; ++j) {
-    const double between = turn / elements;
-    const auto at = [&](double x) {
-      return static_cast<std::size_t>(
-          std::ranges::find_if(scene->position,
-                               [x](const Vector2& position) { return std::abs(position.x() - x) < 1e-6; }) -
+  for (std::size_t b = 0; b < turns.size(); ++b) {
+    Vector2 place = Vector2::Zero();
+    double angle = turned_before;
+    for (int j = 0; j <= elements; ++j) {
+      const Vector2 before(chord * j, static_cast<double>(b));
+      const auto at = static_cast<std::size_t>(
+          std::ranges::find_if(scene->position, [&](const Vector2& p) { return (p - before).norm() < 1e-6; }) -
           scene->position.begin());
-    };
-    state.position[at(chord * j)] = place;
-    state.rotation[at(chord * j)] = angle;
-    place += chord * scenes::direction(angle + 0.5 * between);
-    angle += between;
-    state.position[at(chord * (j + 1))] = place;
-    state.rotation[at(chord * (j + 1))] = angle;
+      state.position[at] = place;
+      state.rotation[at] = angle;
+      place += chord * scenes::direction(angle + 0.5 * turns[b] / elements);
+      angle += turns[b] / elements;
+    }
   }
   for (std::size_t e = 0; e < scene->element_count(); ++e) {
     const Vector2 span = state.position[scene->elements[e].end] - state.position[scene->elements[e].start];
     state.length[e] = span.norm();
     state.axis[e] = span.normalized();
   }
+  return {scene, std::move(state)};
+}
+
+double strain_on_arc(int elements, double turn, double turned_before) {
+  const auto [scene, state] = make_arcs(elements, {turn}, turned_before);
   return find_largest_fibre_strain(*scene, state, scene->walls.blocks).strain;
 }
 
@@ -65,6 +82,34 @@ TEST(FibreStrain, OfAnArcIsHalfOfTheThicknessTimesItsCurvatureWhateverTheTurns) 
     }
   }
   EXPECT_NEAR(strain_on_arc(32, 4.0 * std::numbers::pi, 0.0), 0.25 * 0.4 * std::numbers::pi, 1e-12) << "two turns";
+}
+
+// Sixteen walls fill a block, which is computed by vectors; the last two are computed one at a time.
+TEST(FibreStrain, OfWallsSideBySideIsThatOfEachByItself) {
+  constexpr int kBars = 18;
+  std::vector<double> turns;
+  for (int bar = 0; bar < kBars; ++bar) turns.push_back(0.3 * (bar - 7));
+  for (const int elements : {1, 2, 3, 4}) {
+    auto [scene, state] = make_arcs(elements, turns, 2.5);
+    const auto squashed = [](int bar) { return 1.0 + 0.003 * (bar % 10); };
+    for (std::size_t e = 0; e < scene->element_count(); ++e) {
+      const double y = scene->position[scene->elements[e].start].y();
+      state.shortening[e] = squashed(static_cast<int>(std::lround(y)));
+    }
+    std::vector<float> strains;
+    evaluate_fibre_strains(*scene, state, strains);
+    ASSERT_EQ(strains.size(), turns.size());
+    for (int bar = 0; bar < kBars; ++bar) {
+      const double axial = squashed(bar) - 1.0 - std::log(squashed(bar));
+      const double bending = 0.25 * std::abs(turns[static_cast<std::size_t>(bar)]) / 10.0 * squashed(bar);
+      EXPECT_FLOAT_EQ(strains[static_cast<std::size_t>(bar)], static_cast<float>(axial + bending))
+          << elements << " elements, bar " << bar;
+    }
+    const WallStrain largest = find_largest_fibre_strain(*scene, state, scene->walls.blocks);
+    EXPECT_EQ(static_cast<float>(largest.strain), std::ranges::max(strains));
+    EXPECT_EQ(strains[static_cast<std::size_t>(scene->list_order.listed_wall(largest.wall))],
+              std::ranges::max(strains));
+  }
 }
 
 /// A steel bar, pulled (or pushed) slowly and evenly by `strain`; yield strain 0.001.
