@@ -46,6 +46,7 @@ struct LatticeKind {
   double walls_per_cell = 0.0;  ///< of a large lattice; the walls along its edges are additional
   /// Whether walls lie along the crush and are stacked, in either direction. Their contacts then limit the step.
   bool has_walls_along_crush = false;
+  double step_cost = 1.0;          ///< time of an element-step over that of hexagons (scene/run_cost.h)
   bool has_rows_of_cells = false;  ///< whether rows of cells can be stiff (lattice.inclusions)
   std::vector<OwnNumber> own_numbers = {};
 

@@ -41,26 +41,6 @@ std::vector<FidelityPoint> fidelity_points(const SceneSpec& spec) {
           {Fidelity::reference, "REFERENCE", mesh.reference}};
 }
 
-// From tests/bench/results/work_precision.csv. With 16 and 32 elements per wall an element-step takes as long as with
-// 8, as far as a shared machine tells (mesh_study.csv).
-double step_cost_of(int elements_per_wall) {
-  if (elements_per_wall < 4) return 1.0;
-  return elements_per_wall < 8 ? 0.9 : 1.05;
-}
-
-// Solver seconds of Type I at 100 m/s to 20 % strain on one core, over those of the preset's 1.0: Voce 4, Ludwik 7,
-// Cowper and Symonds 8, Johnson and Cook 6, with Ludwik 13. What yields is expensive.
-double step_cost_of_laws(const SceneSpec& spec) {
-  double most = 1.0;
-  for (const MaterialSpec& material : material_specs_of(spec)) {
-    double cost = 1.0;
-    if (material.has_curve()) cost = material.ludwik_stress_mpa > 0.0 ? 6.6 : 4.1;
-    if (material.depends_on_rate()) cost = std::max(7.0, 2.0 * cost);
-    most = std::max(most, cost);
-  }
-  return most;
-}
-
 SceneSpec fill_in_fidelity(const SceneSpec& spec) {
   SceneSpec filled = spec;
   filled.elements_per_wall = spec.elements_per_wall.value_or(point_of(spec).elements_per_wall);

@@ -9,6 +9,7 @@
 #include "lattice/list_walls.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
+#include "scene/run_cost.h"
 #include "scene/run_plan.h"
 #include "scene/slowest_wall.h"
 
@@ -50,6 +51,7 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given, const BeforeMesh
                       std::back_inserter(verdict.notes));
     verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
     verdict.step_count = plan.schedule.step_count;
+    verdict.reference_steps = reference_steps(spec, mesh, plan);
     verdict.most_memory_bytes = memory_.most_of_run(spec, verdict.element_count);
   }
   return verdict;

@@ -1,6 +1,8 @@
 #include "jobs/queue_forecast.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <queue>
 
 #include "cellcrush/simulation.h"
@@ -15,8 +17,12 @@ namespace {
 // What one more core is worth: two take .72 to .9 of the time of one, by the size of the lattice (README.md).
 constexpr double kWorthOfAnotherCore = 0.25;
 
-constexpr double kLongestMeasurement = 0.05;  // seconds
-// Fallback if the measurement fails: the cost on a core of 2022.
+// The first third of the preset's own crush, with contacts: an element-step of it takes as long as so many of the
+// reference crush (the same preset, slower and to its end).
+constexpr double kOverReference = 1.65;
+constexpr int kMeasurements = 9;  // the median counts: others may use the core in between
+constexpr std::int64_t kStepsMeasured = 128;
+// Fallback if the preset does not build: the cost on a core of 2022.
 constexpr double kUnmeasured = 1e-7;
 
 std::string before_it(int count, const char* joint) {
@@ -129,26 +135,27 @@ class Play {
 }  // namespace
 
 double measure_step_cost() {
+  // In a smaller lattice the outer walls, which fill no vectors, and the plates would dominate.
   const translate::Preset* preset = translate::find_preset("hexagon-small");
   if (preset == nullptr) return kUnmeasured;
-  // About the first third of its crush, with contacts. In a smaller lattice the outer walls, which fill no vectors, and
-  // the plates would dominate.
   const auto built = build_scene(preset->spec);
   if (!built.scene) return kUnmeasured;
-  const auto facts = facts_of(*built.scene);
   Simulation simulation(built.scene);
-  const double start = worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID);
-  while (simulation.step() < facts.step_count &&
-         worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start < kLongestMeasurement)
-    simulation.advance(32);
-  const double seconds = worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
-  const auto element_steps = static_cast<double>(simulation.step()) * static_cast<double>(facts.element_count);
-  return element_steps > 0.0 ? seconds / element_steps : kUnmeasured;
+  simulation.advance(2 * kStepsMeasured);
+  std::array<double, kMeasurements> seconds{};
+  for (double& taken : seconds) {
+    const double start = worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID);
+    simulation.advance(kStepsMeasured);
+    taken = worker::processor_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+  }
+  std::ranges::nth_element(seconds, seconds.begin() + kMeasurements / 2);
+  const auto element_steps = static_cast<double>(kStepsMeasured * facts_of(*built.scene).element_count);
+  return seconds[kMeasurements / 2] / (kOverReference * element_steps);
 }
 
 double predicted_seconds(const store::QueuedJob& job, const JobFacts& facts, int cores, double step_cost) {
-  const std::int64_t left = std::max<std::int64_t>(job.element_steps - facts.element_steps_done, 0);
-  return step_cost * static_cast<double>(left) / (1.0 + kWorthOfAnotherCore * (cores - 1));
+  const double left = static_cast<double>(job.element_steps) * std::clamp(1.0 - facts.done, 0.0, 1.0);
+  return step_cost * left / (1.0 + kWorthOfAnotherCore * (cores - 1));
 }
 
 int extra_cores(int threads, int free, std::size_t waiting) {

@@ -18,15 +18,15 @@ struct RunningJob {
 
 /// Facts about a job beyond its place in the queue.
 struct JobFacts {
-  int threads = 1;                      ///< that it requests
-  std::int64_t element_steps_done = 0;  ///< by previous workers
+  int threads = 1;    ///< that it requests
+  double done = 0.0;  ///< share of it, by previous workers
 };
 using FactsOf = std::function<JobFacts(std::int64_t job)>;
 
 /// State of the workers of one executor.
 struct WorkerFacts {
   int count = 1;
-  double step_cost = 0.0;     ///< seconds of one core per element and step
+  double step_cost = 0.0;     ///< seconds of one core for an element-step of the reference crush
   std::string held{};         ///< why the queue is held; empty if it is not
   int owner_max_running = 0;  ///< jobs of one owner that run at once; 0: no limit
   std::string executor = store::kLocalExecutor;
@@ -38,8 +38,8 @@ struct WorkerFacts {
 /// Maximum number of jobs that a queue lists.
 inline constexpr int kMostEntries = 1000;
 
-/// Seconds of one core per step and element, measured by a short run of a small preset: about 0.05 s. For predictions
-/// only: the actual cost varies with section points, contacts and load.
+/// Seconds of one core for an element-step of the reference crush (scene/run_cost.h of core), measured by a short run:
+/// about 0.05 s. For predictions only: other work on the machine makes it vary.
 double measure_step_cost();
 
 /// Remaining seconds of a job on this many cores.

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
@@ -187,21 +186,15 @@ class AdminCalls {
     const auto stored = parts_.reader.find_job(job);
     if (!stored) return out;
     out.threads = std::max(stored->job.case_().numerics().threads(), 1);
-    // The worker that ran the job has reported the mesh.
-    const auto mesh = stored->job.attempt() > 0 ? parts_.reader.mesh(job) : std::nullopt;
-    if (!mesh) return out;
-    try {
-      out.element_steps_done =
-          mesh->thickness_mm_size() * std::max<std::int64_t>(parts_.reader.last_sampled_step(job), 0);
-    } catch (const ServiceError& error) {
-      // A damaged job must not hide the others.
-      spdlog::error("Cannot read the progress of {}: {}", store::name_of(job), error.what());
-    }
+    const auto& output = stored->job.case_().output();
+    const int samples = output.has_sample_count() ? output.sample_count() : OutputSpec().sample_count;
+    out.done = static_cast<double>(stored->samples) / samples;
     return out;
   }
 
   const ServiceParts& parts_;
   std::function<void()> drain_daemon_;
+  const google::protobuf::Timestamp start_ = google::protobuf::util::TimeUtil::GetCurrentTime();
   std::atomic<bool> draining_ = false;
 };
 

@@ -1,7 +1,6 @@
 #include <memory>
 #include <string>
 
-#include "cellcrush/fidelity.h"
 #include "drawing/drawing.h"
 #include "drawing/import_lattice.h"
 #include "error_table.h"
@@ -9,7 +8,6 @@
 #include "rpc/services.h"
 #include "store/result_writer.h"
 #include "translate/case_checker.h"
-#include "translate/case_to_spec.h"
 #include "translate/check_case.h"
 #include "translate/materials.h"
 #include "translate/measured_errors.h"
@@ -44,9 +42,7 @@ class CaseCalls {
     auto check = translate::check_case(request.case_(), [&call] { call.require_wanted(); });
     v1::CheckCaseResponse& out = check.response;
     if (out.problems_size() > 0) return std::move(out);
-    const double laws = step_cost_of_laws(translate::to_spec(request.case_()).spec);
-    out.set_predicted_seconds(parts_.step_cost * laws * static_cast<double>(out.element_count()) *
-                              static_cast<double>(out.step_count()));
+    out.set_predicted_seconds(parts_.step_cost * check.reference_steps);
     translate::add_fidelities(request.case_(), parts_.step_cost, check);
     if (parts_.has_device) {
       out.add_modelled(check.why_not_on_device

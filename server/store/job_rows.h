@@ -32,7 +32,7 @@ struct JobEntry {
   std::string request_id;  ///< empty: no id
   std::string request_hash;
   std::optional<std::int64_t> submission;  ///< first job submitted with it; nothing: this one
-  std::int64_t element_steps = 0;          ///< elements times steps of the run
+  std::int64_t element_steps = 0;          ///< of the reference crush, which take as long as the run
 };
 
 /// Adds PENDING jobs with their first event to the journal. Prepares its statements once. Lives within a transaction.

@@ -58,7 +58,7 @@ struct StateChange {
 struct SweepJob {
   std::function<v1::Job()> job = [] { return v1::Job(); };  ///< case, labels, priority
   std::vector<double> values;      ///< of the sweep's fields, in order
-  std::int64_t element_steps = 0;  ///< elements times steps of the run
+  std::int64_t element_steps = 0;  ///< of the reference crush, which take as long as the run
 };
 
 /// What the journal stores of a result that another daemon made.

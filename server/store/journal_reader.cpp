@@ -226,17 +226,6 @@ StoredSamples JournalReader::samples(std::int64_t job, std::int64_t after, PageR
   return out;
 }
 
-std::int64_t JournalReader::last_sampled_step(std::int64_t job) {
-  const auto stored = find_job(job);
-  if (!stored || stored->samples == 0) return -1;
-  std::int64_t out = -1;
-  with_numbers(job, [&](const Numbers& numbers) {
-    const auto found = find_samples(numbers, {job, numbers.begun_again, numbers.samples - 1, 1}, {});
-    if (!found.samples.empty()) out = found.samples.back().step();
-  });
-  return out;
-}
-
 std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
   const MutexLock lock(mutex_);
   Statement read(database_, "SELECT mesh, checksum = expected_checksum FROM meshes WHERE job = ?1");

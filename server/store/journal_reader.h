@@ -96,9 +96,6 @@ class JournalReader {
   /// The samples after event `after`, in order. Ends before an unreadable one; throws data_loss if that is the first.
   StoredSamples samples(std::int64_t job, std::int64_t after = 0, PageRoom room = {});
 
-  /// Step of the newest sample; -1 before the first, or while it cannot be read.
-  std::int64_t last_sampled_step(std::int64_t job);
-
   /// Nothing until a worker has sent it, or if it cannot be read.
   std::optional<v1::Mesh> mesh(std::int64_t job);
 

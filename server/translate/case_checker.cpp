@@ -41,8 +41,7 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted, const BeforeM
   out.element_count = verdict.element_count;
   const bool has_default_mesh = !reading.spec.elements_per_wall && !submitted.lattice().has_frame();
   if (has_default_mesh) out.default_mesh = *fill_in_fidelity(reading.spec).elements_per_wall;
-  out.element_steps = std::llround(static_cast<double>(verdict.element_count * verdict.step_count) *
-                                   step_cost_of_laws(reading.spec));
+  out.element_steps = std::llround(verdict.reference_steps);
   out.most_memory_bytes = memory_of_worker(
       reading.spec, {verdict.most_memory_bytes, verdict.element_count, reading.spec.output.sample_count});
   return out;

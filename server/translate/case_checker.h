@@ -30,7 +30,7 @@ class CaseChecker {
     std::int64_t element_count = 0;  ///< 0 if there are problems
     int default_mesh =
         0;  ///< elements_per_wall by default; 0 if the case gives it, if a frame, or if there are problems
-    /// Elements times steps of the run, times what its laws cost over bilinear ones; 0 if there are problems.
+    /// Time of the run, in element-steps of the reference crush (SpecChecker::Verdict); 0 if there are problems.
     std::int64_t element_steps = 0;
     /// The prediction of check_case, or slightly more (cellcrush/spec_checker.h); 0 if there are problems.
     std::int64_t most_memory_bytes = 0;

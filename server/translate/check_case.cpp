@@ -174,6 +174,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   }
   out.response.set_small_specimen(describe_small_specimen(spec));
   out.meshes->know(spec, *scene);
+  out.reference_steps = out.meshes->check(spec).reference_steps;
   const auto facts = facts_of(*scene);
   out.response.set_default_mesh(describe_default_mesh(spec, facts.relative_density));
   describe(facts, out.response);

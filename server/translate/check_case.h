@@ -30,6 +30,7 @@ void cut_problems(google::protobuf::RepeatedPtrField<v1::Problem>& problems);
 struct CaseCheck {
   v1::CheckCaseResponse response;  ///< all but predicted time and disk space, or only problems
   std::int64_t wall_count = 0;
+  double reference_steps = 0.0;                  ///< time of the run (SpecChecker::Verdict)
   std::int64_t sample_count = 0;                 ///< of the run
   std::int64_t frame_count = 0;                  ///< of the run, including the undeformed frame
   std::int64_t checkpoint_bytes = 0;             ///< of its largest checkpoint

@@ -312,9 +312,7 @@ void add_fidelities(const v1::Case& submitted, double step_cost, CaseCheck& chec
     forecast.set_elements_per_wall(*fill_in_fidelity(tried).elements_per_wall);
     forecast.set_element_count(verdict.element_count);
     forecast.set_step_count(verdict.step_count);
-    const double element_steps = static_cast<double>(verdict.element_count) * static_cast<double>(verdict.step_count);
-    forecast.set_predicted_seconds(step_cost * step_cost_of(forecast.elements_per_wall()) * step_cost_of_laws(spec) *
-                                   element_steps);
+    forecast.set_predicted_seconds(step_cost * verdict.reference_steps);
     write_errors(spec, forecast);
     if (decides == forecast.fidelity()) response.set_predicted_seconds(forecast.predicted_seconds());
   }

@@ -119,7 +119,7 @@ const fs::path kTests = fs::path(CELLCRUSH_SOURCE_ROOT) / "tests";
 /// Suite.Name of all tests, and the programs that measure the service.
 std::set<std::string> find_tests() {
   static const std::regex kTest(R"(\nTEST(?:_[FP])?\((\w+),\s*(\w+)\))");
-  std::set<std::string> tests{"service_load", "forecasts"};
+  std::set<std::string> tests{"service_load", "forecasts", "time_forecasts"};
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kTests)) {
     if (entry.path().extension() != ".cpp") continue;
     const std::string text = read_text(entry.path());

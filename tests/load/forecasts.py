@@ -81,20 +81,32 @@ def case_of(lattice, size):
 
 
 class Daemon:
-    def __init__(self, programs, folder, size):
+    """With one worker; ends with the block."""
+
+    def __init__(self, programs, folder, *options):
         self.data = os.path.join(folder, "data")
         self.client = [os.path.join(programs, "cellcrush"), "--server", "unix:" + os.path.join(folder, "socket")]
         self.process = subprocess.Popen(
             [os.path.join(programs, "cellcrushd"), "--data", self.data, "--listen", self.client[2], "--http", "none"]
-            + ["--workers", "1", "--checkpoint-interval", str(SIZES[size][1])],
+            + ["--workers", "1", *options],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.process.stdout.readline()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
 
     def call(self, *words):
         done = subprocess.run(self.client + list(words) + ["--json"], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError(done.stderr)
         return json.loads(done.stdout)
+
+    def wait(self, job):
+        subprocess.run(self.client + ["watch", job], capture_output=True, check=False)
 
     def run(self, *case):
         """The most memory of the job's worker, the most bytes in its folder and the size of the result, polled."""
@@ -144,36 +156,45 @@ def measure(daemon, path, lattice, law, size):
     return dict(zip(COLUMNS, map(str, values)))
 
 
-def record(measured):
-    """Replaces rows of the record, and the extremes of each size in the record of the page."""
-    path = os.path.join(HERE, "forecasts.csv")
-    rows = {}
-    if os.path.exists(path):
-        with open(path, encoding="ascii", newline="") as file:
-            rows = {(int(row["size"]), row["lattice"], row["law"]): row for row in csv.DictReader(file)}
-    rows.update({(int(row["size"]), row["lattice"], row["law"]): row for row in measured})
-    with open(path, "w", encoding="ascii", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows[key] for key in sorted(rows))
-    figures = []
-    for size in sorted({key[0] for key in rows}):
-        of_size = [row for key, row in sorted(rows.items()) if key[0] == size]
-        figures.append((f"cases of {size} elements", len(of_size)))
+class Record:
+    """Rows that are measured again replace those of the same key in NAME.csv; evidence.csv has the figures of all."""
+
+    def __init__(self, name, columns, key):
+        self.name, self.columns, self.key = name, columns, key
+
+    def replace(self, measured, figures_of):
+        path = os.path.join(HERE, self.name + ".csv")
+        rows = {}
+        if os.path.exists(path):
+            with open(path, encoding="ascii", newline="") as file:
+                rows = {self.key(row): row for row in csv.DictReader(file)}
+        rows.update({self.key(row): row for row in measured})
+        kept = [rows[key] for key in sorted(rows)]
+        with open(path, "w", encoding="ascii", newline="") as file:
+            writer = csv.DictWriter(file, self.columns, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(kept)
+        path = os.path.join(HERE, "evidence.csv")
+        with open(path, encoding="ascii") as file:
+            header, *lines = file.read().splitlines()
+        lines = [line for line in lines if not line.startswith(self.name + ",")]
+        lines += [f"{self.name},{name},{value}" for name, value in figures_of(kept)]
+        with open(path, "w", encoding="ascii") as file:
+            file.write("\n".join([header] + sorted(lines)) + "\n")
+
+
+def figures_of(rows):
+    """The extremes of each size."""
+    for size in sorted({int(row["size"]) for row in rows}):
+        of_size = [row for row in rows if int(row["size"]) == size]
+        yield f"cases of {size} elements", len(of_size)
         used = [float(row["memory_mb"]) for row in of_size]
-        figures += [(f"least MB of {size} elements", f"{min(used):.0f}"),
-                    (f"most MB of {size} elements", f"{max(used):.0f}")]
+        yield f"least MB of {size} elements", f"{min(used):.0f}"
+        yield f"most MB of {size} elements", f"{max(used):.0f}"
         for name in ("memory", "disk", "result"):
             ratios = [float(row[name + "_predicted_mb"]) / float(row[name + "_mb"]) for row in of_size]
-            figures += [(f"least ratio of {name} of {size} elements", f"{min(ratios):.2f}"),
-                        (f"most ratio of {name} of {size} elements", f"{max(ratios):.2f}")]
-    path = os.path.join(HERE, "evidence.csv")
-    with open(path, encoding="ascii") as file:
-        header, *lines = file.read().splitlines()
-    lines = [line for line in lines if not line.startswith("forecasts,")]
-    lines += [f"forecasts,{name},{value}" for name, value in figures]
-    with open(path, "w", encoding="ascii") as file:
-        file.write("\n".join([header] + sorted(lines)) + "\n")
+            yield f"least ratio of {name} of {size} elements", f"{min(ratios):.2f}"
+            yield f"most ratio of {name} of {size} elements", f"{max(ratios):.2f}"
 
 
 def main():
@@ -187,20 +208,18 @@ def main():
     measured = []
     print(",".join(COLUMNS))
     for size in wanted.sizes:
-        with tempfile.TemporaryDirectory() as folder:
-            daemon = Daemon(wanted.programs, folder, size)
-            try:
-                for lattice, law in itertools.product(wanted.lattices, wanted.laws):
-                    if lattice in FRAMES and size > LARGEST_FRAME:
-                        continue
-                    row = measure(daemon, os.path.join(folder, "case.txtpb"), lattice, law, size)
-                    print(",".join(row.values()), flush=True)
-                    measured.append(row)
-            finally:
-                daemon.process.terminate()
-                daemon.process.wait()
+        interval = ["--checkpoint-interval", str(SIZES[size][1])]
+        with tempfile.TemporaryDirectory() as folder, Daemon(wanted.programs, folder, *interval) as daemon:
+            for lattice, law in itertools.product(wanted.lattices, wanted.laws):
+                if lattice in FRAMES and size > LARGEST_FRAME:
+                    continue
+                row = measure(daemon, os.path.join(folder, "case.txtpb"), lattice, law, size)
+                print(",".join(row.values()), flush=True)
+                measured.append(row)
     if wanted.record:
-        record(measured)
+        record = Record("forecasts", COLUMNS, key=lambda row: (int(row["size"]), row["lattice"], row["law"]))
+        record.replace(measured, figures_of)
 
 
-main()
+if __name__ == "__main__":
+    main()

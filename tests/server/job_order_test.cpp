@@ -51,7 +51,8 @@ class JobOrderTest : public DaemonFixture {
 TEST_F(JobOrderTest, TheJobsOfASweepStartLongestFirst) {
   auto client = this->client();
   // At half the speed a crush has twice the steps.
-  const auto sweep = create(client, sweep_of(endless_case(), kSpeed, {4.0, 2.0, 1.0, 2.5}));
+  const auto of_few_samples = with_text(endless_case(), "output { sample_count: 100 }");
+  const auto sweep = create(client, sweep_of(of_few_samples, kSpeed, {4.0, 2.0, 1.0, 2.5}));
   EXPECT_THAT(by_start(client, {sweep.jobs().begin(), sweep.jobs().end()}),
               ElementsAre("jobs/3", "jobs/2", "jobs/4", "jobs/1"));
 }

@@ -31,7 +31,7 @@ TEST_F(JournalTest, SamplesThatNobodyWaitsForShareACommitWithThoseThatSomebodyDo
   EXPECT_EQ(reader_->samples(job).samples.size(), 11U);
   add_sample(job, sample(12), std::chrono::minutes(1));
   reopen();
-  EXPECT_EQ(reader_->last_sampled_step(job), 12) << "Closing keeps what is gathered.";
+  EXPECT_EQ(reader_->samples(job).samples.back().step(), 12) << "Closing keeps what is gathered.";
 }
 
 TEST_F(JournalTest, AskingForSamplesWaitsForThoseThatAnotherIsMakingDurable) {

@@ -108,7 +108,8 @@ TEST(NamedMaterials, AForecastCountsWhatTheLawCosts) {
   const auto steps_of = [&](const std::string& more) {
     return translate::CaseChecker().check(case_of(numbers + more)).element_steps;
   };
-  EXPECT_EQ(steps_of("hardening_modulus_mpa: 700"), steps_of(""));
+  EXPECT_GT(steps_of("hardening_modulus_mpa: 700"), steps_of("")) << "it is computed in double precision";
+  EXPECT_LT(steps_of("hardening_modulus_mpa: 700"), 2 * steps_of(""));
   EXPECT_GT(steps_of("voce_stress_mpa: 10 voce_exponent: 10"), 2 * steps_of(""));
   EXPECT_GT(steps_of("johnson_cook_coefficient: 0.01"), 5 * steps_of(""));
 }

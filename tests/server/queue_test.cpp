@@ -162,10 +162,10 @@ TEST(QueueForecast, AJobWithThreadsHoldsSoManyCoresAndTakesLess) {
 
 TEST(QueueForecast, WhatWasDoneBeforeAJobWasLeftIsTakenOff) {
   const auto queue = forecast_queue({}, {lasting(1, 10), lasting(2, 1)}, {1, kStepCost}, [](std::int64_t job) {
-    return JobFacts{1, job == 1 ? 7'000 : 0};
+    return JobFacts{1, job == 1 ? 0.7 : 0.0};
   });
   expect_entry(queue, 1, "jobs/2", 3.0, "1 job starts before it.");
-  EXPECT_EQ(predicted_seconds(lasting(1, 10), {1, 20'000}, 1, kStepCost), 0.0);
+  EXPECT_EQ(predicted_seconds(lasting(1, 10), {1, 1.2}, 1, kStepCost), 0.0);
 }
 
 TEST(QueueForecast, OwnersTakeTurnsAndOneAtTheLimitSaysSo) {

@@ -117,8 +117,8 @@ TEST(Translate, ForecastsAreTimesOfOneCoreAndTheOneAskedForIsThePrediction) {
   ASSERT_EQ(response.fidelities_size(), 3);
   const auto& standard = response.fidelities(1);
   EXPECT_EQ(standard.fidelity(), v1::Numerics::STANDARD);
-  EXPECT_NEAR(standard.predicted_seconds(),
-              kStepCost * static_cast<double>(response.element_count() * response.step_count()), 1e-9);
+  EXPECT_DOUBLE_EQ(standard.predicted_seconds(), kStepCost * check.reference_steps);
+  EXPECT_GT(response.fidelities(2).predicted_seconds(), 4.0 * standard.predicted_seconds()) << "a finer mesh";
   EXPECT_EQ(response.predicted_seconds(), standard.predicted_seconds());
   given.mutable_numerics()->clear_fidelity();
   auto unspecified = translate::check_case(given);

@@ -86,7 +86,7 @@ TEST_F(WatchCursorTest, AMeshThatIsBuiltDuringTheWatchPrecedesTheSamplesAndComes
   journal_.begin_again(job_, "Restarted.");
   EXPECT_EQ(reader_.find_job(job_)->job.attempt(), 1);
   EXPECT_EQ(reader_.find_job(job_)->job.begun_again_sequence(), 5);
-  EXPECT_EQ(reader_.last_sampled_step(job_), -1);
+  EXPECT_EQ(reader_.find_job(job_)->samples, 0);
   EXPECT_FALSE(reader_.mesh(job_));
   reported_.discard(job_);
   channel->forget();

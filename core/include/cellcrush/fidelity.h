@@ -17,12 +17,6 @@ struct FidelityPoint {
 /// DRAFT, STANDARD, REFERENCE for the lattice and the elements of a spec.
 std::vector<FidelityPoint> fidelity_points(const SceneSpec& spec);
 
-/// Time per element-step with this mesh, relative to 2 elements per wall.
-double step_cost_of(int elements_per_wall);
-
-/// The same with the laws of the spec's materials, relative to perfectly plastic ones.
-double step_cost_of_laws(const SceneSpec& spec);
-
 /// The spec with the settings of its fidelity, or the defaults if it names none, filled in where it omits them. Given
 /// settings are kept.
 SceneSpec fill_in_fidelity(const SceneSpec& spec);

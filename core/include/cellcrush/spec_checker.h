@@ -27,6 +27,7 @@ class SpecChecker {
     Problems notes;                      ///< find_implausible() and find_costly_walls(); none if there are problems
     std::int64_t element_count = 0;      ///< 0 if there are problems
     std::int64_t step_count = 0;         ///< 0 if there are problems
+    double reference_steps = 0.0;        ///< time of the run (scene/run_cost.h); 0 if there are problems
     std::int64_t most_memory_bytes = 0;  ///< most_memory_of_run; 0 if there are problems
   };
   /// `before_mesh`: called with the approximate number of elements of the mesh, if one is to be built.

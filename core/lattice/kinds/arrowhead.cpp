@@ -130,6 +130,7 @@ const LatticeKind& arrowhead_lattice() {
       .name = "arrowhead",
       .plural = "arrowheads",
       .walls_per_cell = 4.0,
+      .step_cost = 1.13,
       .own_numbers = {{kLongAngle, [](const RegularLattice&) { return 60.0; }},
                       {kShortAngle, [](const RegularLattice&) { return 30.0; }}},
       .check = check_arrowheads,

@@ -143,6 +143,7 @@ const LatticeKind& hierarchical_hexagon_lattice() {
       .name = "hierarchical_hexagon",
       .plural = "hierarchical hexagons",
       .walls_per_cell = 15.0,
+      .step_cost = 0.67,
       .own_numbers = {{kSmallSide, [](const RegularLattice& its) { return 0.3 * its.side_mm.value_or(0.0); }, 0.49}},
       .lay_out = lay_out_hierarchical_hexagons,
       .period = period_of_hierarchical_hexagons,

@@ -61,6 +61,7 @@ const LatticeKind& kagome_lattice() {
       .plural = "kagome",
       .walls_per_cell = 6.0,
       .has_walls_along_crush = true,
+      .step_cost = 1.1,
       .lay_out = lay_out_kagome,
       .period = period_of_kagome,
       .closed_forms = forms_of_kagome,

@@ -78,6 +78,7 @@ const LatticeKind& sinusoidal_square_lattice() {
       .name = "sinusoidal_square",
       .plural = "sinusoidal squares",
       .walls_per_cell = 4.0,
+      .step_cost = 1.27,
       .own_numbers = {{kAmplitude, [](const RegularLattice& its) { return 0.1 * its.side_mm.value_or(0.0); }, 0.25}},
       .check = check_sinusoidal_squares,
       .lay_out = lay_out_sinusoidal_squares,

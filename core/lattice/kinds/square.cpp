@@ -40,6 +40,7 @@ const LatticeKind& square_lattice() {
       .plural = "squares",
       .walls_per_cell = 2.0,
       .has_walls_along_crush = true,
+      .step_cost = 1.25,
       .lay_out = lay_out_squares,
       .period = period_of_squares,
       .closed_forms = forms_of_squares,

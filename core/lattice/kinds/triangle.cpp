@@ -60,6 +60,7 @@ const LatticeKind& triangle_lattice() {
       .plural = "triangles",
       .walls_per_cell = 3.0,
       .has_walls_along_crush = true,
+      .step_cost = 1.17,
       .lay_out = lay_out_triangles,
       .period = period_of_triangles,
       .closed_forms = forms_of_triangles,
