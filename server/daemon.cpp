@@ -1,6 +1,7 @@
 #include "daemon.h"
 
 #include <absl/strings/str_replace.h>
+#include <fmt/format.h>
 #include <grpc/grpc.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -22,6 +23,7 @@
 #include "error.h"
 #include "http/gateway.h"
 #include "jobs/queue_forecast.h"
+#include "jobs/queues.h"
 #include "limited_log.h"
 #include "listen_address.h"
 #include "net/acceptor.h"
@@ -372,6 +374,24 @@ struct Daemon::Impl {
   std::optional<Heartbeats> heartbeats;
   bool stopped = false;
 };
+
+std::vector<std::string> check_options(const DaemonOptions& options) {
+  with_device(options);
+  const access::Gate gate(options.access);
+  std::vector<std::string> out = {"data in " + options.data_folder.string()};
+  const std::vector<ListenAddress> addresses = listen_addresses(options);
+  credentials_for(gate, addresses);
+  for (const ListenAddress& address : addresses) out.push_back("gRPC at " + address.text());
+  const auto http = http_address(gate, options);
+  out.push_back(http ? "HTTP at " + http->text() : "no HTTP");
+  out.push_back(options.metrics.empty() ? "no metrics" : "metrics at " + options.metrics);
+  std::vector<std::string> executors = {store::kLocalExecutor};
+  for (const auto& executor : options.executors) executors.push_back(executor.name);
+  jobs::check_executors(executors, options.default_executor);
+  out.push_back(
+      fmt::format("{} jobs at once on this machine, {} by default", options.worker_count(), options.default_executor));
+  return out;
+}
 
 Daemon::Daemon(DaemonOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 

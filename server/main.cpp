@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,6 +27,7 @@
 #include "access/token_file.h"
 #include "allotment.h"
 #include "cellcrush/simd.h"
+#include "command_line/config_file.h"
 #include "command_line/daemon_flags.h"
 #include "command_line/store_commands.h"
 #include "daemon.h"
@@ -55,6 +57,12 @@ const cellcrush::ManPage kManPage = {.section = 8,
                                      .summary = "daemon that runs crushing analyses of cellular materials",
                                      .synopsis = "[OPTIONS] [COMMAND ...]",
                                      .see_also = "cellcrush (1)"};
+
+// Where the service of the package stores and listens (deploy/debian): only accounts of this machine reach it.
+const std::map<std::string, std::string> kOfService = {{"data", "\"/var/lib/cellcrush\""},
+                                                       {"group-scope", "[\"cellcrush=submit\"]"},
+                                                       {"http", "\"none\""},
+                                                       {"listen", "[\"unix:/run/cellcrush/cellcrushd.sock\"]"}};
 
 // Only main waits for SIGTERM, SIGINT and SIGHUP; they are blocked before another thread exists.
 sigset_t block_signals() {
@@ -133,6 +141,16 @@ void print_addresses(const std::vector<std::string>& addresses) {
   std::thread([text] { cellcrush::write_text(STDOUT_FILENO, text); }).detach();
 }
 
+int check(const cellcrush::DaemonOptions& options) {
+  try {
+    for (const auto& line : cellcrush::check_options(options)) std::printf("%s\n", line.c_str());
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cellcrushd: %s\n", error.what());
+    return 2;
+  }
+}
+
 int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals, cellcrush::LogWriter& log) {
   try {
     cellcrush::Daemon daemon(options);
@@ -176,9 +194,15 @@ int main(int argc, char** argv) {
           "Scope of the token. read: read only; submit: also create jobs and change one's own; admin: everything")
       ->required()
       ->check(CLI::IsMember({"read", "submit", "admin"}));
+  const CLI::App* check_config =
+      app.add_subcommand("check-config",
+                         "Check the options and the files that they name, and start nothing; exit code 2 if the daemon "
+                         "would not start with them")
+          ->fallthrough();
   const cellcrush::StoreCommands store_commands(app);
   // For packages and for the daemon itself; an empty group hides them from the help.
   const CLI::App* man = app.add_subcommand("man", "Print the man page")->group("");
+  const CLI::App* config_file = app.add_subcommand("config-file", "Print the file of the service")->group("");
   std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
   worker->add_option("--folder", job_folder)->required();
@@ -201,6 +225,10 @@ int main(int argc, char** argv) {
     std::printf("%s", cellcrush::man_page(app, kManPage).c_str());
     return 0;
   }
+  if (config_file->parsed()) {
+    std::printf("%s", cellcrush::config_file(app, kOfService).c_str());
+    return 0;
+  }
   if (token->parsed()) return print_token(token_name, token_scope);
   if (!choose_kernel()) return 2;
   umask(0077);
@@ -220,6 +248,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");
     return 2;
   }
+  if (check_config->parsed()) return check(options);
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   options.on_progress = [] { notify_manager("WATCHDOG=1"); };
   // The C library would keep eight heaps for each core, each at the size of its largest flood. With fewer

@@ -102,7 +102,7 @@ void add_import_command(CLI::App& app, Session& session);
 void add_show_commands(CLI::App& app, Session& session);  ///< show, list, table
 void add_run_command(CLI::App& app, Session& session);
 void add_submit_commands(CLI::App& app, Session& session);  ///< submit, sweep
-void add_watch_command(CLI::App& app, Session& session);
+void add_watch_command(CLI::App& app, Session& session);  ///< watch, wait
 void add_job_commands(CLI::App& app, Session& session);  ///< cancel, suspend, resume, retry, note, delete
 void add_fetch_command(CLI::App& app, Session& session);
 void add_plot_command(CLI::App& app, Session& session);

@@ -44,6 +44,19 @@ ExitCode run_queue(Session& session) {
   return ExitCode::done;
 }
 
+ExitCode run_status(Session& session) {
+  Connection& connection = session.connection();
+  const auto server =
+      connection.call(connection.admin(), &v1::Admin::Stub::GetCapabilities, v1::GetCapabilitiesRequest());
+  if (session.json) {
+    print_json(server);
+    return ExitCode::done;
+  }
+  const auto queue = connection.call(connection.admin(), &v1::Admin::Stub::GetQueue, v1::GetQueueRequest());
+  fmt::print("{}", status_text(server, queue));
+  return ExitCode::done;
+}
+
 // Whether the drained server has ended: nobody answers, or a server that was not drained.
 bool has_ended(Connection& connection) {
   grpc::ClientContext context;
@@ -83,6 +96,11 @@ void add_queue_commands(CLI::App& app, Session& session) {
       add_command(app, session, kServerCommands, "queue", "List the waiting jobs in starting order, and why they wait",
                   [&session] { return run_queue(session); });
   add_examples(*queue, {"cellcrush queue"});
+  CLI::App* status =
+      add_command(app, session, kServerCommands, "status",
+                  "Print the version of the server, how long it runs, its jobs, its disk, and what holds its queue",
+                  [&session] { return run_status(session); });
+  add_examples(*status, {"cellcrush status", "cellcrush status --json"});
   const auto wait = std::make_shared<bool>(false);
   CLI::App* drain =
       add_command(app, session, kServerCommands, "drain", "Shut the server down; it checkpoints its running jobs",

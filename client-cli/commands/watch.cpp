@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "commands/commands.h"
 #include "connection/connection.h"
@@ -67,6 +69,51 @@ ExitCode watch_sweep(Session& session, const std::string& name, const Interrupti
   return watched.all_succeeded ? ExitCode::done : ExitCode::job_failed;
 }
 
+namespace {
+
+// Keeps the newest state and shows nothing.
+template <typename Event, typename View>
+class Silent : public Watcher<Event> {
+ public:
+  void on_event(const Event& event) override { view.apply(event); }
+  void on_break(const std::string&) override {}
+
+  View view;
+};
+
+// Waits for the end and prints the outcome in a line.
+ExitCode wait_for_job(Session& session, const std::string& name, const Interruption& interruption) {
+  Silent<v1::JobEvent, JobView> watcher;
+  if (!follow_job(session.connection(), name, interruption, watcher)) return ExitCode::interrupted;
+  const v1::Job& job = watcher.view.job();
+  session.json ? print_json(job) : fmt::print("{} {}\n", name, v1::Job::State_Name(job.state()));
+  return exit_code_of(job.state());
+}
+
+ExitCode wait_for_sweep(Session& session, const std::string& name, const Interruption& interruption) {
+  Silent<v1::WatchSweepResponse, SweepView> watcher;
+  if (!follow_sweep(session.connection(), name, interruption, watcher)) return ExitCode::interrupted;
+  const int all = static_cast<int>(watcher.view.jobs().size());
+  const int succeeded = watcher.view.count(v1::Job::SUCCEEDED);
+  session.json ? print_json(watcher.view.sweep()) : fmt::print("{} SUCCEEDED {} of {}\n", name, succeeded, all);
+  return succeeded == all ? ExitCode::done : ExitCode::job_failed;
+}
+
+ExitCode wait_for_all(Session& session, const std::vector<std::string>& names) {
+  const Interruption interruption;
+  ExitCode worst = ExitCode::done;
+  for (const std::string& name : names) {
+    const ExitCode code = names_sweep(name) ? wait_for_sweep(session, name, interruption)
+                                            : wait_for_job(session, job_name(name), interruption);
+    if (code == ExitCode::interrupted) return code;
+    std::fflush(stdout);
+    if (code != ExitCode::done) worst = code;
+  }
+  return worst;
+}
+
+}  // namespace
+
 void add_watch_command(CLI::App& app, Session& session) {
   const auto name = std::make_shared<std::string>();
   CLI::App* command =
@@ -77,6 +124,12 @@ void add_watch_command(CLI::App& app, Session& session) {
       });
   command->add_option("NAME", *name, "Name of a job or a sweep")->required();
   add_examples(*command, {"cellcrush watch jobs/12", "cellcrush watch sweeps/3"});
+  const auto names = std::make_shared<std::vector<std::string>>();
+  CLI::App* wait = add_command(app, session, kJobCommands, "wait",
+                               "Wait for the end of jobs and sweeps, and print a line for each; for scripts",
+                               [&session, names] { return wait_for_all(session, *names); });
+  wait->add_option("NAME", *names, "Names of jobs and sweeps")->required();
+  add_examples(*wait, {"cellcrush wait jobs/12 jobs/13", "cellcrush wait sweeps/3 && cellcrush table sweeps/3"});
 }
 
 }  // namespace cellcrush::client

@@ -16,6 +16,7 @@ namespace cellcrush::client {
 
 namespace {
 
+using google::protobuf::util::TimeUtil;
 using Align = Table::Align;
 
 std::string also_varied_text(const std::vector<std::string>& fields, std::size_t shown, int width) {
@@ -25,12 +26,12 @@ std::string also_varied_text(const std::vector<std::string>& fields, std::size_t
   return wrapped(text, width, "", "  ");
 }
 
+double seconds(const google::protobuf::Duration& duration) {
+  return std::max(static_cast<double>(TimeUtil::DurationToMilliseconds(duration)) / 1e3, 0.0);
+}
+
 std::string hold_text(const v1::Queue::Hold& hold) {
-  using google::protobuf::util::TimeUtil;
   const auto now = TimeUtil::GetCurrentTime();
-  const auto seconds = [](const google::protobuf::Duration& duration) {
-    return std::max(static_cast<double>(TimeUtil::DurationToMilliseconds(duration)) / 1e3, 0.0);
-  };
   const std::string executor = executor_text(hold.executor());
   std::string text =
       fmt::format("the queue{} has been on hold ({}) for {}: {} {}", executor.empty() ? "" : " of " + executor,
@@ -104,6 +105,26 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   }
   const std::string constants = constants_text(table.remove_constant_columns(2, kHeadings), width);
   return table.text(0, width) + constants + also_varied_text(varied, fields.size(), width);
+}
+
+std::string status_text(const v1::Capabilities& server, const v1::Queue& queue, int width) {
+  Table table({Align::left, Align::left});
+  table.add({"version", printable(server.version())});
+  table.add({"runs for", duration_text(seconds(TimeUtil::GetCurrentTime() - server.start_time()))});
+  if (server.draining()) table.add({"accepts jobs", "no, it is being drained"});
+  table.add({"uses", printable(queue.cores())});
+  table.add({"free disk", fmt::format("{}; jobs wait below {}", size_text(server.free_disk_bytes()),
+                                      size_text(server.kept_disk_bytes()))});
+  for (const auto& executor : server.executors()) {
+    table.add({"runs on " + printable(executor.name()),
+               fmt::format("{} of {} at once",
+                           count_text(executor.running_count()) + (executor.running_count() == 1 ? " job" : " jobs"),
+                           count_text(executor.job_limit()))});
+  }
+  table.add({"waiting jobs", count_text(server.waiting_count())});
+  std::string text = table.text(0, width);
+  for (const auto& hold : queue.holds()) text += wrapped(hold_text(hold), width);
+  return text;
 }
 
 std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs, int width) {

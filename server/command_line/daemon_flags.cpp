@@ -137,11 +137,13 @@ DaemonFlags::DaemonFlags(CLI::App& app) {
 void DaemonFlags::add_addresses(CLI::App& app) {
   app.add_option("--listen", options_.listen,
                  "Address to listen on, unix:PATH or HOST:PORT; may be repeated; port 0 picks a free port (default: "
-                 "unix:DIR/cellcrushd.sock, where DIR is --data, and 127.0.0.1:50551)");
+                 "unix:DIR/cellcrushd.sock, where DIR is --data, and 127.0.0.1:50551)")
+      ->type_name("ADDR");
   app.add_option(
-      "--http", options_.http,
-      "HOST:PORT that serves the API and the web page over HTTP, or over HTTPS with --tls-cert; none: nowhere "
-      "(default: 127.0.0.1:8080, or a free port where that is taken)");
+         "--http", options_.http,
+         "HOST:PORT that serves the API and the web page over HTTP, or over HTTPS with --tls-cert; none: nowhere "
+         "(default: 127.0.0.1:8080, or a free port where that is taken)")
+      ->type_name("ADDR");
   app.add_option("--allow-framing", options_.framing_origins,
                  "Origin whose pages may show the web page in a frame, such as https://grafana.example.org; may be "
                  "repeated (default: none)")
@@ -153,24 +155,29 @@ void DaemonFlags::add_addresses(CLI::App& app) {
       ->check(public_url_problem)
       ->type_name("URL");
   app.add_option("--metrics", options_.metrics,
-                 "Loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)");
+                 "Loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)")
+      ->type_name("ADDR");
 }
 
 void DaemonFlags::add_access(CLI::App& app) {
   auto& access = options_.access;
   app.add_option("--tls-cert", access.tls_certificate,
                  "PEM file of the server's certificate chain; every HOST:PORT then requires TLS; SIGHUP reloads it "
-                 "together with --tls-key and --tls-client-ca (default: none, plain text)");
-  app.add_option("--tls-key", access.tls_key, "PEM file of the certificate's private key (default: none)");
+                 "together with --tls-key and --tls-client-ca (default: none, plain text)")
+      ->type_name("FILE");
+  app.add_option("--tls-key", access.tls_key, "PEM file of the certificate's private key (default: none)")
+      ->type_name("FILE");
   app.add_option("--tls-client-ca", access.tls_client_authority,
                  "PEM file of the authority that issues client certificates; every TCP client must then present one "
-                 "with clientAuth in its extended key usage (default: none)");
+                 "with clientAuth in its extended key usage (default: none)")
+      ->type_name("FILE");
   app.add_option("--tls-client-scope", certificate_scope_,
                  "Scope of clients that present a client certificate: read, submit or admin (default: submit)")
       ->check(CLI::IsMember({"read", "submit", "admin"}));
   app.add_option("--tokens", access.tokens,
                  "File of tokens, one per line (see `cellcrushd token`); TCP calls must present one; SIGHUP reloads it "
-                 "(default: none)");
+                 "(default: none)")
+      ->type_name("FILE");
   app.add_option("--group-scope", group_scopes_,
                  "Scope of the members of a Unix group on Unix sockets, such as students=submit; may be repeated "
                  "(default: none)")
@@ -216,7 +223,8 @@ void DaemonFlags::add_limits(CLI::App& app) {
       ->type_name("NAME:KEY=VALUE,...");
   app.add_option("--executor", options_.default_executor,
                  "Executor of jobs and sweeps whose request names none: local, for this machine, or another that this "
-                 "daemon has (default: local)");
+                 "daemon has (default: local)")
+      ->type_name("NAME");
   app.add_option("--max-queued-jobs", options_.limits.queued_jobs,
                  "Maximum number of jobs waiting in the queue (default: 100000)")
       ->check(CLI::Range(1, 10'000'000));
@@ -247,7 +255,8 @@ void DaemonFlags::add_owner_limits(CLI::App& app) {
 
 void DaemonFlags::add_storage(CLI::App& app) {
   app.add_option("--data", options_.data_folder,
-                 "Data folder for jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
+                 "Data folder for jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)")
+      ->type_name("DIR");
   app.add_option("--min-free-disk", free_mib_,
                  "Free disk space to keep, in MiB; with less, no job is accepted or started (default: 256)")
       ->check(CLI::Range(0, 1 << 30));

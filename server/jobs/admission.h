@@ -65,6 +65,8 @@ class Admission {
 
   Admission(const Parts& parts, const Limits& limits);
 
+  [[nodiscard]] const Limits& limits() const { return limits_; }
+
   /// Refuses all jobs from now on.
   void drain() { draining_ = true; }
 

@@ -1,5 +1,7 @@
 #include "jobs/queues.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -82,19 +84,28 @@ struct Queues::Queue {
   Scheduler scheduler;
 };
 
+void check_executors(const std::vector<std::string>& names, const std::string& default_name) {
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (std::find(names.begin(), name, *name) != name)
+      throw ServiceError(ServiceError::Kind::invalid, "Two executors are named " + *name + ". Rename one.");
+  }
+  if (std::ranges::find(names, default_name) == names.end()) {
+    throw ServiceError(ServiceError::Kind::invalid, "--executor is \"" + default_name + "\"; this daemon has " +
+                                                        fmt::format("{}", fmt::join(names, ", ")) +
+                                                        ". Use one of these.");
+  }
+}
+
 Queues::Queues(const Parts& parts, std::vector<NamedExecutor> executors) : parts_(parts) {
   const auto add = [this](NamedExecutor given, Executor& used) {
     queues_.push_back(std::make_unique<Queue>(parts_, std::move(given), used, [this] { tell(); }));
   };
+  std::vector<std::string> executor_names;
+  for (const auto& given : executors) executor_names.push_back(given.name);
+  check_executors(executor_names, parts_.default_name);
   for (auto& given : executors) {
-    if (find(given.name) != nullptr)
-      throw ServiceError(ServiceError::Kind::invalid, "Two executors are named " + given.name + ". Rename one.");
     Executor& used = *given.executor;
     add(std::move(given), used);
-  }
-  if (find(parts_.default_name) == nullptr) {
-    throw ServiceError(ServiceError::Kind::invalid, "--executor is \"" + parts_.default_name + "\"; this daemon has " +
-                                                        names() + ". Use one of these.");
   }
   for (const auto& name : parts_.reader.executors_in_use()) {
     if (find(name) == nullptr) add({name, 0, nullptr}, *queues_.front()->executor);

@@ -13,6 +13,9 @@
 
 namespace cellcrush::jobs {
 
+/// Throws ServiceError (invalid) if two executors have the same name or none has the default one.
+void check_executors(const std::vector<std::string>& names, const std::string& default_name);
+
 /// The queues of all executors, and the jobs that they run. Each executor has a queue, a hold and slots of its own, so
 /// that trouble on one holds up no job of another. Calls about a job go to the queue of its executor. Also keeps the
 /// jobs of executors that the daemon lacks: they can be cancelled and none starts. Thread-safe.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "error.h"
+#include "net/inherited_sockets.h"
 
 namespace cellcrush::net {
 namespace {
@@ -108,6 +109,10 @@ void ListeningPort::reopen() {
 }
 
 void ListeningPort::listen_on_unix_socket() {
+  if (const int inherited = inherited_unix_socket(address_.place); inherited >= 0) {
+    descriptors_.push_back(inherited);
+    return;
+  }
   remove_stale_socket(address_.place);
   const SocketName name = name_of(address_);
   const int socket = open_socket(reinterpret_cast<const sockaddr*>(&name.address), name.size);

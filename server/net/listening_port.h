@@ -13,10 +13,10 @@ namespace cellcrush::net {
 /// The sockets that listen on one address: one, or two if a name or wildcard covers IPv4 and IPv6. Not thread-safe.
 class ListeningPort {
  public:
-  /// Starts listening. `mode` is that of a Unix socket's file. Throws ServiceError (failed_precondition) if the address
-  /// is in use or not permitted, naming the option that gives another.
+  /// Starts listening. `mode` is that of a Unix socket's file, unless systemd has opened it. Throws ServiceError
+  /// (failed_precondition) if the address is in use or not permitted, naming the option that gives another.
   explicit ListeningPort(const ListenAddress& wanted, const char* option = "--listen", mode_t mode = 0600);
-  /// Closes the sockets and removes the file of a Unix socket.
+  /// Closes the sockets and removes the file of a Unix socket that it has made.
   ~ListeningPort();
   ListeningPort(ListeningPort&& other) noexcept;
   ListeningPort& operator=(ListeningPort&&) = delete;

@@ -69,7 +69,13 @@ class AdminCalls {
       auto& executor = *out.add_executors();
       executor.set_name(standing.executor);
       executor.set_job_limit(standing.slots);
+      const auto running = parts_.reader.queued_jobs(v1::Job::RUNNING, standing.executor);
+      executor.set_running_count(static_cast<std::int32_t>(running.size()));
     }
+    *out.mutable_start_time() = start_;
+    out.set_free_disk_bytes(parts_.folder.free_bytes());
+    out.set_kept_disk_bytes(parts_.admission.limits().free_disk_bytes);
+    out.set_waiting_count(static_cast<std::int64_t>(parts_.queues.waiting_count()));
     return out;
   }
 

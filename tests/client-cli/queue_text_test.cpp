@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <google/protobuf/util/time_util.h>
 #include <gtest/gtest.h>
 
 #include "expect_text.h"
@@ -48,6 +49,38 @@ TEST(QueueText, StandsInANarrowTerminal) {
   const std::string text = queue_text(queue, {}, 40);
   EXPECT_THAT(text, HasSubstr("\njobs/12345  The job waits for its turn:\n"));
   testing::expect_no_wider(text, 40);
+}
+
+TEST(StatusText, HasTheVersionTheDiskTheExecutorsAndWhatHoldsTheQueue) {
+  v1::Capabilities server;
+  server.set_version("0.1.0+abc");
+  *server.mutable_start_time() =
+      google::protobuf::util::TimeUtil::GetCurrentTime() - google::protobuf::util::TimeUtil::HoursToDuration(3);
+  server.set_free_disk_bytes(50'000'000'000);
+  server.set_kept_disk_bytes(256'000'000);
+  server.set_waiting_count(12);
+  auto& local = *server.add_executors();
+  local.set_name("local");
+  local.set_job_limit(2);
+  local.set_running_count(1);
+  v1::Queue queue;
+  queue.set_cores("2 cores");
+  EXPECT_EQ(status_text(server, queue, 80),
+            "version        0.1.0+abc\n"
+            "runs for       3 h 00 min\n"
+            "uses           2 cores\n"
+            "free disk      50.0 GB; jobs wait below 256 MB\n"
+            "runs on local  1 job of 2 at once\n"
+            "waiting jobs   12\n");
+  auto& hold = *queue.add_holds();
+  hold.set_cause("low_disk");
+  hold.set_reason("The disk is nearly full.");
+  hold.set_remedy("Delete jobs.");
+  server.set_draining(true);
+  const std::string text = status_text(server, queue, 80);
+  EXPECT_THAT(text, HasSubstr("accepts jobs   no"));
+  EXPECT_THAT(text, HasSubstr("low_disk"));
+  EXPECT_THAT(text, HasSubstr("Delete jobs."));
 }
 
 }  // namespace

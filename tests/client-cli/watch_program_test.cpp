@@ -40,6 +40,18 @@ TEST(Watch, AFailedJobGivesItsCauseAndRemedy) {
   EXPECT_THAT(result.output, HasSubstr("Remedy: lower numerics.time_step_s"));
 }
 
+TEST(Wait, PrintsALineAtTheEndAndReturnsHowItEnded) {
+  const FakeServer good(run_script(v1::Job::SUCCEEDED));
+  const ProgramResult result = good.run({"wait", "jobs/test"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output, "jobs/test SUCCEEDED\n");
+  EXPECT_EQ(result.errors, "");
+  const FakeServer bad(run_script(v1::Job::FAILED));
+  EXPECT_EQ(bad.run({"wait", "test"}).exit_code, 1);
+  EXPECT_EQ(bad.run({"wait", "test"}).output, "jobs/test FAILED\n");
+  EXPECT_EQ(bad.run({"wait"}).exit_code, 2);
+}
+
 TEST(Watch, ACutStreamIsPickedUpBehindTheLastEvent) {
   Script script = run_script(v1::Job::SUCCEEDED);
   script.cut_streams = 2;

@@ -1,5 +1,6 @@
 // Several executors in one daemon: what is chosen, what one cannot do to another, and what a cluster's queue holds.
 #include <gmock/gmock.h>
+#include <google/protobuf/util/time_util.h>
 
 #include <csignal>
 #include <mutex>
@@ -52,6 +53,23 @@ TEST_F(ExecutorsTest, ARequestWithoutOneGetsTheDefault) {
   EXPECT_EQ(capabilities.executors(1).name(), kCluster);
   EXPECT_EQ(capabilities.executors(1).job_limit(), 3);
   EXPECT_EQ(capabilities.worker_limit(), 2);
+}
+
+TEST_F(ExecutorsTest, TheStateOfADaemonHasItsAgeItsDiskAndItsJobs) {
+  auto options = with_workers(1);
+  options.limits.free_disk_bytes = 1'000'000;
+  start(options);
+  auto client = this->client();
+  client.create(endless_case(), v1::Job::RUNNING);
+  client.create(tiny_case());
+  const auto state = answer_of(*v1::Admin::NewStub(client.channel), &v1::Admin::Stub::GetCapabilities, {});
+  EXPECT_EQ(state.executors(0).running_count(), 1);
+  EXPECT_EQ(state.waiting_count(), 1);
+  EXPECT_GT(state.free_disk_bytes(), state.kept_disk_bytes());
+  EXPECT_EQ(state.kept_disk_bytes(), 1'000'000);
+  using google::protobuf::util::TimeUtil;
+  const auto age = TimeUtil::DurationToSeconds(TimeUtil::GetCurrentTime() - state.start_time());
+  EXPECT_TRUE(age >= 0 && age < 300) << age;
 }
 
 TEST_F(ExecutorsTest, ADefaultThatTheDaemonLacksIsRefused) {
