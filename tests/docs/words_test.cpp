@@ -15,8 +15,8 @@ namespace cellcrush::docs {
 namespace {
 
 /// Pages that programs write as a whole.
-const std::set<std::string> kGenerated = {"proto/api.md", "proto/fields.md", "client-cli/commands.md",
-                                          "server/configuration.md"};
+const std::set<std::string> kGenerated = {"CHANGELOG.md", "proto/api.md", "proto/fields.md",
+                                          "client-cli/commands.md", "server/configuration.md"};
 
 /// The text without what stands from one mark to the next other, both on lines of their own.
 std::string without(const std::string& text, const std::string& begin, const std::string& end) {

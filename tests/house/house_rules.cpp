@@ -100,7 +100,8 @@ std::vector<std::string> FolderArrows::way_round(const std::string& folder) cons
 
 // The entries of the project, then what tools leave at the root.
 constexpr std::string_view kRootEntries =
-    " CMakeLists.txt CMakePresets.json README.md CONTRIBUTING.md CITATION.cff LICENSE .ci .clang-format .clang-tidy "
+    " CMakeLists.txt CMakePresets.json README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE .ci .clang-format "
+    ".clang-tidy "
     ".gitignore"
     " client-cli core deploy proto server tests"
     " .git build .cache .idea .vscode compile_commands.json CMakeUserPresets.json ";
