@@ -58,7 +58,7 @@ const cellcrush::ManPage kManPage = {.section = 8,
                                      .synopsis = "[OPTIONS] [COMMAND ...]",
                                      .see_also = "cellcrush (1)"};
 
-// Where the service of the package stores and listens (deploy/debian): only accounts of this machine reach it.
+// Where the service of the package stores and listens (deploy/debian). Only accounts of this machine reach the service.
 const std::map<std::string, std::string> kOfService = {{"data", "\"/var/lib/cellcrush\""},
                                                        {"group-scope", "[\"cellcrush=submit\"]"},
                                                        {"http", "\"none\""},
@@ -234,6 +234,7 @@ int main(int argc, char** argv) {
   umask(0077);
   if (worker->parsed()) cellcrush::worker::worker_main(job_folder, parent);
   cellcrush::DaemonOptions options = flags.options();
+  if (check_config->parsed()) return check(options);
   const auto log = open_log(flags.log_file());
   if (!log) return 1;
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("cellcrushd", log));
@@ -248,7 +249,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");
     return 2;
   }
-  if (check_config->parsed()) return check(options);
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   options.on_progress = [] { notify_manager("WATCHDOG=1"); };
   // The C library would keep eight heaps for each core, each at the size of its largest flood. With fewer

@@ -20,7 +20,7 @@ namespace cellcrush {
 /// Everything behind a daemon's addresses: store, jobs, watches and gRPC services on one data folder. Calls are
 /// answered as soon as a server has registered it; jobs run between start and stop.
 struct Service {
-  /// `gate` outlives it, and guards its methods from now on; `step_cost`: seconds of one core per element and step.
+  /// `gate` outlives it, and guards its methods from now on; `step_cost`: that of WorkerFacts.
   /// Ignores the options for addresses and access. Calls `on_drain` once a client has asked the daemon to drain and new
   /// jobs are refused. Throws ServiceError if the data folder is taken or unusable.
   Service(const DaemonOptions& given, access::Gate& gate, double step_cost, std::function<void()> on_drain);

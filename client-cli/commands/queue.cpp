@@ -48,12 +48,13 @@ ExitCode run_status(Session& session) {
   Connection& connection = session.connection();
   const auto server =
       connection.call(connection.admin(), &v1::Admin::Stub::GetCapabilities, v1::GetCapabilitiesRequest());
+  const auto queue = connection.call(connection.admin(), &v1::Admin::Stub::GetQueue, v1::GetQueueRequest());
   if (session.json) {
     print_json(server);
-    return ExitCode::done;
+    print_json(queue);
+  } else {
+    fmt::print("{}", status_text(server, queue));
   }
-  const auto queue = connection.call(connection.admin(), &v1::Admin::Stub::GetQueue, v1::GetQueueRequest());
-  fmt::print("{}", status_text(server, queue));
   return ExitCode::done;
 }
 

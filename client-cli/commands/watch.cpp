@@ -100,6 +100,17 @@ ExitCode wait_for_sweep(Session& session, const std::string& name, const Interru
 }
 
 ExitCode wait_for_all(Session& session, const std::vector<std::string>& names) {
+  // A name that is none is told at once.
+  Connection& connection = session.connection();
+  for (const std::string& name : names) {
+    if (names_sweep(name)) {
+      v1::GetSweepRequest request;
+      request.set_name(name);
+      connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweep, request);
+    } else {
+      fetch_job(connection, job_name(name));
+    }
+  }
   const Interruption interruption;
   ExitCode worst = ExitCode::done;
   for (const std::string& name : names) {
@@ -129,7 +140,7 @@ void add_watch_command(CLI::App& app, Session& session) {
                                "Wait for the end of jobs and sweeps, and print a line for each; for scripts",
                                [&session, names] { return wait_for_all(session, *names); });
   wait->add_option("NAME", *names, "Names of jobs and sweeps")->required();
-  add_examples(*wait, {"cellcrush wait jobs/12 jobs/13", "cellcrush wait sweeps/3 && cellcrush table sweeps/3"});
+  add_examples(*wait, {"cellcrush wait jobs/12 jobs/13", "cellcrush wait sweeps/3"});
 }
 
 }  // namespace cellcrush::client

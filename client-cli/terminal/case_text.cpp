@@ -143,8 +143,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   table.add({"time step", number_text(check.time_step_s(), 4), "s"});
   table.add({"steps", count_text(check.step_count())});
   const bool ends_at_rest = check.completed_case().loading().end_at_rest() > 0;
-  table.add(
-      {"predicted time", duration_text(check.predicted_seconds()), ends_at_rest ? "at most, as it ends at rest" : ""});
+  table.add({"predicted time", duration_text(check.predicted_seconds()), ends_at_rest ? "up to its end time" : ""});
   table.add({"predicted result file", size_text(check.predicted_bytes())});
   if (check.predicted_disk_bytes() > 0) table.add({"predicted disk space", size_text(check.predicted_disk_bytes())});
   if (check.predicted_memory_bytes() > 0) table.add({"predicted memory", size_text(check.predicted_memory_bytes())});

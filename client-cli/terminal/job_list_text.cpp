@@ -110,11 +110,13 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
 std::string status_text(const v1::Capabilities& server, const v1::Queue& queue, int width) {
   Table table({Align::left, Align::left});
   table.add({"version", printable(server.version())});
-  table.add({"runs for", duration_text(seconds(TimeUtil::GetCurrentTime() - server.start_time()))});
+  if (server.has_start_time())  // an older one does not tell
+    table.add({"runs for", duration_text(seconds(TimeUtil::GetCurrentTime() - server.start_time()))});
   if (server.draining()) table.add({"accepts jobs", "no, it is being drained"});
   table.add({"uses", printable(queue.cores())});
-  table.add({"free disk", fmt::format("{}; jobs wait below {}", size_text(server.free_disk_bytes()),
-                                      size_text(server.kept_disk_bytes()))});
+  if (server.has_start_time())
+    table.add({"free disk", fmt::format("{}; jobs wait below {}", size_text(server.free_disk_bytes()),
+                                        size_text(server.kept_disk_bytes()))});
   for (const auto& executor : server.executors()) {
     table.add({"runs on " + printable(executor.name()),
                fmt::format("{} of {} at once",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <set>
 #include <sstream>
@@ -42,12 +43,14 @@ std::string default_number(std::string_view description) {
   return is_number ? std::string(from.substr(0, length)) : "";
 }
 
-// A value of the kind that the option takes.
-std::string example_of(const OptionEntry& option) {
+// The default if it is a number or one of the words; otherwise what stands for a value.
+std::string shown_value(const OptionEntry& option) {
   const std::string number = default_number(option.description);
   if (!number.empty()) return number;
-  if (!option.limits.empty()) return "1";
-  const std::string text = "\"" + (option.words.empty() ? option.value : option.words.front()) + "\"";
+  if (!option.limits.empty()) return "NUMBER";
+  const auto word = std::ranges::find_if(
+      option.words, [&](const std::string& each) { return option.description.ends_with("(default: " + each + ")"); });
+  const std::string text = "\"" + (word == option.words.end() ? option.value : *word) + "\"";
   return option.repeatable ? "[" + text + "]" : text;
 }
 
@@ -66,7 +69,7 @@ std::string config_file(const CLI::App& app, const std::map<std::string, std::st
     const auto set = given.find(key);
     out += "\n" + commented(option.description);
     out += set != given.end() ? fmt::format("{} = {}\n", key, set->second)
-                              : fmt::format("#{} = {}\n", key, example_of(option));
+                              : fmt::format("#{} = {}\n", key, shown_value(option));
   }
   return out;
 }

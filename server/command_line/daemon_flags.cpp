@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <istream>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "access/token_file.h"
@@ -83,8 +84,13 @@ class CheckedConfig final : public CLI::ConfigTOML {
 
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
     auto found = CLI::ConfigTOML::from_config(input);
+    std::set<std::string> keys;
     for (const auto& item : found) {
       const std::string key = item.fullname();
+      if (item.name != "++" && item.name != "--" && !keys.insert(key).second)
+        throw CLI::ConfigError(
+            fmt::format("the --config file sets \"{}\" twice. Give all its values in one line.", key),
+            CLI::ExitCodes::ConfigError);
       // How the reader represents the start and end of a table.
       const bool is_mark = item.name == "++" || item.name == "--";
       if (is_mark || (item.parents.empty() && app_.get_option_no_throw("--" + key) != nullptr)) continue;

@@ -85,7 +85,7 @@ struct ExecutorSurroundings {
   std::filesystem::path data_folder;      ///< root of the data folder
   std::filesystem::path worker_program;   ///< started as `PROGRAM worker --folder DIR`
   std::chrono::milliseconds stall_limit;  ///< a worker that shows no sign of life for this long is replaced
-  double step_cost = 0.0;                 ///< seconds of one core per element and step
+  double step_cost = 0.0;                 ///< seconds of one core for an element-step of the reference crush
 };
 
 /// An executor beside that of the daemon's machine.

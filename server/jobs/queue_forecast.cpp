@@ -17,8 +17,7 @@ namespace {
 // What one more core is worth: two take .72 to .9 of the time of one, by the size of the lattice (README.md).
 constexpr double kWorthOfAnotherCore = 0.25;
 
-// The first third of the preset's own crush, with contacts: an element-step of it takes as long as so many of the
-// reference crush (the same preset, slower and to its end).
+// Element-steps of the reference crush that take as long as one of the first third of the preset's own crush.
 constexpr double kOverReference = 1.65;
 constexpr int kMeasurements = 9;  // the median counts: others may use the core in between
 constexpr std::int64_t kStepsMeasured = 128;

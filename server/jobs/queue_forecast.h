@@ -18,8 +18,9 @@ struct RunningJob {
 
 /// Facts about a job beyond its place in the queue.
 struct JobFacts {
-  int threads = 1;    ///< that it requests
-  double done = 0.0;  ///< share of it, by previous workers
+  int threads = 1;  ///< that it requests
+  /// Share of it that previous workers have done, by its samples: of runs of few steps up to twice the true one.
+  double done = 0.0;
 };
 using FactsOf = std::function<JobFacts(std::int64_t job)>;
 
@@ -39,7 +40,7 @@ struct WorkerFacts {
 inline constexpr int kMostEntries = 1000;
 
 /// Seconds of one core for an element-step of the reference crush (scene/run_cost.h of core), measured by a short run:
-/// about 0.05 s. For predictions only: other work on the machine makes it vary.
+/// about 0.1 s. For predictions only: other work on the machine makes it vary.
 double measure_step_cost();
 
 /// Remaining seconds of a job on this many cores.

@@ -1,5 +1,6 @@
 #include "net/listening_port.h"
 
+#include <fcntl.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/stat.h>
@@ -7,12 +8,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "error.h"
-#include "net/inherited_sockets.h"
 
 namespace cellcrush::net {
 namespace {
@@ -73,6 +76,40 @@ int open_socket(const sockaddr* name, socklen_t size) {
   return -1;
 }
 
+// 0 where the variable is no number.
+long number_of(const char* variable) {
+  const char* value = std::getenv(variable);
+  long out = 0;
+  if (value != nullptr) std::from_chars(value, value + std::strlen(value), out);
+  return out;
+}
+
+bool listens_at(int descriptor, std::string_view path) {
+  sockaddr_un name{};
+  socklen_t size = sizeof(name);
+  int listens = 0;
+  socklen_t length = sizeof(listens);
+  return getsockname(descriptor, reinterpret_cast<sockaddr*>(&name), &size) == 0 && name.sun_family == AF_UNIX &&
+         path == name.sun_path && getsockopt(descriptor, SOL_SOCKET, SO_ACCEPTCONN, &listens, &length) == 0 &&
+         listens != 0;
+}
+
+// A descriptor of its own for the listening socket at the path that systemd has opened for this process, and keeps
+// (sd_listen_fds(3)); -1 without one, or with errno set.
+int inherited_socket(const std::string& path) {
+  constexpr int kFirst = 3;
+  if (number_of("LISTEN_PID") != getpid()) return -1;
+  const long end = kFirst + number_of("LISTEN_FDS");
+  int out = -1;
+  for (int descriptor = kFirst; descriptor < end; ++descriptor) {
+    fcntl(descriptor, F_SETFD, FD_CLOEXEC);  // it is not for workers
+    if (out >= 0 || !listens_at(descriptor, path)) continue;
+    fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
+    out = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+  }
+  return out;
+}
+
 ino_t inode_of(const std::string& path) {
   struct stat status {};
   return lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
@@ -109,7 +146,7 @@ void ListeningPort::reopen() {
 }
 
 void ListeningPort::listen_on_unix_socket() {
-  if (const int inherited = inherited_unix_socket(address_.place); inherited >= 0) {
+  if (const int inherited = inherited_socket(address_.place); inherited >= 0) {
     descriptors_.push_back(inherited);
     return;
   }

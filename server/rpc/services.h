@@ -36,7 +36,7 @@ struct ServiceParts {
   CallPool& checks;  ///< for checks that build meshes and may take seconds
   jobs::MeshPlaces& places;
   int check_threads = 1;      ///< for checking the points of one sweep
-  double step_cost = 0.0;     ///< seconds of one core per element and step
+  double step_cost = 0.0;     ///< seconds of one core for an element-step of the reference crush
   bool has_device = false;    ///< for the runs that it can advance
   int owner_max_running = 0;  ///< jobs of one owner that run at once on one executor; 0: no limit
   StreamParts streams;

@@ -21,7 +21,7 @@ namespace cellcrush::slurm {
 /// one that runs on this machine. When the daemon ends, attempts go on; the next daemon adopts them.
 class SlurmExecutor final : public jobs::Executor {
  public:
-  /// `step_cost`: seconds of one core per element and step. `local` makes results from reports of lost workers.
+  /// `step_cost`: that of WorkerFacts. `local` makes results from reports of lost workers.
   /// REQUIRES: prepare_shared_folder.
   SlurmExecutor(ClusterOptions options, double step_cost, std::unique_ptr<jobs::LocalProcess> local);
   ~SlurmExecutor() override;

@@ -17,8 +17,8 @@ stop_daemon() {
 }
 finish() {
   stop_daemon
-  umount "$system/proc" 2>/dev/null || true
-  [[ -n ${kept:-} ]] || rm -rf "$folder"
+  umount -l "$system/proc" 2>/dev/null || true
+  [[ -n ${kept:-} ]] || rm -rf --one-file-system "$folder"
 }
 kept=${1:-}
 trap finish EXIT
@@ -50,7 +50,7 @@ expect() {  # expect WHAT IS WANTED
   echo "ok: $1 is $2"
 }
 
-rm -rf "${folder:?}/old" "$folder/new" "$system"
+rm -rf --one-file-system "${folder:?}/old" "$folder/new" "$system"
 mkdir -p "$folder/old" "$folder/new"
 "$root/deploy/package"
 cp "$root"/build/packages/*.deb "$folder/old"

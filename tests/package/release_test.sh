@@ -45,7 +45,8 @@ refused "is older" 20.0.9
 deploy/release --no-packages 20.2.0 >/dev/null
 expect "the sections" "$(grep '^##' CHANGELOG.md | sed 's/, .*//' | tr '\n' ' ')" \
   "## 20.2.0 ### docs ## 20.1.0 ### core ### server "
-expect "the notes of the tag" "$(git tag -l --format='%(contents:body)' v20.2.0 | grep '^\*')" "* more words"
+expect "the notes of the tag" \
+  "$(git tag -l --format='%(contents:body)' v20.2.0 | tr '\n' '/')" "### docs//* more words//"
 expect "dates of the release" "$(grep -c ^date-released CITATION.cff)" 1
 refused "Nothing was committed" 20.3.0
 echo x >>README.md

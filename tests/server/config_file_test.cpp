@@ -67,6 +67,10 @@ TEST_F(ConfigFileTest, ShowsDefaultsThatMayBeSetAsTheyStand) {
   EXPECT_EQ(options.keep.count, defaults.keep.count);
 }
 
+TEST_F(ConfigFileTest, AKeyThatStandsTwiceIsRefused) {
+  EXPECT_THROW(options_with("listen = [\"unix:/a\"]\nworkers = 1\nlisten = [\"unix:/b\"]\n"), CLI::ConfigError);
+}
+
 TEST(CheckOptions, TellsWhatADaemonWouldDoAndChangesNothing) {
   const TemporaryFolder folder;
   DaemonOptions options;
