@@ -1,7 +1,6 @@
 #include "daemon.h"
 
 #include <absl/strings/str_replace.h>
-#include <fmt/format.h>
 #include <grpc/grpc.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -20,10 +19,10 @@
 #include "access/gate.h"
 #include "access/local_doors.h"
 #include "access/unix_user.h"
+#include "checked_options.h"
 #include "error.h"
 #include "http/gateway.h"
 #include "jobs/queue_forecast.h"
-#include "jobs/queues.h"
 #include "limited_log.h"
 #include "listen_address.h"
 #include "net/acceptor.h"
@@ -35,7 +34,6 @@
 #include "rpc/open_calls.h"
 #include "rpc/request_fields.h"
 #include "service.h"
-#include "worker/device_of_run.h"
 
 namespace cellcrush {
 namespace {
@@ -49,59 +47,7 @@ constexpr int kMostReadAtOnce = 32 * 1024;      // bytes; gRPC opens all calls i
 constexpr std::array kServices = {"", "cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
                                   "cellcrush.v1.Admin"};
 
-ListenAddress metrics_address(const std::string& text) {
-  ListenAddress out = parse_listen_address(text);
-  const auto refuse = [&text](const char* why) {
-    throw ServiceError(ServiceError::Kind::invalid, "Cannot serve metrics on " + text + why);
-  };
-  if (out.kind != ListenAddress::Kind::tcp) refuse(": metrics need a TCP address. Use --metrics HOST:PORT.");
-  if (!out.is_loopback()) {
-    refuse(
-        ", which other machines can reach: metrics have neither TLS nor authentication. Use a loopback address, such "
-        "as --metrics 127.0.0.1:9464, with a proxy or SSH tunnel for remote access.");
-  }
-  return out;
-}
-
-constexpr const char* kDefaultTcp = "127.0.0.1:50551";
-constexpr const char* kDefaultHttp = "127.0.0.1:8080";
-constexpr const char* kAnyHttp = "127.0.0.1:0";  // where that is another user's
-
-std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
-  std::vector<ListenAddress> out;
-  for (const auto& text : options.listen) out.push_back(parse_listen_address(text));
-  if (!options.metrics.empty())
-    static_cast<void>(metrics_address(options.metrics));  // rejects a bad address before anything is opened
-  if (out.empty()) {
-    out.push_back(parse_listen_address("unix:" + (options.data_folder / "cellcrushd.sock").string()));
-    out.push_back(parse_listen_address(kDefaultTcp));
-  }
-  return out;
-}
-
-std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials_for(const access::Gate& gate,
-                                                                      const std::vector<ListenAddress>& addresses) {
-  std::vector<std::shared_ptr<grpc::ServerCredentials>> out;
-  out.reserve(addresses.size());
-  for (const auto& address : addresses) out.push_back(gate.credentials_for(address));
-  return out;
-}
-
-void warn_without_http(const ServiceError& why) { spdlog::warn("not serving HTTP: {}", why.what()); }
-
-// Where to serve HTTP; nothing for nowhere. Refuses an explicit address before anything is opened.
-std::optional<ListenAddress> http_address(const access::Gate& gate, const DaemonOptions& options) {
-  if (options.http == "none") return std::nullopt;
-  try {
-    auto out = parse_listen_address(options.http.empty() ? kDefaultHttp : options.http, "--http HOST:PORT");
-    gate.check_http_address(out);
-    return out;
-  } catch (const ServiceError& error) {
-    if (!options.http.empty()) throw;
-    warn_without_http(error);
-    return std::nullopt;
-  }
-}
+constexpr const char* kAnyHttp = "127.0.0.1:0";  // where the default is another user's
 
 void prepare_grpc_once() {
   static std::once_flag once;
@@ -113,19 +59,6 @@ void prepare_grpc_once() {
     // starts when a client reads more slowly than the daemon writes.
     grpc_init();
   });
-}
-
-// Opens the device once, so that one that cannot be used is told now and not with every job.
-DaemonOptions with_device(DaemonOptions options) {
-  if (options.device.empty()) return options;
-  try {
-    spdlog::info("device: {}", worker::open_device(options.device)->name());
-  } catch (const DeviceError& error) {
-    throw ServiceError(ServiceError::Kind::invalid,
-                       "--device is \"" + options.device + "\". " + error.what() +
-                           " Install its driver and library (core/device/README.md), or leave out --device.");
-  }
-  return options;
 }
 
 DaemonOptions with_descriptors(DaemonOptions options) {
@@ -374,24 +307,6 @@ struct Daemon::Impl {
   std::optional<Heartbeats> heartbeats;
   bool stopped = false;
 };
-
-std::vector<std::string> check_options(const DaemonOptions& options) {
-  with_device(options);
-  const access::Gate gate(options.access);
-  std::vector<std::string> out = {"data in " + options.data_folder.string()};
-  const std::vector<ListenAddress> addresses = listen_addresses(options);
-  credentials_for(gate, addresses);
-  for (const ListenAddress& address : addresses) out.push_back("gRPC at " + address.text());
-  const auto http = http_address(gate, options);
-  out.push_back(http ? "HTTP at " + http->text() : "no HTTP");
-  out.push_back(options.metrics.empty() ? "no metrics" : "metrics at " + options.metrics);
-  std::vector<std::string> executors = {store::kLocalExecutor};
-  for (const auto& executor : options.executors) executors.push_back(executor.name);
-  jobs::check_executors(executors, options.default_executor);
-  out.push_back(
-      fmt::format("{} jobs at once on this machine, {} by default", options.worker_count(), options.default_executor));
-  return out;
-}
 
 Daemon::Daemon(DaemonOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 

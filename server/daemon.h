@@ -8,10 +8,6 @@
 
 namespace cellcrush {
 
-/// Checks options as a daemon does when it starts, and the files that they name. Opens no port and no data folder.
-/// Returns what a daemon would do, a line each. Throws ServiceError if it would not start.
-std::vector<std::string> check_options(const DaemonOptions& options);
-
 /// The whole service in one object: serves from construction to stop. One process may hold several, each with its own
 /// data folder.
 class Daemon {

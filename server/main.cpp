@@ -27,7 +27,7 @@
 #include "access/token_file.h"
 #include "allotment.h"
 #include "cellcrush/simd.h"
-#include "command_line/config_file.h"
+#include "checked_options.h"
 #include "command_line/daemon_flags.h"
 #include "command_line/store_commands.h"
 #include "daemon.h"

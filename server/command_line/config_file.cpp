@@ -1,5 +1,3 @@
-#include "command_line/config_file.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "command_line/daemon_flags.h"
 #include "usage/command_entries.h"
 
 namespace cellcrush {

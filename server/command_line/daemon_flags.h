@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,5 +51,9 @@ class DaemonFlags {
   double checkpoint_seconds_ = 60.0;
   double patience_seconds_ = 600.0;
 };
+
+/// A TOML file of all options of the program, by their groups, each with its description and commented out; those of
+/// `given`, key to value in TOML, are set. For packages: what it sets is what the service starts with.
+std::string config_file(const CLI::App& app, const std::map<std::string, std::string>& given);
 
 }  // namespace cellcrush

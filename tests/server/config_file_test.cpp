@@ -1,6 +1,4 @@
 // The configuration file of the package, and the check of options before a start.
-#include "command_line/config_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +8,8 @@
 #include <regex>
 #include <string>
 
+#include "checked_options.h"
 #include "command_line/daemon_flags.h"
-#include "daemon.h"
 #include "error.h"
 #include "programs/temporary_folder.h"
 #include "usage/command_entries.h"
