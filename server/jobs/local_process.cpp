@@ -255,7 +255,7 @@ WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order
   std::vector<std::string> command = {program_.string(), "worker", "--folder", folder.root().string()};
   if (life_ == Life::ends_with_parent) command.insert(command.end(), {"--end-with", std::to_string(getpid())});
   // It may outlive the daemon, so it inherits no descriptor.
-  const int error = start_process(command, {worker::kSuspendSignal, worker::kCancelSignal}, -1, -1, child);
+  const int error = start_process(command, {worker::kSuspendSignal, worker::kCancelSignal}, {-1, -1, -1}, child);
   if (error != 0) return {.kind = WorkerExit::Kind::not_started, .code = error};
   process.emplace(WorkerProcess::of_child(child));
   WorkerExit out = follow(*process, follower, events, oom_kills_);

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -20,16 +21,17 @@ extern "C" {
 
 namespace cellcrush::jobs {
 
-int start_process(std::vector<std::string> command, const std::vector<int>& blocked, int output, int errors,
+int start_process(std::vector<std::string> command, const std::vector<int>& blocked, const std::vector<int>& streams,
                   pid_t& process) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  for (const auto& [inherited, as] : {std::pair(output, STDOUT_FILENO), std::pair(errors, STDERR_FILENO)}) {
-    inherited < 0 ? posix_spawn_file_actions_addopen(&actions, as, "/dev/null", O_WRONLY, 0)
+  for (int as = 0; as < std::ssize(streams); ++as) {
+    const int inherited = streams[static_cast<std::size_t>(as)];
+    const int access = as == STDOUT_FILENO || as == STDERR_FILENO ? O_WRONLY : O_RDONLY;
+    inherited < 0 ? posix_spawn_file_actions_addopen(&actions, as, "/dev/null", access, 0)
                   : posix_spawn_file_actions_adddup2(&actions, inherited, as);
   }
-  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+  posix_spawn_file_actions_addclosefrom_np(&actions, static_cast<int>(streams.size()));
   sigset_t mask;
   sigset_t all;
   sigemptyset(&mask);

@@ -13,9 +13,9 @@
 namespace cellcrush::jobs {
 
 /// Starts a program, found by PATH unless its name has a slash. Its group is its own, so that Ctrl-C at the daemon's
-/// terminal reaches the daemon only. It inherits output and errors, -1: /dev/null, and no other descriptor. Only the
-/// signals of `blocked` are blocked, and none is handled. Returns 0 or an errno.
-int start_process(std::vector<std::string> command, const std::vector<int>& blocked, int output, int errors,
+/// terminal reaches the daemon only. Its descriptors are `streams`, that is input, output, errors and others, -1:
+/// /dev/null. Only the signals of `blocked` are blocked, and none is handled. Returns 0 or an errno.
+int start_process(std::vector<std::string> command, const std::vector<int>& blocked, const std::vector<int>& streams,
                   pid_t& process);
 
 /// A worker process: a child of this process, or one started by an earlier daemon. The destructor kills and reaps a
