@@ -88,6 +88,7 @@ std::vector<std::string> check_options(const DaemonOptions& options) {
   const auto http = http_address(gate, options);
   out.push_back(http ? "HTTP at " + http->text() : "no HTTP");
   out.push_back(options.metrics.empty() ? "no metrics" : "metrics at " + options.metrics);
+  notices::check(options.notices);
   std::vector<std::string> executors = {store::kLocalExecutor};
   for (const auto& executor : options.executors) executors.push_back(executor.name);
   jobs::check_executors(executors, options.default_executor);

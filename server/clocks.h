@@ -1,5 +1,7 @@
 #pragma once
 
+#include <google/protobuf/util/time_util.h>
+
 #include <chrono>
 #include <ctime>
 #include <functional>
@@ -20,5 +22,11 @@ struct Clocks {
   Source wall = [] { return read(CLOCK_REALTIME); };    ///< since 1970; may be set forward and back
   Source uptime = [] { return read(CLOCK_BOOTTIME); };  ///< since boot, including suspension
 };
+
+/// The time to a microsecond. That of protobuf has whole seconds.
+inline google::protobuf::Timestamp time_now() {
+  const auto now = std::chrono::duration_cast<std::chrono::microseconds>(Clocks::read(CLOCK_REALTIME));
+  return google::protobuf::util::TimeUtil::MicrosecondsToTimestamp(now.count());
+}
 
 }  // namespace cellcrush

@@ -30,6 +30,7 @@
 #include "net/listening_port.h"
 #include "net/port_probe.h"
 #include "net/refusing_server.h"
+#include "revision.h"
 #include "rpc/method_table.h"
 #include "rpc/open_calls.h"
 #include "rpc/request_fields.h"
@@ -93,6 +94,7 @@ struct Daemon::Impl {
     listen();
     serve_metrics();
     serve_http();
+    service.audit.note_event("started", kSolverRevision);
     service.start();
     for (const char* name : kServices) service.board.set(name, true);
     heartbeats.emplace(loops(), options.heartbeats, [this](const std::string& stuck) {
@@ -269,6 +271,7 @@ struct Daemon::Impl {
     service.admission.drain();
     service.board.drain();
     service.stop();
+    service.audit.note_event("stopped");
     heartbeats.reset();
     probe.reset();
     if (acceptor) acceptor->stop();
@@ -318,7 +321,11 @@ const std::string& Daemon::metrics_url() const { return impl_->metrics_url; }
 
 const std::string& Daemon::http_url() const { return impl_->http_url; }
 
-void Daemon::read_files_again() { impl_->gate.read_files_again(); }
+void Daemon::read_files_again() {
+  impl_->gate.read_files_again();
+  impl_->service.audit.reopen();
+  impl_->service.audit.note_event("reloaded");
+}
 
 void Daemon::stop() { impl_->stop(); }
 

@@ -15,6 +15,7 @@
 #include "jobs/executor.h"
 #include "jobs/queue_hold.h"
 #include "net/connection_limits.h"
+#include "notices/notice_options.h"
 #include "watch/watch_times.h"
 
 namespace cellcrush {
@@ -28,6 +29,10 @@ struct DaemonOptions {
   net::ConnectionLimits connections;
   /// Loopback address "HOST:PORT" that serves metrics over HTTP. Empty: nowhere.
   std::string metrics;
+  /// File of who changed what and whom the daemon refused (audit_log.h). Empty: none.
+  std::filesystem::path audit_log;
+  /// Whom to tell of what happens.
+  notices::Options notices;
   /// Address "HOST:PORT" that serves the API and the web page over HTTP, with TLS if `access` has it, or "none".
   /// Empty: 127.0.0.1:8080, or nowhere if that is in use or the other options forbid it.
   std::string http;

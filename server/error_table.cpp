@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <array>
+#include <cstddef>
 #include <new>
 
 #include "google/rpc/error_details.pb.h"
@@ -36,6 +38,12 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
   }
   return grpc::StatusCode::INTERNAL;
 }
+
+constexpr std::array kCodeNames = {
+    "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+    "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+    "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+    "DATA_LOSS", "UNAUTHENTICATED"};
 
 std::string shorten(const std::string& text, std::size_t most) {
   return text.size() <= most ? text : cut_text(text, most) + "...";
@@ -158,6 +166,11 @@ grpc::Status status_of(const std::exception& error) {
   spdlog::error("A call failed: {}", error.what());
   return own_status(grpc::StatusCode::INTERNAL,
                     message_of(std::string("Internal error of the daemon: ") + error.what()));
+}
+
+const char* name_of(grpc::StatusCode code) {
+  const auto index = static_cast<std::size_t>(code);
+  return index < kCodeNames.size() ? kCodeNames.at(index) : "UNKNOWN";
 }
 
 }  // namespace cellcrush

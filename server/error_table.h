@@ -45,6 +45,9 @@ struct RefusedCase : std::runtime_error {
 /// The status for any exception.
 grpc::Status status_of(const std::exception& error);
 
+/// "PERMISSION_DENIED".
+const char* name_of(grpc::StatusCode code);
+
 /// Runs the body of a call. OK, or the status for its exception.
 template <class Body>
 grpc::Status answer(const Body& body) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <utility>
 
+#include "error_table.h"
 #include "jobs/local_process.h"
 
 namespace cellcrush {
@@ -59,6 +61,7 @@ std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& optio
 Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cost, std::function<void()> on_drain)
     : options(given),
       folder(options.data_folder),
+      audit(options.audit_log),
       journal(
           folder.journal(), [this](std::int64_t job) { hub.announce(job); },
           [this](double seconds) { metrics.observe_commit(seconds); }, options.clocks.uptime),
@@ -66,10 +69,13 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
       sweep_reader(folder.journal()),
       changes(folder.journal()),
       deletion({folder, journal, reader, sweep_reader}),
-      queues({folder, journal, reader, hub, metrics, [this](bool open) { board.set(kQueueHealth, open); },
+      notices({journal, changes, reader, sweep_reader, metrics,
+               store::epoch_for_callers(journal.epoch(), folder.journal()).id},
+              options.notices),
+      queues({folder, journal, reader, hub, metrics, [this](const auto& standings) { set_standings(standings); },
               options.hold_times, options.checkpoint_interval,
               std::chrono::duration<double>(options.limits.job_time).count(), options.limits.job_memory_bytes,
-              options.limits.owner.running_jobs, options.default_executor},
+              options.limits.owner.running_jobs, options.default_executor, step_cost},
              executors_of(options, step_cost)),
       stream_limits(most_streams(options.connections)),
       health_limits(most_streams(options.connections)),
@@ -82,6 +88,7 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
       calls({options.connections.threads, most_threads(options.connections.threads), 0, 0, kWaitingCalls}, memory),
       checks({kCheckThreads, most_threads(kCheckThreads), kLargeChecks, kLargeChecksPerCaller, kWaitingCalls}, memory),
       shared{folder,
+             audit,
              journal,
              reader,
              sweep_reader,
@@ -105,6 +112,13 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
                                                gate, stream_limits)),
       methods(gate, http_pump, calls, received, store::epoch_for_callers(journal.epoch(), folder.journal()),
               times_of_exports(options.watch_times).patience) {
+  methods.on_ended = [this](const rpc::MethodTable::CallEnd& end) {
+    metrics.count_call(end.method, name_of(end.code), end.seconds);
+  };
+  gate.on_refused = [this](std::string_view path, const std::string& caller, const grpc::Status& status) {
+    if (!path.empty()) methods.note_end(path, status.error_code());
+    audit.note_refusal(std::string(path), caller, name_of(status.error_code()), status.error_message());
+  };
   rpc::add_cases_methods(methods, shared);
   rpc::add_health_methods(methods, board, {pump, checks, metrics, health_limits, options.watch_times});
   rpc::add_jobs_methods(methods, shared);
@@ -117,6 +131,7 @@ Service::Service(const DaemonOptions& given, access::Gate& gate, double step_cos
 
 // Before the methods, whose calls and sources they hold.
 Service::~Service() {
+  metrics.ask(nullptr);
   http_pump.stop();
   checks.stop();
   calls.stop();
@@ -139,11 +154,37 @@ void Service::start() {
   deletion.finish_folders();
   queues.start();
   housekeeping->start();
+  notices.start();
+  if (!options.device.empty()) metrics.set_device(options.device);
+  metrics.ask([this] { return measure(); });
+}
+
+void Service::set_standings(const std::vector<jobs::Queues::Standing>& standings) {
+  std::set<Shortage> shortages;
+  for (const auto& standing : standings) {
+    for (const auto& hold : standing.holds) shortages.insert(hold.shortage);
+  }
+  metrics.set_holds(shortages);
+  board.set(kQueueHealth, shortages.empty());
+  notices.set_standings(standings);
+}
+
+metrics::Standing Service::measure() {
+  metrics::Standing out;
+  const auto load = queues.load();
+  out.owners = load.owners;
+  for (const auto& [owner, bytes] : reader.bytes_by_owner()) out.owners[owner].bytes = bytes;
+  out.queue_age_s = load.longest_wait_s;
+  out.free_disk_bytes = folder.free_bytes();
+  out.kept_disk_bytes = admission.limits().free_disk_bytes;
+  out.behind = notices.behind();
+  return out;
 }
 
 void Service::stop() {
   if (housekeeping) housekeeping->stop();
   queues.stop();
+  notices.stop();
   pump.drain();
   http_pump.drain();
 }

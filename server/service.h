@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "access/gate.h"
+#include "audit_log.h"
 #include "daemon_options.h"
 #include "jobs/housekeeping.h"
 #include "metrics/metrics.h"
+#include "notices/notices.h"
 #include "rpc/health_service.h"
 #include "rpc/services.h"
 #include "watch/pump.h"
@@ -41,6 +43,7 @@ struct Service {
   DaemonOptions options;
   store::DataFolder folder;
   watch::Hub hub;
+  AuditLog audit;
   metrics::Metrics metrics;
   store::Journal journal;
   store::JournalReader reader;
@@ -48,6 +51,7 @@ struct Service {
   store::ChangeReader changes;
   jobs::Deletion deletion;
   rpc::HealthBoard board;
+  notices::Notices notices;
   jobs::Queues queues;
   rpc::StreamLimits stream_limits;
   rpc::StreamLimits health_limits;
@@ -64,6 +68,10 @@ struct Service {
   std::vector<std::unique_ptr<grpc::Service>> reflection;
   rpc::MethodTable methods;
   std::optional<jobs::Housekeeping> housekeeping;
+
+ private:
+  void set_standings(const std::vector<jobs::Queues::Standing>& standings);
+  [[nodiscard]] metrics::Standing measure();
 };
 
 }  // namespace cellcrush

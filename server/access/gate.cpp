@@ -76,11 +76,14 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
                        OutputMetadata*) override {
     const auto found = metadata.find(":path");
     const auto path = found == metadata.end() ? std::string_view() : view_of(found->second);
+    std::string caller;
     auto status = gate_.admit(path, [&] {
       gate_.check_certificate(*context);
-      return gate_.identify(metadata, *context);
+      auto known = gate_.identify(metadata, *context);
+      caller = known.name;
+      return known;
     });
-    return status.ok() ? gate_.find_place(*context) : status;
+    return status.ok() ? gate_.find_place(path, caller, *context) : status;
   }
 
  private:
@@ -88,12 +91,14 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
 };
 
 grpc::Status Gate::admit(std::string_view path, const std::function<Caller()>& identify_caller) const {
+  std::string name;
   auto status = answer([&] {
     const auto guarded = scopes_.find(path);
     const auto needed = guarded == scopes_.end() ? Scope::admin : guarded->second;
     if (!needed) return;
     const Caller caller = identify_caller();
     if (caller.scope >= *needed) return;
+    name = caller.name;
     throw ServiceError(ServiceError::Kind::permission_denied,
                        std::string(path.substr(path.rfind('/') + 1)) + " requires scope " + name_of(*needed) + "; " +
                            caller.name + " has scope " + name_of(caller.scope) + ".");
@@ -102,6 +107,7 @@ grpc::Status Gate::admit(std::string_view path, const std::function<Caller()>& i
     const bool unknown = status.error_code() == grpc::StatusCode::UNAUTHENTICATED;
     note_refusal(std::string(unknown ? "UNAUTHENTICATED: " : "PERMISSION_DENIED: ") +
                  std::string(path.substr(0, kLongestPath)) + ": " + status.error_message());
+    if (on_refused) on_refused(path.substr(0, kLongestPath), name, status);
   }
   return status;
 }
@@ -117,14 +123,18 @@ grpc::Status Gate::check_local_call(std::string_view path, const std::optional<C
     if (!caller) refuse_stranger();
     return *caller;
   });
-  return status.ok() ? find_place(context) : status;
+  return status.ok() ? find_place(path, caller ? caller->name : "", context) : status;
 }
 
-grpc::Status Gate::find_place(const grpc::AuthContext& connection) const {
+grpc::Status Gate::find_place(std::string_view path, const std::string& caller,
+                              const grpc::AuthContext& connection) const {
   if (backlog_->admit(key_of(connection))) return grpc::Status::OK;
   note_refusal("RESOURCE_EXHAUSTED: its connection has too many open calls");
-  return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-          "Too many calls of this connection are open or wait to begin. Make fewer at once, and try again later."};
+  const grpc::Status out{
+      grpc::StatusCode::RESOURCE_EXHAUSTED,
+      "Too many calls of this connection are open or wait to begin. Make fewer at once, and try again later."};
+  if (on_refused) on_refused(path.substr(0, kLongestPath), caller, out);
+  return out;
 }
 
 const void* Gate::key_of(const grpc::AuthContext& connection) const {
@@ -340,6 +350,7 @@ void Gate::require_own(const Caller& caller, const std::string& owner, const std
                           " has scope " + name_of(caller.scope) +
                           ", which permits changes to its own jobs and sweeps only.";
   note_refusal("PERMISSION_DENIED: " + why);
+  if (on_refused) on_refused("", caller.name, {grpc::StatusCode::PERMISSION_DENIED, why});
   throw ServiceError(ServiceError::Kind::permission_denied, why + " Ask its owner, or someone with scope admin.");
 }
 

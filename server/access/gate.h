@@ -89,6 +89,10 @@ class Gate {
   /// has gRPC's form: "/cellcrush.v1.Jobs/GetJob". REQUIRES: no call has come.
   void guard(std::string path, std::optional<Scope> scope) { scopes_[std::move(path)] = scope; }
 
+  /// Called for each call that the gate refuses. `caller`: empty if it is not known; `path`: empty for a call that had
+  /// begun. Thread-safe. REQUIRES: no call has come.
+  std::function<void(std::string_view path, const std::string& caller, const grpc::Status& status)> on_refused;
+
   /// Checks a call that came over HTTP, before it reaches a service: `path` as in gRPC. The rules, refusals and log
   /// lines are those of a gRPC call on TCP; a session stands for a token. Sets `caller`, except for a method that is
   /// open to everybody.
@@ -126,7 +130,8 @@ class Gate {
   /// the call is refused, the log says so.
   [[nodiscard]] grpc::Status admit(std::string_view path, const std::function<Caller()>& identify_caller) const;
   /// Refuses an admitted call if it is one too many of its connection.
-  [[nodiscard]] grpc::Status find_place(const grpc::AuthContext& connection) const;
+  [[nodiscard]] grpc::Status find_place(std::string_view path, const std::string& caller,
+                                        const grpc::AuthContext& connection) const;
   /// Throws ServiceError (unauthenticated) for a call without the required credentials.
   [[nodiscard]] Caller identify(const Metadata& metadata, const grpc::AuthContext& context) const;
   /// Throws ServiceError (unauthenticated) for a certificate not issued for clients.

@@ -1,6 +1,7 @@
 #include "command_line/daemon_flags.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cmath>
@@ -118,6 +119,8 @@ DaemonFlags::DaemonFlags(CLI::App& app) {
   add_addresses(app);
   begin_group("Access");
   add_access(app);
+  begin_group("Monitoring");
+  add_monitoring(app);
   begin_group("Connections");
   add_connections(app);
   begin_group("Jobs");
@@ -160,9 +163,37 @@ void DaemonFlags::add_addresses(CLI::App& app) {
                  "https://site.example.org/crush/ (default: that of --http)")
       ->check(public_url_problem)
       ->type_name("URL");
+}
+
+void DaemonFlags::add_monitoring(CLI::App& app) {
+  auto& notices = options_.notices;
   app.add_option("--metrics", options_.metrics,
                  "Loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)")
       ->type_name("ADDR");
+  app.add_option("--audit-log", options_.audit_log,
+                 "File to which every change by a caller and every refused call is appended; SIGHUP opens it again "
+                 "(default: none)")
+      ->type_name("FILE");
+  app.add_option("--webhook", notices.webhooks,
+                 "URL that is told of ended jobs and sweeps and of held queues, in signed messages; may be repeated "
+                 "(default: none)")
+      ->type_name("URL");
+  app.add_option("--webhook-secret", notices.webhook_secret,
+                 "File with the key that signs what --webhook sends, as whsec_BASE64 (default: none)")
+      ->type_name("FILE");
+  app.add_option("--notify-command", notices.command,
+                 "Program that is run for each of these notices, which it reads as JSON, such as one that sends mail "
+                 "(default: none)")
+      ->type_name("PROGRAM");
+  app.add_option("--notify", notices.types,
+                 "Notice that --webhook and --notify-command are told: " +
+                     fmt::format("{}", fmt::join(notices::kTypes, ", ")) + "; may be repeated (default: all)")
+      ->check(CLI::IsMember(std::set<std::string>(notices::kTypes.begin(), notices::kTypes.end())))
+      ->type_name("TYPE");
+  app.add_option("--traces", notices.traces,
+                 "URL of a collector that gets a trace of each ended job as OTLP over HTTP, such as "
+                 "http://127.0.0.1:4318/v1/traces (default: none)")
+      ->type_name("URL");
 }
 
 void DaemonFlags::add_access(CLI::App& app) {

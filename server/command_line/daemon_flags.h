@@ -29,6 +29,7 @@ class DaemonFlags {
  private:
   void add_addresses(CLI::App& app);
   void add_access(CLI::App& app);
+  void add_monitoring(CLI::App& app);
   void add_connections(CLI::App& app);
   void add_limits(CLI::App& app);
   void add_owner_limits(CLI::App& app);

@@ -88,6 +88,7 @@ asio::awaitable<void> Connection::serve() {
 
 asio::awaitable<void> Connection::answer(Request& request, Permit& permit) {
   if (const auto& refusal = permit.refusal) {
+    if (request.method() == bhttp::verb::post) parts_.methods.note_end(target_of(request), refusal->error.error_code());
     // Only calls have an error as JSON.
     if (request.method() == bhttp::verb::get || is_head_) {
       co_await send(refusal->http_status, kText, refusal->error.error_message() + '\n');
@@ -117,20 +118,33 @@ asio::awaitable<void> Connection::answer(Request& request, Permit& permit) {
   }
 }
 
-std::shared_ptr<Call> Connection::begin_call(Request& request, Permit& permit,
-                                             const rpc::MethodTable::Method& method, const Encoding& encoding,
-                                             grpc::Status& status) {
+std::shared_ptr<Call> Connection::begin_call(Request& request, Permit& permit, const rpc::MethodTable::Method& method,
+                                             const Encoding& encoding, grpc::Status& status) {
   status = permit.status;
-  if (status.ok() && asks_for_compression(request, encoding))
+  if (status.ok() && asks_for_compression(request, encoding)) {
     status = {grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed."};
+    parts_.methods.note_end(target_of(request), status.error_code());
+  }
   if (!status.ok()) return nullptr;
+  const auto body = std::make_shared<const std::string>(std::move(request.body()));
+  std::optional<std::chrono::milliseconds> timeout;
+  std::string_view message = *body;
   status = cellcrush::answer([&] {
-    const auto timeout = read_timeout(request);
-    const auto body = std::make_shared<const std::string>(std::move(request.body()));
-    const std::string_view message = encoding.stream ? read_envelope(*body) : std::string_view(*body);
-    rpc::Incoming incoming{permit.caller,   std::string(request[rpc::kEpochHeader]),
-                           nullptr,         static_cast<std::int64_t>(message.size()),
-                           std::move(permit.received), encode_for(encoding), begin_for(encoding)};
+    timeout = read_timeout(request);
+    if (encoding.stream) message = read_envelope(*body);
+  });
+  if (!status.ok()) {
+    parts_.methods.note_end(target_of(request), status.error_code());
+    return nullptr;
+  }
+  status = cellcrush::answer([&] {
+    rpc::Incoming incoming{permit.caller,
+                           std::string(request[rpc::kEpochHeader]),
+                           nullptr,
+                           static_cast<std::int64_t>(message.size()),
+                           std::move(permit.received),
+                           encode_for(encoding),
+                           begin_for(encoding)};
     incoming.decode = [body, message, json = encoding.json](google::protobuf::Message& to) {
       return decode(message, json, to);
     };
@@ -257,9 +271,7 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
 
 asio::awaitable<void> Connection::answer_download(const Request& request) {
   std::shared_ptr<Download> download;
-  auto status = cellcrush::answer([&] {
-    download = open_download(target_of(request));
-  });
+  auto status = cellcrush::answer([&] { download = open_download(target_of(request)); });
   if (download && request[Field::if_range].empty()) download->begin_at(request[Field::range]);
   const bool wants_body = request.method() == bhttp::verb::get;
   bool has_begun = false;

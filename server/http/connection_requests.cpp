@@ -108,8 +108,8 @@ asio::awaitable<void> Connection::refuse_large(const beast::error_code& error) {
   const bool is_body = error == bhttp::error::body_limit;
   if (!is_body && error != bhttp::error::header_limit && error != bhttp::error::buffer_overflow) co_return;
   left_body_ = true;
-  const char* words = is_body ? "The body is larger than this method takes."
-                              : "The headers or trailers are larger than 16 KiB.";
+  const char* words =
+      is_body ? "The body is larger than this method takes." : "The headers or trailers are larger than 16 KiB.";
   co_await send_error(is_body ? 413 : 431, {grpc::StatusCode::RESOURCE_EXHAUSTED, words});
 }
 
@@ -128,7 +128,10 @@ Connection::Permit Connection::permit_for(const Request& head, std::int64_t body
     parts_.table.know(stream_.plain().socket().native_handle(), out.caller.name);
   }
   out.received = parts_.received.take(out.caller.name, body_bytes);
-  if (!out.received) out.status = status_of(rpc::too_many_bytes(out.caller.name));
+  if (!out.received) {
+    out.status = status_of(rpc::too_many_bytes(out.caller.name));
+    parts_.methods.note_end(target_of(head), out.status.error_code());
+  }
   return out;
 }
 

@@ -2,11 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <memory>
 #include <utility>
 
 #include "error.h"
 #include "jobs/outcome.h"
+#include "jobs/queue_forecast.h"
 #include "pause.h"
 #include "store/job_state.h"
 #include "store/journal_mending.h"
@@ -51,7 +53,7 @@ JobRunner::JobRunner(const Parts& parts)
 bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interruptions,
                     const std::stop_token& daemons_end) {
   while (true) {
-    Run run{threads, interruptions, daemons_end, {}};
+    Run run{threads, interruptions, daemons_end, {}, 0.0, 0.0};
     v1::Job::State state = run_once(job, run);
     if (const auto channel = parts_.hub.find(job)) channel->set_place("");
     if (run.trouble) {
@@ -91,7 +93,10 @@ v1::Job::State JobRunner::run_once(std::int64_t job, Run& run) {
   if (run.trouble) return v1::Job::JOB_STATE_UNSPECIFIED;
   // Its state is unchanged, and it is to be rerun.
   if (next.state == v1::Job::JOB_STATE_UNSPECIFIED) return v1::Job::PENDING;
-  return states_.write(job, next, run.daemons_end);
+  const auto written = states_.write(job, next, run.daemons_end);
+  if (written == v1::Job::SUCCEEDED && run.predicted_seconds > 0.0 && run.seconds > 0.0)
+    parts_.metrics.observe_run(run.seconds, run.predicted_seconds);
+  return written;
 }
 
 store::StateChange JobRunner::next_of(const store::StoredJob& stored, Run& run) {
@@ -169,14 +174,27 @@ worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   return order;
 }
 
-WorkerExit JobRunner::run_worker(const store::StoredJob& stored, const Run& run) {
+// On a cluster, a job also waits for a node, which may be another machine.
+double JobRunner::predict(const store::StoredJob& stored, int threads) {
+  if (stored.samples > 0 || stored.job.state() != v1::Job::PENDING || parts_.executor.keeps_workers()) return 0.0;
+  const auto queued = parts_.reader.queued_job(stored.number, v1::Job::PENDING);
+  return queued ? predicted_seconds(*queued, {threads}, threads, parts_.step_cost) : 0.0;
+}
+
+WorkerExit JobRunner::run_worker(const store::StoredJob& stored, Run& run) {
   parts_.folder.make_job_folder(stored.number);
   if (stored.samples > 0 && !parts_.folder.has_reports(stored.number)) throw BeginAgain{kReportsAreGone};
   worker::Order order = order_of(stored);
   order.set_threads(run.threads);
   order.set_memory_factor(losses_.memory_factor(stored.number));
   order.set_most_memory_bytes(parts_.most_memory_bytes);
-  return parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), run.interruptions);
+  run.predicted_seconds = predict(stored, run.threads);
+  const auto begin = std::chrono::steady_clock::now();
+  auto out = parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), run.interruptions);
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (out.final && out.final->device_use() != worker::Final::NO_DEVICE && is_last_word(out))
+    parts_.metrics.count_device_run(out.final->device_use() == worker::Final::ADVANCED);
+  return out;
 }
 
 WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {

@@ -87,6 +87,7 @@ class JobRunner {
     std::chrono::milliseconds checkpoint_interval;
     double longest_job_s;            ///< wall-clock limit of a job; 0: none
     std::int64_t most_memory_bytes;  ///< a raised limit of a job's memory does not exceed it; 0: none
+    double step_cost = 0.0;          ///< of WorkerFacts; 0: not known
     /// Called with the waiting jobs that were CANCELLED because a job of their sweep failed.
     std::function<void(const std::vector<std::int64_t>&)> stopped = [](const auto&) {};
   };
@@ -116,6 +117,9 @@ class JobRunner {
     const Interruptions& interruptions;
     const std::stop_token& daemons_end;
     Trouble trouble;  ///< the shortage it met
+    /// Of a job that begins on this machine; 0: of another one.
+    double predicted_seconds = 0.0;
+    double seconds = 0.0;  ///< that its worker took
   };
 
   worker::Order order_of(const store::StoredJob& stored) const;
@@ -124,7 +128,8 @@ class JobRunner {
   store::StateChange next_of(const store::StoredJob& stored, Run& run);
   /// The outcome for a job whose worker is gone; nothing if it was cancelled and must be given up.
   std::optional<store::StateChange> left_behind(const store::StoredJob& stored);
-  WorkerExit run_worker(const store::StoredJob& stored, const Run& run);
+  WorkerExit run_worker(const store::StoredJob& stored, Run& run);
+  double predict(const store::StoredJob& stored, int threads);
   WorkerEvents events_of(const store::StoredJob& stored);
   /// What has come of the reports, from the first on.
   struct Seen {

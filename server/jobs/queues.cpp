@@ -66,7 +66,7 @@ struct Queues::Queue {
             },
             Hold::Clock::now, queue_name(name)),
         runner({parts.folder, parts.journal, parts.reader, parts.hub, used, parts.metrics, hold,
-                parts.checkpoint_interval, parts.longest_job_s, parts.most_memory_bytes,
+                parts.checkpoint_interval, parts.longest_job_s, parts.most_memory_bytes, parts.step_cost,
                 [this](const std::vector<std::int64_t>& stopped) {
                   scheduler.forget(stopped);
                   for (const std::int64_t job : stopped) scheduler.end_unfollowed(job);
@@ -332,6 +332,12 @@ std::size_t Queues::waiting_count(const std::string& owner) {
   return out;
 }
 
+Load Queues::load() {
+  Load out;
+  for (auto& queue : queues_) queue->scheduler.add_load(out);
+  return out;
+}
+
 int Queues::cores_of(const store::QueuedJob& job) {
   Queue* queue = find(job.executor);
   return queue == nullptr ? 1 : queue->scheduler.cores_of(job.job);
@@ -345,12 +351,7 @@ void Queues::stop() {
 // The last call sees the newest holds of all queues.
 void Queues::tell() {
   const MutexLock lock(telling_);
-  std::set<Shortage> shortages;
-  for (const auto& queue : queues_) {
-    for (const auto& hold : queue->hold.holds()) shortages.insert(hold.shortage);
-  }
-  parts_.metrics.set_holds(shortages);
-  parts_.told(shortages.empty());
+  parts_.told(standings());
 }
 
 }  // namespace cellcrush::jobs

@@ -21,6 +21,14 @@ void check_executors(const std::vector<std::string>& names, const std::string& d
 /// jobs of executors that the daemon lacks: they can be cancelled and none starts. Thread-safe.
 class Queues {
  public:
+  /// One queue as it is now.
+  struct Standing {
+    std::string executor;
+    int slots = 0;
+    bool is_present = true;   ///< whether the daemon has the executor
+    std::vector<Hold> holds;  ///< what holds the queue
+  };
+
   /// Dependencies, which outlive the queues, and what all of them share.
   struct Parts {
     const store::DataFolder& folder;
@@ -28,14 +36,15 @@ class Queues {
     store::JournalReader& reader;
     watch::Hub& hub;
     metrics::Metrics& metrics;
-    /// Called after each change with whether no queue is held. Must not call back.
-    std::function<void(bool open)> told;
+    /// Called after each change of what holds the queues. Must not call back.
+    std::function<void(const std::vector<Standing>&)> told;
     HoldTimes hold_times;
     std::chrono::milliseconds checkpoint_interval;
     double longest_job_s;            ///< wall-clock limit of a job; 0: none
     std::int64_t most_memory_bytes;  ///< a raised limit of a job's memory does not exceed it; 0: none
     int owner_max_running;           ///< jobs of one owner that run at once on one executor; 0: no limit
     std::string default_name;        ///< executor of requests that name none
+    double step_cost = 0.0;          ///< of WorkerFacts
   };
 
   struct NamedExecutor {
@@ -62,13 +71,6 @@ class Queues {
 
   [[nodiscard]] const std::string& default_name() const { return parts_.default_name; }
 
-  /// One queue as it is now.
-  struct Standing {
-    std::string executor;
-    int slots = 0;
-    bool is_present = true;   ///< whether the daemon has the executor
-    std::vector<Hold> holds;  ///< what holds the queue
-  };
   /// All queues: that of this machine, those of the others, those of executors that the daemon lacks.
   [[nodiscard]] std::vector<Standing> standings() const;
 
@@ -80,6 +82,7 @@ class Queues {
   void hold_for_low_disk(const std::optional<std::string>& reason);
   [[nodiscard]] std::size_t waiting_count();
   [[nodiscard]] std::size_t waiting_count(const std::string& owner);
+  [[nodiscard]] Load load();
   [[nodiscard]] int cores_of(const store::QueuedJob& job);
   void stop();
 

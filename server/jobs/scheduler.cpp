@@ -253,6 +253,11 @@ std::size_t Scheduler::waiting_count(const std::string& owner) {
   return waiting_.count_of(owner);
 }
 
+void Scheduler::add_load(Load& to) {
+  const MutexLock lock(mutex_);
+  waiting_.add_load(to);
+}
+
 void Scheduler::begin_stop() { end_.request_stop(); }
 
 void Scheduler::stop() {

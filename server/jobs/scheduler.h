@@ -89,6 +89,9 @@ class Scheduler {
   /// Of this owner.
   [[nodiscard]] std::size_t waiting_count(const std::string& owner);
 
+  /// Adds its jobs to the others.
+  void add_load(Load& to);
+
   /// Cores that a running job computes on; 1 for a job about to run.
   [[nodiscard]] int cores_of(std::int64_t job);
 
@@ -119,8 +122,7 @@ class Scheduler {
   /// False if there can be no further thread now.
   bool spawn_next() CELLCRUSH_REQUIRES(mutex_);
   /// Waits for a change, at most until `limit`. REQUIRES: `lock` holds mutex_.
-  void wait_for_change(MutexLock& lock, const std::optional<Hold::Clock::time_point>& limit)
-      CELLCRUSH_REQUIRES(mutex_);
+  void wait_for_change(MutexLock& lock, const std::optional<Hold::Clock::time_point>& limit) CELLCRUSH_REQUIRES(mutex_);
   /// Records that a job runs.
   void begin(std::int64_t job) CELLCRUSH_REQUIRES(mutex_);
   /// Runs the job on this thread. REQUIRES: `begin` was called for it. Does not throw.

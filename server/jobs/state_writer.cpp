@@ -74,7 +74,7 @@ std::optional<v1::Job::State> StateWriter::try_write(std::int64_t job, const sto
 }
 
 void StateWriter::tidy_up(std::int64_t job, const store::StateChange& change) {
-  parts_.metrics.count_ended(change.state, change.summary ? &*change.summary : nullptr);
+  parts_.metrics.count_ended(change.state, change.cause, change.summary ? &*change.summary : nullptr);
   parts_.ended(job);
   try {
     parts_.folder.clean_job_folder(job);

@@ -6,7 +6,10 @@
 namespace cellcrush::jobs {
 
 WaitingJobs::Place WaitingJobs::place_of(const store::QueuedJob& job) {
-  return {-std::int64_t{job.priority}, job.owner, job.submission, Rank(-job.element_steps, job.job)};
+  return {.priority = -std::int64_t{job.priority},
+          .owner = job.owner,
+          .submission = job.submission,
+          .rank = Rank(-job.element_steps, job.job)};
 }
 
 void WaitingJobs::add(const store::QueuedJob& job) {
@@ -19,6 +22,16 @@ void WaitingJobs::add(const store::QueuedJob& job) {
 std::size_t WaitingJobs::count_of(const std::string& owner) const {
   const auto found = of_owner_.find(owner);
   return found == of_owner_.end() ? 0 : found->second;
+}
+
+void WaitingJobs::add_load(Load& to) const {
+  const auto now = std::chrono::steady_clock::now();
+  for (const auto& [job, place] : places_)
+    to.longest_wait_s = std::max(to.longest_wait_s, std::chrono::duration<double>(now - place.since).count());
+  for (const auto& [owner, count] : of_owner_) to.owners[owner].waiting += count;
+  for (const auto& [owner, running] : running_of_owner_) {
+    if (running.jobs > 0) to.owners[owner].running += static_cast<std::size_t>(running.jobs);
+  }
 }
 
 void WaitingJobs::remove(std::int64_t job) {

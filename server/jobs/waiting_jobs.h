@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -7,9 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "metrics/standing.h"
 #include "store/queued_job.h"
 
 namespace cellcrush::jobs {
+
+/// Jobs that wait and run.
+struct Load {
+  double longest_wait_s = 0.0;  ///< so far, of a job that waits, since it joined the queue of this daemon
+  std::map<std::string, metrics::Standing::Owner> owners{};
+};
 
 /// The queue of waiting jobs, with counts of running jobs by sweep and owner. Not thread-safe. The order is: highest
 /// priority; then the owner whose running jobs hold the fewest cores; then the oldest submission. Jobs submitted
@@ -23,6 +31,8 @@ class WaitingJobs {
   void add(const store::QueuedJob& job);
 
   [[nodiscard]] std::size_t count() const { return places_.size(); }
+
+  void add_load(Load& to) const;
 
   /// Number of waiting jobs of this owner.
   [[nodiscard]] std::size_t count_of(const std::string& owner) const;
@@ -57,6 +67,7 @@ class WaitingJobs {
     std::string owner;
     std::int64_t submission = 0;
     Rank rank;
+    std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
   };
   struct Running {
     int jobs = 0;

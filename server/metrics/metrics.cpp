@@ -6,15 +6,24 @@
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <array>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "audit_log.h"
+#include "cellcrush/simd.h"
 #include "error.h"
 #include "log_writer.h"
+#include "metrics/process_facts.h"
 #include "mutex.h"
+#include "revision.h"
 
 namespace cellcrush::metrics {
 namespace {
@@ -29,10 +38,73 @@ Counters& counters(prometheus::Registry& registry, const char* name, const char*
   return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
 }
 
-// Bounds from a tenth of a millisecond to ten seconds.
+prometheus::Family<prometheus::Gauge>& gauges(prometheus::Registry& registry, const char* name, const char* help) {
+  return prometheus::BuildGauge().Name(name).Help(help).Register(registry);
+}
+
+using Bounds = prometheus::Histogram::BucketBoundaries;
+
+// Of times, s: from a tenth of a millisecond to ten seconds.
+const Bounds& times() {
+  static const Bounds out = {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0, 10.0};
+  return out;
+}
+
+// Of a predicted time over the actual one.
+const Bounds& ratios() {
+  static const Bounds out = {0.25, 0.5, 0.67, 0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 2.0, 4.0};
+  return out;
+}
+
+prometheus::Family<prometheus::Histogram>& histograms(prometheus::Registry& registry, const char* name,
+                                                      const char* help) {
+  return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
+}
+
 prometheus::Histogram& histogram(prometheus::Registry& registry, const char* name, const char* help) {
-  const prometheus::Histogram::BucketBoundaries bounds = {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0, 10.0};
-  return prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add({}, bounds);
+  return histograms(registry, name, help).Add({}, times());
+}
+
+constexpr std::array kNoticeResults = {"delivered", "retried", "dropped"};  // as Metrics::Notice
+
+// With this many series an owner is a person; whoever makes up tokens makes no more.
+constexpr std::size_t kMostOwners = 200;
+
+/// A family of gauges with one label.
+template <class Map, class Value>
+prometheus::MetricFamily labelled(const char* name, const char* help, const char* label, const Map& map,
+                                  const Value& value) {
+  prometheus::MetricFamily out = gauge_family(name, help, 0.0);
+  out.metric.clear();
+  for (const auto& [key, entry] : map) {
+    if (out.metric.size() == kMostOwners) break;
+    auto& metric = out.metric.emplace_back();
+    metric.label = {{label, key}};
+    metric.gauge.value = static_cast<double>(value(entry));
+  }
+  return out;
+}
+
+std::vector<prometheus::MetricFamily> families_of(const Standing& now) {
+  using Owner = Standing::Owner;
+  std::vector<prometheus::MetricFamily> out = {
+      gauge_family("cellcrush_queue_age_seconds",
+                   "Time for which the first waiting job has waited in this daemon; 0 without one.", now.queue_age_s),
+      gauge_family("cellcrush_disk_free_bytes", "Free space on the disk of the data folder.",
+                   static_cast<double>(now.free_disk_bytes)),
+      gauge_family("cellcrush_disk_kept_bytes", "Free space below which no job starts.",
+                   static_cast<double>(now.kept_disk_bytes)),
+      labelled("cellcrush_owner_jobs_waiting", "Waiting jobs of an owner.", "owner", now.owners,
+               [](const Owner& owner) { return owner.waiting; }),
+      labelled("cellcrush_owner_jobs_running", "Running jobs of an owner.", "owner", now.owners,
+               [](const Owner& owner) { return owner.running; }),
+      labelled("cellcrush_owner_disk_bytes", "Journal rows, and results of ended jobs, of an owner.", "owner",
+               now.owners, [](const Owner& owner) { return owner.bytes; }),
+      labelled("cellcrush_notices_behind", "Changes that a receiver of notices has not seen yet.", "target", now.behind,
+               [](std::int64_t changes) { return changes; }),
+  };
+  std::erase_if(out, [](const auto& family) { return family.metric.empty(); });
+  return out;
 }
 
 // A scraper that connects and sends nothing, or a byte now and then, holds one thread for a second. At most 8
@@ -59,23 +131,41 @@ void visit_stages(const v1::StageTimes& times, const Visit& visit) {
 }  // namespace
 
 struct Metrics::Impl {
-  // Counted by the process before there are metrics, and read when they are.
-  class LostLines final : public prometheus::Collectable {
+  // What is read when it is asked for.
+  class Measured final : public prometheus::Collectable {
    public:
     [[nodiscard]] std::vector<prometheus::MetricFamily> Collect() const override {
-      prometheus::MetricFamily lost{.name = "cellcrush_log_lines_lost_total",
-                                    .help = "Lines of the log that came faster than it was read, or were not written.",
-                                    .type = prometheus::MetricType::Counter,
-                                    .metric = std::vector<prometheus::ClientMetric>(1)};
-      lost.metric[0].counter.value = static_cast<double>(LogWriter::lost_lines());
-      return {lost};
+      auto out = process_families();
+      out.push_back(counter_family("cellcrush_log_lines_lost_total",
+                                   "Lines of the log that came faster than it was read, or were not written.",
+                                   static_cast<double>(LogWriter::lost_lines())));
+      out.push_back(counter_family("cellcrush_audit_lines_lost_total", "Lines of the audit log that were not written.",
+                                   static_cast<double>(AuditLog::lost_lines())));
+      const MutexLock lock(mutex);
+      if (!standing) return out;
+      try {
+        auto more = families_of(standing());
+        std::ranges::move(more, std::back_inserter(out));
+      } catch (const std::exception& error) {
+        spdlog::warn("A scrape lacks the queue, the disk and the owners: {}", error.what());
+      }
+      return out;
     }
+
+    mutable Mutex mutex;
+    std::function<Standing()> standing CELLCRUSH_GUARDED_BY(mutex);
   };
 
   Impl() {
     // All are there from the start, at 0.
     add_stages({});
     set_holds({});
+    for (int cause = 1; cause < v1::Job::Cause_ARRAYSIZE; ++cause) {
+      if (v1::Job::Cause_IsValid(cause)) failure(static_cast<v1::Job::Cause>(cause));
+    }
+    gauges(*registry, "cellcrush_build_info", "1; the labels say what runs.")
+        .Add({{"version", kVersion}, {"revision", kSourceRevision}, {"simd", simd_target()}})
+        .Set(1.0);
   }
 
   void set_holds(const std::set<Shortage>& holds) {
@@ -83,23 +173,43 @@ struct Metrics::Impl {
       held.Add({{"cause", name_of(shortage)}}).Set(holds.contains(shortage) ? 1.0 : 0.0);
   }
 
-  void add_stages(const v1::StageTimes& times) {
-    visit_stages(times, [this](const std::string& stage, double seconds) {
+  prometheus::Counter& device_runs(bool advanced) {
+    return counters(*registry, "cellcrush_device_runs_total", "Runs that have ended on a machine with a device.")
+        .Add({{"use", advanced ? "advanced" : "left_to_processor"}});
+  }
+
+  void add_stages(const v1::StageTimes& stage_times) {
+    visit_stages(stage_times, [this](const std::string& stage, double seconds) {
       stages.Add({{"stage", stage}}).Increment(seconds);
     });
   }
 
-  std::shared_ptr<LostLines> lost_lines = std::make_shared<LostLines>();
+  prometheus::Counter& failure(v1::Job::Cause cause) { return failures.Add({{"cause", v1::Job::Cause_Name(cause)}}); }
+
+  std::shared_ptr<Measured> measured = std::make_shared<Measured>();
   std::shared_ptr<prometheus::Registry> registry = std::make_shared<prometheus::Registry>();
   prometheus::Gauge& waiting = gauge(*registry, "cellcrush_jobs_waiting", "Jobs waiting in the queue.");
   prometheus::Gauge& running = gauge(*registry, "cellcrush_jobs_running", "Jobs running, or accepted by an executor.");
-  prometheus::Family<prometheus::Gauge>& held = prometheus::BuildGauge()
-                                                    .Name("cellcrush_queue_held")
-                                                    .Help("1 while a queue is held for this cause, else 0.")
-                                                    .Register(*registry);
+  prometheus::Family<prometheus::Gauge>& held =
+      gauges(*registry, "cellcrush_queue_held", "1 while a queue is held for this cause, else 0.");
   prometheus::Gauge& journal_damaged =
       gauge(*registry, "cellcrush_journal_damaged", "1 if the journal lost changes or was found damaged, else 0.");
   Counters& ended = counters(*registry, "cellcrush_jobs_ended_total", "Jobs that have ended, by final state.");
+  Counters& failures = counters(*registry, "cellcrush_job_failures_total", "Jobs that have FAILED, by cause.");
+  prometheus::Counter& run_seconds =
+      counters(*registry, "cellcrush_run_seconds_total",
+               "Wall-clock time of runs on this machine that succeeded without interruption.")
+          .Add({});
+  prometheus::Counter& forecast_seconds =
+      counters(*registry, "cellcrush_forecast_seconds_total", "Time that was predicted for these runs.").Add({});
+  prometheus::Histogram& forecast_ratios =
+      histograms(*registry, "cellcrush_forecast_ratio", "Predicted over actual time of each of these runs.")
+          .Add({}, ratios());
+  Counters& calls = counters(*registry, "cellcrush_calls_total", "Calls that have ended, by method and code.");
+  prometheus::Family<prometheus::Histogram>& call_times =
+      histograms(*registry, "cellcrush_call_seconds", "Time from a call to its answer, without streams.");
+  Counters& notices = counters(*registry, "cellcrush_notices_total",
+                               "Notices to a webhook, a command or a collector of traces, by result.");
   prometheus::Counter& steps =
       counters(*registry, "cellcrush_steps_total", "Time steps of jobs that have ended with a result.").Add({});
   Counters& stages = counters(*registry, "cellcrush_stage_seconds_total",
@@ -142,7 +252,7 @@ ListenAddress Metrics::serve(const ListenAddress& address) {
                            ": the address is in use or not permitted. Give another address with --metrics.");
   }
   impl_->exposer->RegisterCollectable(impl_->registry);
-  impl_->exposer->RegisterCollectable(impl_->lost_lines);
+  impl_->exposer->RegisterCollectable(impl_->measured);
   return bound;
 }
 
@@ -187,8 +297,39 @@ void Metrics::count_refused_connection() { impl_->refused.Increment(); }
 
 void Metrics::count_skipped_frames(int frames) { impl_->skipped.Increment(frames); }
 
-void Metrics::count_ended(v1::Job::State state, const v1::Summary* summary) {
+void Metrics::ask(std::function<Standing()> standing) {
+  const MutexLock lock(impl_->measured->mutex);
+  impl_->measured->standing = std::move(standing);
+}
+
+void Metrics::observe_run(double seconds, double predicted_seconds) {
+  impl_->run_seconds.Increment(seconds);
+  impl_->forecast_seconds.Increment(predicted_seconds);
+  impl_->forecast_ratios.Observe(predicted_seconds / seconds);
+}
+
+void Metrics::count_call(const std::string& method, const std::string& code, std::optional<double> seconds) {
+  impl_->calls.Add({{"method", method}, {"code", code}}).Increment();
+  if (seconds) impl_->call_times.Add({{"method", method}}, times()).Observe(*seconds);
+}
+
+void Metrics::set_device(const std::string& device) {
+  gauges(*impl_->registry, "cellcrush_device_info", "1; the label names the device of this machine's runs.")
+      .Add({{"device", device}})
+      .Set(1.0);
+  for (const bool advanced : {true, false}) impl_->device_runs(advanced);
+}
+
+void Metrics::count_device_run(bool advanced) { impl_->device_runs(advanced).Increment(); }
+
+void Metrics::count_notices(const std::string& target, Notice result, int count) {
+  impl_->notices.Add({{"target", target}, {"result", kNoticeResults.at(static_cast<std::size_t>(result))}})
+      .Increment(count);
+}
+
+void Metrics::count_ended(v1::Job::State state, v1::Job::Cause cause, const v1::Summary* summary) {
   impl_->ended.Add({{"state", v1::Job::State_Name(state)}}).Increment();
+  if (state == v1::Job::FAILED) impl_->failure(cause).Increment();
   if (summary == nullptr) return;
   impl_->steps.Increment(static_cast<double>(summary->step_count()));
   impl_->add_stages(summary->stage_times());

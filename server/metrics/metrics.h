@@ -2,13 +2,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "listen_address.h"
+#include "metrics/standing.h"
 #include "shortage.h"
 
 namespace cellcrush::metrics {
@@ -24,6 +27,9 @@ class Metrics {
   /// Starts serving on an address of kind tcp. Returns the address with its actual port. Throws ServiceError
   /// (failed_precondition) if it is in use. Call once.
   ListenAddress serve(const ListenAddress& address);
+
+  /// Asked at each scrape, on its thread; null: not any more, once a scrape that asks has ended. May throw.
+  void ask(std::function<Standing()> standing);
 
   /// Jobs of one executor.
   void set_jobs(const std::string& executor, std::size_t waiting, std::size_t running);
@@ -42,8 +48,23 @@ class Metrics {
   void count_refused_connection();
   void count_skipped_frames(int frames);
 
-  /// `summary` is null for a job without a result.
-  void count_ended(v1::Job::State state, const v1::Summary* summary);
+  /// `cause`: of a FAILED job. `summary` is null for a job without a result.
+  void count_ended(v1::Job::State state, v1::Job::Cause cause, const v1::Summary* summary);
+
+  /// A run that succeeded without interruption: what it took and what was predicted for it, both positive.
+  void observe_run(double seconds, double predicted_seconds);  // NOLINT(bugprone-easily-swappable-parameters)
+
+  /// A call that has ended. `method`: "Jobs/CreateJob"; `code`: of gRPC, "OK"; `seconds`: nothing for a stream.
+  void count_call(const std::string& method, const std::string& code, std::optional<double> seconds);
+
+  /// The daemon has this device.
+  void set_device(const std::string& device);
+  /// A run has ended that the device has advanced, or left to the processor.
+  void count_device_run(bool advanced);
+
+  enum class Notice { delivered, retried, dropped };
+  /// Adds notices to a receiver's count; 0 makes its series.
+  void count_notices(const std::string& target, Notice result, int count);
 
  private:
   struct Impl;

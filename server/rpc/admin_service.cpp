@@ -122,7 +122,7 @@ class AdminCalls {
   }
 
   v1::DrainResponse drain(const Call& call, const v1::DrainRequest&) {
-    log_change("", "drained", call.caller().name);
+    log_change(parts_.audit, "", "drained", call.caller().name);
     draining_ = true;
     drain_daemon_();
     return {};

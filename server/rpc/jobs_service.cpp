@@ -67,7 +67,7 @@ class JobCalls {
     const auto created =
         parts_.journal.create_job(std::move(job), request.request_id(), hash, verdict.element_steps, admit);
     if (created.is_new) {
-      log_change(store::name_of(created.job), "created", owner, request.request_id());
+      log_change(parts_.audit, store::name_of(created.job), "created", owner, request.request_id());
       parts_.queues.enqueue(
           {{created.job, created.job, request.priority(), verdict.element_steps, 0, 0, owner, executor}});
       place.reset();
@@ -106,7 +106,7 @@ class JobCalls {
     check_update(request.update_mask(), "job", request.job().note());
     if (parts_.journal.set_note(job, request.job().note(), request.previous_note())) {
       parts_.hub.recent().forget(job);
-      log_change(store::name_of(job), "annotated", call.caller().name);
+      log_change(parts_.audit, store::name_of(job), "annotated", call.caller().name);
     }
     return find_live(request.job().name());
   }
@@ -114,28 +114,28 @@ class JobCalls {
   v1::Job cancel_job(const Call& call, const v1::CancelJobRequest& request) {
     const std::int64_t job = find_own(call, request.name());
     parts_.queues.cancel(job);
-    log_change(store::name_of(job), "cancelled", call.caller().name);
+    log_change(parts_.audit, store::name_of(job), "cancelled", call.caller().name);
     return find_live(request.name());
   }
 
   v1::Job suspend_job(const Call& call, const v1::SuspendJobRequest& request) {
     const std::int64_t job = find_own(call, request.name());
-    parts_.queues.suspend(job, [&call] { return call.is_cancelled(); });
-    log_change(store::name_of(job), "suspended", call.caller().name);
+    make_logged_change(parts_.audit, store::name_of(job), "suspended", call.caller().name,
+                       [&] { parts_.queues.suspend(job, [&call] { return call.is_cancelled(); }); });
     return find(request.name()).job;
   }
 
   v1::Job resume_job(const Call& call, const v1::ResumeJobRequest& request) {
     const std::int64_t job = find_own(call, request.name());
     parts_.queues.resume(job);
-    log_change(store::name_of(job), "resumed", call.caller().name);
+    log_change(parts_.audit, store::name_of(job), "resumed", call.caller().name);
     return find(request.name()).job;
   }
 
   v1::DeleteJobResponse delete_job(const Call& call, const v1::DeleteJobRequest& request) {
     const std::int64_t job = find_own(call, request.name());
     parts_.deletion.delete_job(job);
-    log_change(store::name_of(job), "deleted", call.caller().name);
+    log_change(parts_.audit, store::name_of(job), "deleted", call.caller().name);
     return {};
   }
 

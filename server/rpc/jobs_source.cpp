@@ -192,8 +192,11 @@ std::optional<JobsSource::Message> JobsSource::message_of(const store::Change& c
   Message out;
   switch (change.kind) {
     case store::ChangeKind::job_state: {
-      auto events = parts_.reader.events(change.resource, change.sequence - 1, 1);
-      if (events.empty() || events.front().sequence() != change.sequence || !events.front().has_state()) break;
+      std::int64_t sequence = change.sequence;
+      if (const auto ended = sequence == 0 ? parts_.reader.find_without_case(change.resource) : std::nullopt)
+        sequence = ended->last_sequence;
+      auto events = parts_.reader.events(change.resource, sequence - 1, 1);
+      if (events.empty() || events.front().sequence() != sequence || !events.front().has_state()) break;
       v1::Job& job = *events.front().mutable_state();
       const bool passes = store::matches(filter_, job);
       if (store::is_terminal(job.state())) {

@@ -28,6 +28,11 @@ InvalidField parse_error(std::string_view path) {
           "Encode it with this server's .proto files, and every string as UTF-8."};
 }
 
+// "Jobs/CreateJob".
+std::string label_of(const google::protobuf::MethodDescriptor& method) {
+  return method.service()->name() + "/" + method.name();
+}
+
 }  // namespace
 
 std::int64_t MethodTable::UnaryReactor::set_answer(const google::protobuf::Message& answer) {
@@ -52,6 +57,7 @@ void MethodTable::UnaryReactor::finish(const grpc::Status& status, std::shared_p
   charge_ = std::move(charge);
   if (!status.ok()) return end(status);
   limit_end(std::chrono::milliseconds(answer_.Length() / 100));
+  note_end(status);
   StartWriteAndFinish(&answer_, {}, status);
 }
 
@@ -64,8 +70,12 @@ void MethodTable::UnaryCall::ask(Deliver deliver) {
     answer->charge = std::move(charge);
     deliver(std::move(*answer));
   };
-  Incoming incoming{incoming_.caller, incoming_.epoch, std::exchange(incoming_.decode, nullptr), incoming_.bytes,
-                    std::exchange(incoming_.received, nullptr), incoming_.encode};
+  Incoming incoming{incoming_.caller,
+                    incoming_.epoch,
+                    std::exchange(incoming_.decode, nullptr),
+                    incoming_.bytes,
+                    std::exchange(incoming_.received, nullptr),
+                    incoming_.encode};
   begin_({std::move(task), std::move(incoming)}, answer->bytes);
 }
 
@@ -138,8 +148,10 @@ grpc::ServerGenericBidiReactor* MethodTable::CreateReactor(grpc::GenericCallback
   const auto key = gate_.key_of(*context->auth_context());
   gate_.backlog().begin(key, connection);
   const Method* method = find(context->method());
-  if (method == nullptr)
+  if (method == nullptr) {
+    note_end(context->method(), grpc::StatusCode::UNIMPLEMENTED);
     return new Refused({grpc::StatusCode::UNIMPLEMENTED, "This server has no method " + context->method() + "."});
+  }
   try {
     const auto epoch = exchange_epochs(*context);
     const bool is_small = method->is_open || method->descriptor->server_streaming();
@@ -147,11 +159,13 @@ grpc::ServerGenericBidiReactor* MethodTable::CreateReactor(grpc::GenericCallback
     const auto reactor =
         method->serve(*context, name_of(*context, connection, method->is_open), {patience_ + more, patience_});
     require_epoch(epoch);
+    reactor->on_end([watch = CallWatch(*this, *method)](grpc::StatusCode code) { watch.end(code); });
     open_calls_.add(reactor, method->is_open ? kMostWaitingOfStrangers : kMostWaiting);
     return reactor.get();
   } catch (const std::exception& error) {
     const auto status = status_of(error);
     if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) gate_.backlog().refuse(key);
+    note_end(context->method(), status.error_code());
     return new Refused(status);
   }
 }
@@ -181,11 +195,43 @@ const google::protobuf::MethodDescriptor* MethodTable::describe(std::string_view
 
 void MethodTable::add(const char* path, std::optional<access::Scope> scope, Method method) {
   gate_.guard(path, scope);
-  method.open = [this, open = std::move(method.open)](const Incoming& incoming) {
-    require_epoch(incoming.epoch);
-    return open(incoming);
+  method.label = label_of(*method.descriptor);
+  const auto added = methods_.emplace(path, std::move(method)).first;
+  Method& kept = added->second;
+  kept.open = [this, &kept, open = std::move(kept.open)](const Incoming& incoming) -> std::shared_ptr<MessageStream> {
+    const CallWatch watch(*this, kept);
+    try {
+      require_epoch(incoming.epoch);
+      return std::make_shared<WatchedStream>(open(incoming), watch);
+    } catch (const std::exception& error) {
+      watch.end(status_of(error).error_code());
+      throw;
+    }
   };
-  methods_.emplace(path, std::move(method));
+}
+
+void MethodTable::note_end(std::string_view path, grpc::StatusCode code, std::optional<double> seconds) const {
+  if (!on_ended) return;
+  const Method* method = find(path);
+  on_ended({method == nullptr ? "unknown" : method->label, code, seconds});
+}
+
+void MethodTable::CallWatch::end(grpc::StatusCode code) const {
+  if (!table_->on_ended) return;
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
+  const bool is_stream = method_->descriptor->server_streaming();
+  table_->on_ended({method_->label, code, is_stream ? std::nullopt : std::optional(taken.count())});
+}
+
+MethodTable::WatchedStream::~WatchedStream() {
+  if (!has_ended_) watch_.end(grpc::StatusCode::CANCELLED);
+}
+
+void MethodTable::WatchedStream::ask(Deliver deliver) {
+  stream_->ask([self = shared_from_this(), deliver = std::move(deliver)](Batch batch) {
+    if (batch.end && !self->has_ended_.exchange(true)) self->watch_.end(batch.end->error_code());
+    deliver(std::move(batch));
+  });
 }
 
 }  // namespace cellcrush::rpc

@@ -4,6 +4,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -49,7 +50,8 @@ class MethodTable final : public grpc::CallbackGenericService {
  public:
   struct Method {
     const google::protobuf::MethodDescriptor* descriptor = nullptr;
-    bool is_open = false;  ///< to everybody
+    bool is_open = false;    ///< to everybody
+    std::string label = {};  ///< "Jobs/CreateJob"
     /// Begins to answer. Throws ServiceError, or InvalidField if the request cannot be parsed.
     std::function<std::shared_ptr<MessageStream>(const Incoming& incoming)> open;
     /// Answers a call of gRPC once its request has come.
@@ -119,7 +121,7 @@ class MethodTable final : public grpc::CallbackGenericService {
         });
       });
     };
-    add(path, scope, {describe(path, *Request::descriptor(), *Response::descriptor(), false), !scope, open, serve});
+    add(path, scope, {describe(path, *Request::descriptor(), *Response::descriptor(), false), !scope, "", open, serve});
   }
 
   /// `handle`: opens the source of a stream; what it throws ends the stream. The pump of `parts` advances gRPC's
@@ -142,12 +144,24 @@ class MethodTable final : public grpc::CallbackGenericService {
           incoming.begin);
     };
     add(path, scope,
-        {describe(path, *Request::descriptor(), *Source::Message::descriptor(), true), !scope, open, serve});
+        {describe(path, *Request::descriptor(), *Source::Message::descriptor(), true), !scope, "", open, serve});
   }
 
   /// Called for each call of gRPC that the gate has admitted, with gRPC's name of its connection. REQUIRES: no call has
   /// come.
   std::function<void(const std::string& connection, const std::string& caller)> on_admitted;
+
+  /// How a call has ended, whether it was refused or answered.
+  struct CallEnd {
+    const std::string& method;  ///< its label; "unknown" for one that is not in the table
+    grpc::StatusCode code;
+    std::optional<double> seconds;  ///< until its answer; nothing for a stream and for a call that was refused at once
+  };
+  /// Called for each call. Thread-safe, quick. REQUIRES: no call has come.
+  std::function<void(const CallEnd& end)> on_ended;
+
+  /// A call has ended that did not reach its method, as the gate or a limit refused it.
+  void note_end(std::string_view path, grpc::StatusCode code, std::optional<double> seconds = {}) const;
 
   /// Null if there is none.
   [[nodiscard]] const Method* find(std::string_view path) const;
@@ -165,6 +179,34 @@ class MethodTable final : public grpc::CallbackGenericService {
   [[nodiscard]] OpenCalls& open_calls() { return open_calls_; }
 
  private:
+  /// Tells on_ended of the end of a call that has begun.
+  class CallWatch {
+   public:
+    CallWatch(const MethodTable& table, const Method& method) : table_(&table), method_(&method) {}
+    void end(grpc::StatusCode code) const;
+
+   private:
+    const MethodTable* table_;
+    const Method* method_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  };
+
+  /// A call that is not gRPC's, and whose end is told.
+  class WatchedStream final : public MessageStream, public std::enable_shared_from_this<WatchedStream> {
+   public:
+    WatchedStream(std::shared_ptr<MessageStream> stream, const CallWatch& watch)
+        : stream_(std::move(stream)), watch_(watch) {}
+    ~WatchedStream() override;
+
+    void ask(Deliver deliver) override;
+    void cancel() override { stream_->cancel(); }
+
+   private:
+    std::shared_ptr<MessageStream> stream_;
+    CallWatch watch_;
+    std::atomic<bool> has_ended_ = false;
+  };
+
   /// A unary call that has come, by whichever door.
   struct Arrived {
     CallPool::Task task;  ///< without its body

@@ -148,8 +148,9 @@ std::string page_token(std::int64_t last, const std::string& question) {
   return std::to_string(last) + "-" + mark_of(question);
 }
 
-void log_change(const std::string& name, const std::string& done, const std::string& caller,
+void log_change(AuditLog& audit, const std::string& name, const std::string& done, const std::string& caller,
                 const std::string& request_id) {
+  audit.note_change(name, done, caller, request_id);
   const std::string subject = name.empty() ? "the daemon" : name;
   // In quotes, so that it cannot be mistaken for the rest of the line; the form of the log escapes control characters.
   const std::string quoted = "\"" + absl::StrReplaceAll(request_id, {{"\"", "\\\""}, {"\\", "\\\\"}}) + "\"";

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "audit_log.h"
+#include "error.h"
 #include "store/journal_reader.h"
 #include "store/journal_schema.h"
 #include "store/page_room.h"
@@ -88,9 +90,24 @@ Page read_full_page(int page_size, const std::string& page_token, const std::str
 /// Token of the page after the resource with this number.
 std::string page_token(std::int64_t last, const std::string& question);
 
-/// Logs that a call which changes something was accepted: "jobs/12 made by anna, request \"night 3\"". `name` is the
-/// job or sweep, or empty for the daemon; `request_id` is the caller's, or empty.
-void log_change(const std::string& name, const std::string& done, const std::string& caller,
+/// Logs that a call which changes something was accepted: "jobs/12 made by anna, request \"night 3\"", and has it
+/// audited. `name` is the job or sweep, or empty for the daemon; `request_id` is the caller's, or empty.
+void log_change(AuditLog& audit, const std::string& name, const std::string& done, const std::string& caller,
                 const std::string& request_id = "");
+
+/// Makes a change that may outlast its call. It is logged too if its caller gives up, or if it fails half-way.
+template <class Change>
+void make_logged_change(AuditLog& audit, const std::string& name, const std::string& done, const std::string& caller,
+                        const Change& change) {
+  try {
+    change();
+  } catch (const ServiceError& error) {
+    const bool is_refused =
+        error.kind() == ServiceError::Kind::not_found || error.kind() == ServiceError::Kind::failed_precondition;
+    if (!is_refused) log_change(audit, name, done + " in part, or soon", caller);
+    throw;
+  }
+  log_change(audit, name, done, caller);
+}
 
 }  // namespace cellcrush::rpc

@@ -40,6 +40,7 @@ void RequestReactor::end_late() {
 
 void RequestReactor::end(const grpc::Status& status) {
   limit_end();
+  note_end(status);
   Finish(status);
 }
 

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -32,6 +33,9 @@ class RequestReactor : public grpc::ServerGenericBidiReactor,
         context_(context),
         patience_(patience) {}
 
+  /// `ended` is called once, with how the call ends. REQUIRES: OpenCalls does not have the call yet.
+  void on_end(std::function<void(grpc::StatusCode)> ended) { ended_ = std::move(ended); }
+
   void read(std::shared_ptr<Accounts::Charge> room) final;
   void end_late() final;
   void OnReadDone(bool is_read) final;
@@ -44,6 +48,10 @@ class RequestReactor : public grpc::ServerGenericBidiReactor,
 
   /// Cuts the call unless the client has read its end in time: as long as that takes, and `more`.
   void limit_end(std::chrono::milliseconds more = {}) { set_due(OpenCalls::Clock::now() + patience_.end + more); }
+  /// To be called before gRPC is told how the call ends.
+  void note_end(const grpc::Status& status) const {
+    if (ended_) ended_(status.error_code());
+  }
   /// Ends the call, and limits that.
   void end(const grpc::Status& status);
   void cut() { cut_.cancel(context_); }
@@ -56,6 +64,7 @@ class RequestReactor : public grpc::ServerGenericBidiReactor,
   OpenCalls& open_;
   const grpc::CallbackServerContext& context_;
   const Patience patience_;
+  std::function<void(grpc::StatusCode)> ended_;
   std::atomic<Stage> stage_ = Stage::waiting;
   std::shared_ptr<Accounts::Charge> room_;
   grpc::ByteBuffer bytes_;

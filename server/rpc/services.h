@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "access/gate.h"
+#include "audit_log.h"
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/mesh_places.h"
@@ -23,6 +24,7 @@ namespace cellcrush::rpc {
 /// What the services work with; all of it outlives them.
 struct ServiceParts {
   const store::DataFolder& folder;
+  AuditLog& audit;
   store::Journal& journal;
   store::JournalReader& reader;
   store::SweepReader& sweeps;

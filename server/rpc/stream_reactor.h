@@ -53,7 +53,7 @@ class StreamReactor final : public RequestReactor, public watch::Pump::Task {
     switch (action) {
       case Action::none: return;
       case Action::write: this->StartWrite(&message_, options); return;
-      case Action::finish: this->Finish(status_); return;
+      case Action::finish: note_end(status_), this->Finish(status_); return;
       case Action::abandon: cut(); return;
     }
   }

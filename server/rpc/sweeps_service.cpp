@@ -102,7 +102,8 @@ class SweepCalls {
     const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
     const std::string name = store::sweep_name_of(created.sweep);
     if (created.is_new) {
-      log_change(name, "created with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
+      log_change(parts_.audit, name, "created with " + std::to_string(plan.jobs.size()) + " jobs", owner,
+                 request.request_id());
       parts_.queues.enqueue(queued_jobs(created, plan, request.sweep(), executor));
       place.reset();
     }
@@ -138,22 +139,22 @@ class SweepCalls {
     const std::int64_t sweep = find_own(call, request.sweep().name());
     check_update(request.update_mask(), "sweep", request.sweep().note());
     if (parts_.journal.set_sweep_note(sweep, request.sweep().note(), request.previous_note()))
-      log_change(store::sweep_name_of(sweep), "annotated", call.caller().name);
+      log_change(parts_.audit, store::sweep_name_of(sweep), "annotated", call.caller().name);
     return find(request.sweep().name()).sweep;
   }
 
   v1::Sweep cancel_sweep(const Call& call, const v1::CancelSweepRequest& request) {
     const std::int64_t sweep = find_own(call, request.name());
     const auto jobs = parts_.sweeps.jobs_of(sweep);
-    parts_.queues.cancel_all(jobs);
-    log_change(store::sweep_name_of(sweep), "cancelled", call.caller().name);
+    make_logged_change(parts_.audit, store::sweep_name_of(sweep), "cancelled", call.caller().name,
+                       [&] { parts_.queues.cancel_all(jobs); });
     return find(request.name()).sweep;
   }
 
   v1::DeleteSweepResponse delete_sweep(const Call& call, const v1::DeleteSweepRequest& request) {
     const std::int64_t sweep = find_own(call, request.name());
-    parts_.deletion.delete_sweep(sweep, [&call] { return call.is_cancelled(); });
-    log_change(store::sweep_name_of(sweep), "deleted", call.caller().name);
+    make_logged_change(parts_.audit, store::sweep_name_of(sweep), "deleted", call.caller().name,
+                       [&] { parts_.deletion.delete_sweep(sweep, [&call] { return call.is_cancelled(); }); });
     return {};
   }
 
@@ -169,7 +170,7 @@ class SweepCalls {
       place.emplace(parts_.admission.admit(owner, count, 0));
     };
     const auto retried = parts_.journal.retry_failed(sweep, admit);
-    log_change(store::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
+    log_change(parts_.audit, store::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
                call.caller().name);
     parts_.queues.enqueue(retried);
     place.reset();
@@ -274,9 +275,10 @@ class SweepCalls {
 void add_sweeps_methods(MethodTable& table, const ServiceParts& parts) {
   using access::Scope;
   const auto calls = std::make_shared<SweepCalls>(parts);
-  table.unary("/cellcrush.v1.Sweeps/CreateSweep", Scope::submit, &parts.checks, calls, &SweepCalls::create_sweep,
-              [](const v1::CreateSweepRequest&) { return true; },
-              [](const v1::CreateSweepRequest& request) { return kPointBytes * jobs::most_points(request.sweep()); });
+  table.unary(
+      "/cellcrush.v1.Sweeps/CreateSweep", Scope::submit, &parts.checks, calls, &SweepCalls::create_sweep,
+      [](const v1::CreateSweepRequest&) { return true; },
+      [](const v1::CreateSweepRequest& request) { return kPointBytes * jobs::most_points(request.sweep()); });
   table.unary("/cellcrush.v1.Sweeps/GetSweep", Scope::read, &parts.calls, calls, &SweepCalls::get_sweep);
   table.unary("/cellcrush.v1.Sweeps/ListSweeps", Scope::read, &parts.calls, calls, &SweepCalls::list_sweeps);
   table.unary("/cellcrush.v1.Sweeps/UpdateSweep", Scope::submit, &parts.calls, calls, &SweepCalls::update_sweep);

@@ -1,10 +1,24 @@
 #include "store/change_reader.h"
 
+#include <spdlog/spdlog.h>
+
 #include <string>
 
 #include "error.h"
+#include "store/journal_schema.h"
 
 namespace cellcrush::store {
+namespace {
+
+constexpr const char* kRowsAfter =
+    "SELECT number, kind, resource, sequence, checksum = expected_checksum FROM changes WHERE number > ?1 "
+    "ORDER BY number LIMIT ?2";
+
+Change change_of(const Statement& row) {
+  return {row.integer(0), static_cast<ChangeKind>(row.integer(1)), row.integer(2), row.integer(3)};
+}
+
+}  // namespace
 
 ChangeReader::ChangeReader(const std::filesystem::path& path) : database_(path) {}
 
@@ -32,11 +46,31 @@ bool ChangeReader::has_all_after(std::int64_t change) {
   return read.step() && change >= read.integer(0) - 1;
 }
 
+std::string ChangeReader::fact(const std::string& name) {
+  const MutexLock lock(mutex_);
+  return read_fact(database_, name);
+}
+
+ChangeReader::Readable ChangeReader::readable_after(std::int64_t change, int limit) {
+  const MutexLock lock(mutex_);
+  Statement read(database_, kRowsAfter);
+  read.bind(1, change).bind(2, limit);
+  Readable out;
+  while (read.step()) {
+    out.last = read.integer(0);
+    if (out.first == 0) out.first = out.last;
+    if (read.integer(4) == 0) {
+      spdlog::error("Change {} cannot be read: the journal was damaged. Receivers of notices may miss one.", out.last);
+    } else {
+      out.changes.push_back(change_of(read));
+    }
+  }
+  return out;
+}
+
 std::vector<Change> ChangeReader::after(std::int64_t change, int limit) {
   const MutexLock lock(mutex_);
-  Statement read(database_,
-                 "SELECT number, kind, resource, sequence, checksum = expected_checksum FROM changes WHERE number > ?1 "
-                 "ORDER BY number LIMIT ?2");
+  Statement read(database_, kRowsAfter);
   read.bind(1, change).bind(2, limit);
   std::vector<Change> out;
   while (read.step()) {
@@ -46,7 +80,7 @@ std::vector<Change> ChangeReader::after(std::int64_t change, int limit) {
                                                             " cannot be read: the journal was damaged. Watch again " +
                                                             "from the beginning.");
     }
-    out.push_back({read.integer(0), static_cast<ChangeKind>(read.integer(1)), read.integer(2), read.integer(3)});
+    out.push_back(change_of(read));
   }
   return out;
 }

@@ -19,7 +19,7 @@ struct Change {
   std::int64_t number = 0;
   ChangeKind kind = ChangeKind::job_state;
   std::int64_t resource = 0;  ///< number of the job or sweep
-  std::int64_t sequence = 0;  ///< of the state event
+  std::int64_t sequence = 0;  ///< of the state event; 0: another note in that of an ended job
 };
 
 /// Reads the changes of all jobs and sweeps beside the journal's writer; sees committed data. Thread-safe. Failures
@@ -41,6 +41,18 @@ class ChangeReader {
   /// Whether there are changes after this one. The journal is read only if `stamp` is another one than in the last
   /// call, and so once for all callers that have seen the same announcements.
   bool has_after(std::int64_t change, const Stamp& stamp);
+
+  /// Value of a fact about a receiver of changes (Journal::set_fact); empty: none.
+  std::string fact(const std::string& name);
+
+  /// Some changes in order, without damaged ones.
+  struct Readable {
+    std::vector<Change> changes;
+    std::int64_t first = 0;  ///< number of the first change there was; 0: none
+    std::int64_t last = 0;   ///< of the last one that was looked at
+  };
+  /// Looks at up to `limit` changes after this one. The log names damaged ones.
+  Readable readable_after(std::int64_t change, int limit);
 
   /// Up to `limit` changes after this one, in order. Ends before a damaged one; throws data_loss if that is the first.
   std::vector<Change> after(std::int64_t change, int limit);

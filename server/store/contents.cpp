@@ -15,14 +15,14 @@ namespace {
 
 // A BLOB that refers to a content begins with its name, "sha256:" and 64 digits; the rest of the message follows. No
 // message begins like this: "s" would open a group, which they do not have.
-constexpr std::string_view kPrefix = "sha256:";
-constexpr std::size_t kNameBytes = kPrefix.size() + 64;
+constexpr std::string_view kContentPrefix = "sha256:";
+constexpr std::size_t kNameBytes = kContentPrefix.size() + 64;
 
-std::string name_of_content(const std::string& bytes) { return std::string(kPrefix) + sha256_of(bytes); }
+std::string name_of_content(const std::string& bytes) { return std::string(kContentPrefix) + sha256_of(bytes); }
 
 // The name at the beginning of a BLOB; empty for one that refers to none.
 std::string name_in(const std::string& stored) {
-  return stored.starts_with(kPrefix) ? stored.substr(0, kNameBytes) : "";
+  return stored.starts_with(kContentPrefix) ? stored.substr(0, kNameBytes) : "";
 }
 
 // Nothing if it is missing or damaged.
@@ -113,7 +113,7 @@ void add_contents(Database& database) {
         "ALTER TABLE {0} ADD COLUMN content TEXT REFERENCES contents(name) AS (CASE WHEN substr({1}, 1, {2}) = "
         "CAST('{3}' AS BLOB) THEN CAST(substr({1}, 1, {4}) AS TEXT) END) VIRTUAL;"
         "CREATE INDEX {0}_by_content ON {0}(content) WHERE content IS NOT NULL;",
-        table, column, kPrefix.size(), kPrefix, kNameBytes);
+        table, column, kContentPrefix.size(), kContentPrefix, kNameBytes);
     database.execute(sql.c_str());
     is_unused += fmt::format(" AND NOT EXISTS (SELECT 1 FROM {} WHERE content = old.content)", table);
   }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "clocks.h"
 #include "store/job_filter.h"
 #include "store/queued_job.h"
 
@@ -63,6 +64,7 @@ std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   job.set_state(v1::Job::PENDING);
   if (job.executor().empty()) job.set_executor(kLocalExecutor);
   *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  *job.mutable_state_time() = time_now();
   // Taken out, so that the bytes are made without it.
   const std::unique_ptr<v1::Case> submitted(job.release_case_());
   if (submitted) job.set_title(submitted->title());

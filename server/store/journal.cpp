@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "clocks.h"
 #include "error.h"
 #include "store/durable_file.h"
 #include "store/job_folder.h"
@@ -23,6 +24,7 @@ constexpr std::chrono::milliseconds kBeforeNextTry{200};
 void apply(const StateChange& change, v1::Job& job) {
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
   job.set_state(change.state);
+  *job.mutable_state_time() = time_now();
   job.set_cause(change.cause);
   job.set_cause_message(change.message);
   job.set_remedy(change.remedy);
@@ -122,7 +124,10 @@ void Journal::begin_again(std::int64_t job, const std::string& why) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
                          name_of(job) + " is " + v1::Job::State_Name(stored.state()) + " and cannot be restarted.");
     }
-    if (stored.state() == v1::Job::RUNNING) stored.set_state(v1::Job::PENDING);
+    if (stored.state() == v1::Job::RUNNING) {
+      stored.set_state(v1::Job::PENDING);
+      *stored.mutable_state_time() = time_now();
+    }
     stored.set_cause_message(why);
     stored.set_worker_pid(0);
     stored.set_begun_again_sequence(last + 1);

@@ -57,8 +57,8 @@ struct StateChange {
 /// A job to create as part of a sweep. It is made when it is written: 100,000 jobs take 400 MB.
 struct SweepJob {
   std::function<v1::Job()> job = [] { return v1::Job(); };  ///< case, labels, priority
-  std::vector<double> values;      ///< of the sweep's fields, in order
-  std::int64_t element_steps = 0;  ///< of the reference crush, which take as long as the run
+  std::vector<double> values;                               ///< of the sweep's fields, in order
+  std::int64_t element_steps = 0;                           ///< of the reference crush, which take as long as the run
 };
 
 /// What the journal stores of a result that another daemon made.
@@ -171,6 +171,11 @@ class Journal {
   /// For samples that somebody waits for, and for others: those that arrive meanwhile share a commit.
   static constexpr std::chrono::milliseconds kSoon{200};
   static constexpr std::chrono::milliseconds kLazyCommit{1000};
+
+  /// Keeps a value beside the jobs, of which no watcher is told. Throws ServiceError.
+  void set_fact(const std::string& name, const std::string& value) {
+    writes_.run([&] { write_fact(database_, name, value); });
+  }
 
   /// Returns once writers had their turn. Throws ServiceError if the journal takes no writes.
   void await_turn() { writes_.run({}); }

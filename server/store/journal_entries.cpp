@@ -68,7 +68,9 @@ std::vector<std::int64_t> Journal::import_results(
       created.push_back(job);
       Statement update(database_, "UPDATE jobs SET samples = ?2, ended_at = ?3 WHERE number = ?1");
       update.bind(1, job).bind(2, result.samples).bind(3, clock_.seconds()).run();
-      v1::Job state = result.job;
+      v1::Job ended = result.job;
+      ended.clear_state_time();  // an import is no end of which anybody is told
+      v1::Job state = ended;
       state.clear_summary();
       state.clear_end_time();
       state.clear_cause();
@@ -82,7 +84,7 @@ std::vector<std::int64_t> Journal::import_results(
         state.set_state(v1::Job::CANCELLING);
         add_state(database_, job, state, ++sequence);
       }
-      add_state(database_, job, result.job, ++sequence);
+      add_state(database_, job, ended, ++sequence);
       insert_mesh(database_, job, result.mesh);
     }
   });

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "clocks.h"
 #include "store/contents.h"
 #include "store/job_filter.h"
 #include "store/job_rows.h"
@@ -106,6 +107,7 @@ void end_job(Database& database, DamagedJob& row, const std::filesystem::path& d
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
   if (!row.job.has_create_time()) *row.job.mutable_create_time() = now;
   *row.job.mutable_end_time() = now;
+  *row.job.mutable_state_time() = time_now();
   // No event follows that of a job's end.
   if (!had_ended) {
     Statement last(database,

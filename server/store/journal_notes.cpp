@@ -42,7 +42,11 @@ bool Journal::set_note(std::int64_t job, const std::string& note, const std::str
     if (!is_new) return;
     stored.set_note(note);
     // No event follows that of a job's end.
-    add_state(database_, job, stored, is_terminal(stored.state()) ? last : last + 1);
+    const bool has_ended = is_terminal(stored.state());
+    add_state(database_, job, stored, has_ended ? last : last + 1);
+    // Receivers of notices are not told of the end again.
+    if (has_ended)
+      Statement(database_, "UPDATE changes SET sequence = 0 WHERE number = (SELECT MAX(number) FROM changes)").run();
   });
   if (is_new) on_durable_(job);
   return is_new;

@@ -87,6 +87,34 @@ std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
   return out;
 }
 
+std::optional<StoredJob> JournalReader::find_without_case(std::int64_t job) {
+  const MutexLock lock(mutex_);
+  Statement read(database_,
+                 "SELECT number, job, last_sequence, state, samples, checksum = expected_checksum FROM jobs "
+                 "WHERE number = ?1");
+  if (!read.bind(1, job).step()) return std::nullopt;
+  StoredJob out;
+  out.number = job;
+  out.is_damaged = read.integer(5) == 0 || !read_job_bytes(read.bytes(1), read.integer(3), out.job);
+  if (out.is_damaged) set_corrupt(out.job);
+  out.job.set_name(name_of(job));
+  out.last_sequence = read.integer(2);
+  out.samples = read.integer(4);
+  out.has_case = false;
+  return out;
+}
+
+std::vector<v1::Job> JournalReader::states(std::int64_t job) {
+  std::vector<v1::Job> out;
+  for (const auto& [sequence, payload] : numbers_of(job).states) {
+    if (!out.emplace_back().ParseFromString(payload) || out.back().state() == v1::Job::JOB_STATE_UNSPECIFIED)
+      out.pop_back();
+    else
+      out.back().set_name(name_of(job));
+  }
+  return out;
+}
+
 bool JournalReader::has_job(std::int64_t job) {
   const MutexLock lock(mutex_);
   return store::has_job(database_, job);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -50,6 +51,15 @@ class JournalReader {
   [[nodiscard]] const Epoch& epoch() const { return epoch_; }
 
   std::optional<StoredJob> find_job(std::int64_t job);
+
+  /// The same with an empty case, however large that is.
+  std::optional<StoredJob> find_without_case(std::int64_t job);
+
+  /// The job at each change of its state, in order, without its case. Leaves out those that cannot be read.
+  std::vector<v1::Job> states(std::int64_t job);
+
+  /// Journal rows, and results of ended jobs, by owner.
+  std::map<std::string, std::int64_t> bytes_by_owner();
 
   /// Whether the job exists.
   bool has_job(std::int64_t job);

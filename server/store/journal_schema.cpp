@@ -223,14 +223,19 @@ std::int64_t read_service_clock(Database& database) {
   return latest_end;
 }
 
-std::string fact(Database& database, const std::string& name) {
+}  // namespace
+
+std::string read_fact(Database& database, const std::string& name) {
   Statement read(database, "SELECT value FROM facts WHERE name = ?1 AND checksum = expected_checksum");
   return read.bind_text(1, name).step() ? read.bytes(0) : "";
 }
 
-}  // namespace
+void write_fact(Database& database, const std::string& name, const std::string& value) {
+  Statement write(database, "INSERT OR REPLACE INTO facts (name, value) VALUES (?1, ?2)");
+  write.bind_text(1, name).bind_text(2, value).run();
+}
 
-Epoch read_epoch(Database& database) { return {fact(database, "epoch"), fact(database, "restored")}; }
+Epoch read_epoch(Database& database) { return {read_fact(database, "epoch"), read_fact(database, "restored")}; }
 
 Epoch epoch_for_callers(Epoch epoch, const std::filesystem::path& journal) {
   // Both stay when the folder is renamed or the machine starts again. A file system may know no time of birth: 0.
@@ -242,9 +247,8 @@ Epoch epoch_for_callers(Epoch epoch, const std::filesystem::path& journal) {
 }
 
 void begin_epoch(Database& database, const std::string& restored) {
-  Statement write(database, "INSERT OR REPLACE INTO facts (name, value) VALUES (?1, ?2)");
-  write.bind_text(1, "epoch").bind_text(2, random_name()).run();
-  if (!restored.empty()) write.bind_text(1, "restored").bind_text(2, restored).run();
+  write_fact(database, "epoch", random_name());
+  if (!restored.empty()) write_fact(database, "restored", restored);
 }
 
 void require_known_version(Database& database) {

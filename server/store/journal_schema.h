@@ -27,6 +27,10 @@ struct Epoch {
   }
 };
 
+/// A value that the journal keeps beside the jobs; empty if there is none, or a damaged one. Throws ServiceError.
+std::string read_fact(Database& database, const std::string& name);
+void write_fact(Database& database, const std::string& name, const std::string& value);
+
 /// The journal's epoch; empty if it has none yet, or a damaged one. Throws ServiceError.
 Epoch read_epoch(Database& database);
 

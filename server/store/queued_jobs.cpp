@@ -91,4 +91,12 @@ std::int64_t JournalReader::bytes_of_owner(const std::string& owner) {
   return Statement(database_, "SELECT COALESCE(SUM(bytes), 0) FROM jobs WHERE owner = ?1").bind_text(1, owner).number();
 }
 
+std::map<std::string, std::int64_t> JournalReader::bytes_by_owner() {
+  const MutexLock lock(mutex_);
+  Statement read(database_, "SELECT owner, SUM(bytes) FROM jobs GROUP BY owner");
+  std::map<std::string, std::int64_t> out;
+  while (read.step()) out[read.bytes(0)] = read.integer(1);
+  return out;
+}
+
 }  // namespace cellcrush::store

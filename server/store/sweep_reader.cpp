@@ -56,6 +56,20 @@ SweepEnd SweepReader::end_of(std::int64_t sweep) {
   return {{read.integer(0), read.integer(1)}, read.integer(2), read.integer(0) == read.integer(3)};
 }
 
+std::optional<std::int64_t> SweepReader::find_unended(std::int64_t sweep) {
+  const MutexLock lock(mutex_);
+  // Those that end last tend to stand last.
+  Statement read(database_,
+                 "SELECT sweep_jobs.job FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
+                 "WHERE sweep = ?1 AND ended_at IS NULL ORDER BY position DESC LIMIT 1");
+  return read.bind(1, sweep).step() ? std::optional(read.integer(0)) : std::nullopt;
+}
+
+std::int64_t SweepReader::newest_job(std::int64_t sweep) {
+  const MutexLock lock(mutex_);
+  return Statement(database_, "SELECT COALESCE(MAX(job), 0) FROM sweep_jobs WHERE sweep = ?1").bind(1, sweep).number();
+}
+
 std::vector<std::int64_t> SweepReader::sweeps_in_deletion() {
   const MutexLock lock(mutex_);
   return Statement(database_, "SELECT number FROM sweeps WHERE deleting = 1 ORDER BY number").numbers();

@@ -39,6 +39,12 @@ class SweepReader {
   /// Totals of the sweep's jobs.
   SweepEnd end_of(std::int64_t sweep);
 
+  /// A job of the sweep that has not ended; nothing if all have.
+  std::optional<std::int64_t> find_unended(std::int64_t sweep);
+
+  /// Its job with the highest number, which a retry raises; 0 without one.
+  std::int64_t newest_job(std::int64_t sweep);
+
   /// Sweeps that Journal::begin_sweep_deletion has hidden.
   std::vector<std::int64_t> sweeps_in_deletion();
 

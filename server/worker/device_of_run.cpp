@@ -49,6 +49,11 @@ void DeviceOfRun::advance(Simulation& simulation) const {
   if (engine_) simulation.use_device(*engine_);
 }
 
+DeviceUse DeviceOfRun::use(const Simulation& simulation) const {
+  if (engine_) return simulation.device_failure().empty() ? DeviceUse::advanced : DeviceUse::left_to_processor;
+  return why_not_.empty() ? DeviceUse::no_device : DeviceUse::left_to_processor;
+}
+
 std::string DeviceOfRun::words(const Simulation& simulation) const {
   if (!engine_) return why_not_.empty() ? "none" : "none: " + why_not_;
   const std::string& failure = simulation.device_failure();

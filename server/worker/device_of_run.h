@@ -13,6 +13,9 @@ namespace cellcrush::worker {
 /// `extern "C" std::size_t cellcrush_device_layout()` (layout_of_crush). Throws DeviceError.
 std::unique_ptr<DeviceEngine> open_device(const std::string& name);
 
+/// What a device has done of a run. The numbers are those of Final.
+enum class DeviceUse { no_device = 0, advanced = 1, left_to_processor = 2 };
+
 /// The device that advances a run, if its order names one and it can. Must outlive the simulation.
 class DeviceOfRun {
  public:
@@ -24,6 +27,7 @@ class DeviceOfRun {
   void advance(Simulation& simulation) const;
 
   /// What advanced the run beside the processor, or why nothing did.
+  [[nodiscard]] DeviceUse use(const Simulation& simulation) const;
   [[nodiscard]] std::string words(const Simulation& simulation) const;
 
  private:

@@ -262,6 +262,7 @@ class Run {
       }
     }
     *out.mutable_summary() = output_->finish(out, {seconds_used(), stage_timer_.seconds()}, device_.words(simulation_));
+    out.set_device_use(static_cast<Final::DeviceUse>(device_.use(simulation_)));
     return out;
   }
 

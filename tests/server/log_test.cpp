@@ -56,9 +56,10 @@ TEST(LogFormat, WhatIsNoTextOrNoJsonIsEscapedInBothForms) {
 
 TEST(ChangeLog, TellsWhatByWhomAndForWhichRequestWithAKeyEach) {
   const LogCapture log(make_json_formatter());
-  rpc::log_change("jobs/12", "created", "anna", "night \"3\"\n[2030-01-01] [info] jobs/9 deleted by root\\");
-  rpc::log_change("sweeps/7", "created with 1000 jobs", "bob");
-  rpc::log_change("", "drained", "chief");
+  AuditLog audit("");
+  rpc::log_change(audit, "jobs/12", "created", "anna", "night \"3\"\n[2030-01-01] [info] jobs/9 deleted by root\\");
+  rpc::log_change(audit, "sweeps/7", "created with 1000 jobs", "bob");
+  rpc::log_change(audit, "", "drained", "chief");
   spdlog::info("ends");
   EXPECT_EQ(log.count_lines(""), 4) << "A request id forges no line.";
   const std::string text = log.text();

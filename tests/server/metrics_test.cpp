@@ -1,11 +1,20 @@
 #include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <sys/resource.h>
 
 #include <chrono>
+#include <ctime>
 #include <deque>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <thread>
+#include <vector>
 
+#include "access/unix_user.h"
+#include "cellcrush/simd.h"
 #include "error.h"
+#include "revision.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
 #include "server/http/http_socket.h"
@@ -30,6 +39,7 @@ class MetricsTest : public DaemonFixture {
   [[nodiscard]] DaemonOptions measured(int workers) const {
     auto options = with_workers(workers);
     options.metrics = "127.0.0.1:0";
+    options.limits.free_disk_bytes = 1000;
     return options;
   }
 
@@ -89,6 +99,110 @@ TEST_F(MetricsTest, TellJobsStepsAndTheTimeOfEachStage) {
   EXPECT_GT(seconds, 0.0);
   EXPECT_NEAR(value_of(after, "cellcrush_stage_seconds_total{stage=\"evaluate_internal_forces\"}").value_or(0.0),
               seconds, 1e-5 * seconds);
+}
+
+TEST_F(MetricsTest, TellWhatRunsAndItsProcess) {
+  const std::string answer = scrape();
+  EXPECT_THAT(answer, HasSubstr("cellcrush_build_info{revision=\"" + std::string(kSourceRevision) + "\",simd=\"" +
+                                simd_target() + "\",version=\"" + kVersion + "\"} 1\n"));
+  const auto now = static_cast<double>(std::time(nullptr));
+  EXPECT_NEAR(value_of(answer, "process_start_time_seconds").value_or(0.0), now, 600.0);
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const double seconds = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                         1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+  EXPECT_NEAR(value_of(answer, "process_cpu_seconds_total").value_or(0.0), seconds, 0.5);
+  const double resident = value_of(answer, "process_resident_memory_bytes").value_or(0.0);
+  EXPECT_GT(resident, 1e6);
+  EXPECT_LE(resident, 1024.0 * static_cast<double>(used.ru_maxrss));
+  EXPECT_GT(value_of(answer, "process_virtual_memory_bytes").value_or(0.0), resident);
+  EXPECT_GT(value_of(answer, "process_threads").value_or(0.0), 5.0);
+  const double open = value_of(answer, "process_open_fds").value_or(0.0);
+  rlimit limit{};
+  getrlimit(RLIMIT_NOFILE, &limit);
+  EXPECT_GT(open, 10.0);
+  EXPECT_EQ(value_of(answer, "process_max_fds"), static_cast<double>(limit.rlim_cur));
+  std::error_code error;
+  const auto space = std::filesystem::space(data_folder(), error);
+  EXPECT_NEAR(value_of(answer, "cellcrush_disk_free_bytes").value_or(0.0), static_cast<double>(space.available), 1e9);
+  EXPECT_EQ(value_of(answer, "cellcrush_disk_kept_bytes"), 1000.0);
+}
+
+// Whoever waits, and for how long.
+TEST_F(MetricsTest, TellTheOwnersAndTheAgeOfTheQueue) {
+  auto client = this->client();
+  const std::string owner = "{owner=\"" + access::own_user() + "\"}";
+  EXPECT_EQ(value_of(scrape(), "cellcrush_queue_age_seconds"), 0.0);
+  std::vector<std::string> jobs;
+  for (int i = 0; i < 2; ++i) jobs.push_back(client.create(endless_case(), v1::Job::RUNNING));
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 3; ++i) jobs.push_back(client.create(tiny_case()));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const std::string answer = scrape_until("cellcrush_owner_jobs_waiting" + owner, 3.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_owner_jobs_running" + owner), 2.0);
+  EXPECT_GT(value_of(answer, "cellcrush_owner_disk_bytes" + owner).value_or(0.0), 1000.0);
+  const double age = value_of(answer, "cellcrush_queue_age_seconds").value_or(-1.0);
+  EXPECT_GT(age, 0.25);
+  EXPECT_LT(age, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() + 0.1);
+  for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) ASSERT_TRUE(client.cancel(*job).ok());
+  scrape_until("cellcrush_queue_age_seconds", 0.0);
+}
+
+TEST_F(MetricsTest, CountFailuresByCause) {
+  EXPECT_EQ(value_of(scrape(), "cellcrush_job_failures_total{cause=\"TIME_LIMIT\"}"), 0.0);
+  auto request = job_of(endless_case());
+  request.set_time_limit_s(0.5);
+  auto client = this->client();
+  const std::string job = client.create(request).name();
+  ASSERT_TRUE(client.watch(job).status.ok());
+  const std::string answer = scrape_until("cellcrush_job_failures_total{cause=\"TIME_LIMIT\"}", 1.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_jobs_ended_total{state=\"FAILED\"}"), 1.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_job_failures_total{cause=\"WORKER_LOST\"}"), 0.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_forecast_ratio_count"), 0.0) << "It did not get to its end.";
+}
+
+TEST_F(MetricsTest, HoldForecastsAgainstActualTimes) {
+  auto client = this->client();
+  const double predicted = [&] {
+    v1::CheckCaseRequest request;
+    *request.mutable_case_() = case_of_seconds();
+    return answer_of(*client.cases, &v1::Cases::Stub::CheckCase, request).predicted_seconds();
+  }();
+  finished_job(case_of_seconds());
+  const std::string answer = scrape_until("cellcrush_forecast_ratio_count", 1.0);
+  EXPECT_NEAR(value_of(answer, "cellcrush_forecast_seconds_total").value_or(0.0), predicted, 0.01 * predicted);
+  const double actual = value_of(answer, "cellcrush_run_seconds_total").value_or(0.0);
+  EXPECT_GT(actual, 0.1);
+  EXPECT_NEAR(value_of(answer, "cellcrush_forecast_ratio_sum").value_or(0.0), predicted / actual,
+              0.01 * predicted / actual);
+}
+
+TEST_F(MetricsTest, CountCallsByMethodAndCode) {
+  auto client = this->client();
+  const std::string job = finished_job(tiny_case());
+  client.history(job);
+  v1::Job unused;
+  EXPECT_FALSE(try_call(*client.jobs, &v1::Jobs::Stub::GetJob, named<v1::GetJobRequest>("jobs/99"), &unused).ok());
+  const std::string answer = scrape_until("cellcrush_calls_total{code=\"NOT_FOUND\",method=\"Jobs/GetJob\"}", 1.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_calls_total{code=\"OK\",method=\"Jobs/CreateJob\"}"), 1.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_calls_total{code=\"OK\",method=\"Jobs/GetHistory\"}"), 1.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_call_seconds_count{method=\"Jobs/CreateJob\"}"), 1.0);
+  EXPECT_GT(value_of(answer, "cellcrush_call_seconds_sum{method=\"Jobs/CreateJob\"}").value_or(0.0), 0.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_call_seconds_count{method=\"Jobs/WatchJob\"}"), std::nullopt);
+
+  grpc::GenericStub generic(client.channel);
+  const auto context = bounded_context();
+  grpc::CompletionQueue queue;
+  const auto call = generic.PrepareUnaryCall(context.get(), "/cellcrush.v1.Jobs/MakeUp", grpc::ByteBuffer(), &queue);
+  call->StartCall();
+  grpc::ByteBuffer bytes;
+  grpc::Status status;
+  call->Finish(&bytes, &status, nullptr);
+  void* tag = nullptr;
+  bool ok = false;
+  queue.Next(&tag, &ok);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNIMPLEMENTED);
+  scrape_until("cellcrush_calls_total{code=\"UNIMPLEMENTED\",method=\"unknown\"}", 1.0);
 }
 
 TEST_F(MetricsTest, AddUpTheJobsOfAllExecutors) {
