@@ -16,7 +16,7 @@
 
 namespace cellcrush {
 
-extern const char* const kSolverRevision;  // written at every build, by server/stamp_revision.cmake
+extern const char* const kVersionText;  // written at every build, by server/stamp_revision.cmake
 
 namespace client {
 
@@ -53,7 +53,7 @@ ExitCode run_command_line(int argc, char** argv) {
       "Simulates the in-plane crushing of honeycombs: submits cases to cellcrushd, follows the jobs and plots the "
       "results.",
       "cellcrush");
-  app.set_version_flag("--version", std::string("cellcrush ") + kSolverRevision);
+  app.set_version_flag("--version", std::string("cellcrush ") + kVersionText);
   app.require_subcommand(1);
   app.footer(kFooter);
   app.formatter(std::make_shared<HelpFormatter>(std::min(terminal_width(), kMostHelpColumns)));

@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
     return "cellcrushd: " + cellcrush::usage_message(*failed, error) + "\n";
   });
   cellcrush::DaemonFlags flags(app);
-  app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
+  app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kVersionText);
   std::string token_name;
   std::string token_scope;
   CLI::App* token = app.add_subcommand("token", "Print a new token and its line for the --tokens file");

@@ -1,6 +1,7 @@
 # Writes OUTPUT, a source file, from revision.cpp.in; leaves it alone when nothing has changed, so that nothing is
 # compiled again.
-#   cmake -DSOURCE=DIR -DOUTPUT=FILE -DVERSION=X.Y.Z -DBUILD=TEXT [-DGIT=PROGRAM] -P stamp_revision.cmake
+#   cmake -DSOURCE=DIR -DOUTPUT=FILE -DVERSION=X.Y.Z -DAPI_VERSION=X.Y.Z -DRESULT_VERSION=X.Y.Z
+#     -DSOLVER_VERSION=X.Y.Z -DBUILD=TEXT [-DGIT=PROGRAM] -P stamp_revision.cmake
 # SOURCE is the top of the tree, BUILD names compiler and flags.
 cmake_minimum_required(VERSION 3.25)
 

@@ -60,6 +60,9 @@ class AdminCalls {
   v1::Capabilities get_capabilities(const Call&, const v1::GetCapabilitiesRequest&) {
     v1::Capabilities out;
     out.set_version(kSolverRevision);
+    out.set_api_version(kApiVersion);
+    out.set_result_version(kResultVersion);
+    out.set_solver_version(kSolverVersion);
     out.set_draining(draining_);
     const jobs::Queues& queues = parts_.queues;
     out.set_default_executor(queues.default_name());

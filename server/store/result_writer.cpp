@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "columns/field_text.h"
+#include "revision.h"
 #include "store/case_hash.h"
 #include "store/durable_file.h"
 #include "store/result_seal.h"
@@ -223,7 +224,9 @@ void ResultWriter::finish(const ResultHeader& header) {
   write_breaks();
   write_identity(header);
   write_attribute(file_.id(), "modelled", as_lines(header.modelled));
+  write_attribute(file_.id(), "format_version", kResultVersion);
   write_attribute(file_.id(), "solver_revision", header.solver_revision);
+  write_attribute(file_.id(), "solver_version", kSolverVersion);
   write_attribute(file_.id(), "simd_target", header.simd_target);
   write_attribute(file_.id(), "device", header.device);
   write_attribute(file_.id(), "threads", static_cast<std::int64_t>(header.threads));

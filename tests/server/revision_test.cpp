@@ -37,9 +37,10 @@ class RevisionTest : public ::testing::Test {
     std::string identity;
   };
   [[nodiscard]] Stamp stamp(const std::string& build = "gcc 12 -O3") const {
-    const std::string command = std::string(CMAKE_PROGRAM) + " -DSOURCE=" + tree().string() +
-                                " -DOUTPUT=" + output().string() + " -DVERSION=1.2.3 '-DBUILD=" + build +
-                                "' -DGIT=git -P " + STAMP_SCRIPT;
+    const std::string command =
+        std::string(CMAKE_PROGRAM) + " -DSOURCE=" + tree().string() + " -DOUTPUT=" + output().string() +
+        " -DVERSION=1.2.3 -DAPI_VERSION=4.5.6 -DRESULT_VERSION=1.1.0 -DSOLVER_VERSION=7.8.9 '-DBUILD=" + build +
+        "' -DGIT=git -P " + STAMP_SCRIPT;
     EXPECT_EQ(std::system(command.c_str()), 0);
     return {value_of("kSolverRevision"), value_of("kSolverIdentity")};
   }
@@ -65,7 +66,7 @@ class RevisionTest : public ::testing::Test {
 TEST_F(RevisionTest, WithoutARepositoryTheHashOfTheSolverIsStampedAllTheSame) {
   const auto first = stamp();
   EXPECT_EQ(first.revision, "1.2.3+unknown");
-  EXPECT_THAT(first.identity, MatchesRegex("1\\.2\\.3\\+core-[0-9a-f]{12}"));
+  EXPECT_THAT(first.identity, MatchesRegex("7\\.8\\.9\\+core-[0-9a-f]{12}"));
   const auto written = std::filesystem::last_write_time(output());
   EXPECT_EQ(stamp().identity, first.identity);
   EXPECT_EQ(std::filesystem::last_write_time(output()), written) << "Nothing is compiled again for nothing.";
