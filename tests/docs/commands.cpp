@@ -71,7 +71,7 @@ bool is_separator(const std::string& word) {
 }
 
 bool is_program(const std::string& word) {
-  static const std::regex kProgram("cellcrushd?|deploy/[a-z-]+");
+  static const std::regex kProgram("cellcrushd?|deploy/([a-z]+/)?[a-z-]+");
   return std::regex_match(word, kProgram);
 }
 

@@ -163,9 +163,8 @@ std::map<std::string, ProgramHelp> read_programs() {
                                               {"cellcrushd", e2e::read_help(CELLCRUSHD_PROGRAM)}};
   const std::filesystem::path root = CELLCRUSH_SOURCE_ROOT;
   programs.at("cellcrushd").commands["worker"] = {};  // hidden from the help: the daemon starts its workers with it
-  for (const char* name :
-       {"quickstart", "test", "lint", "bench", "evidence", "compare-commits", "install-packages", "package",
-        "release"}) {
+  for (const char* name : {"quickstart", "test", "lint", "bench", "evidence", "compare-commits", "install-packages",
+                           "package", "release", "observe/start"}) {
     const std::string script = std::string("deploy/") + name;
     programs[script] = {e2e::options_of(e2e::help_of({(root / script).string()})), {}};
   }
