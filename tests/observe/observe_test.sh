@@ -12,7 +12,7 @@ processes=()
 failures=0
 
 # Metrics of a daemon with what this one lacks: a device, and targets of notices.
-elsewhere=(cellcrush_device_info cellcrush_device_jobs_total cellcrush_notices_total cellcrush_notices_behind)
+elsewhere=(cellcrush_device_info cellcrush_device_runs_total cellcrush_notices_total cellcrush_notices_behind)
 
 finish() {
   for pid in "${processes[@]}"; do kill "$pid" 2>/dev/null || true; done
