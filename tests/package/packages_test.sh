@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the packages twice, the second time as a newer version, and installs, runs, upgrades, downgrades and purges them
 # in a clean Debian 12. Takes root, mmdebstrap and the package sources of this machine. systemd does not run in there:
-# the daemon is started as the unit says, by hand.
+# as_unit.sh starts the daemon as the unit has it.
 #   tests/package/packages_test.sh [FOLDER]   # FOLDER keeps the system for another look
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -33,8 +33,8 @@ start_daemon() {
   local command
   command=$(sed -n 's/^ExecStart=//p' "$system/lib/systemd/system/cellcrushd.service")
   # shellcheck disable=SC2086
-  chroot "$system" setpriv --reuid=cellcrush --regid=cellcrush --clear-groups --no-new-privs \
-    --bounding-set=-all $command >>"$folder/daemon.log" 2>&1 &
+  unshare --mount --ipc --uts --propagation private "$root/tests/package/as_unit.sh" "$system" $command \
+    >>"$folder/daemon.log" 2>&1 &
   daemon=$!
   for ((i = 0; i < 300; ++i)); do
     if client list >/dev/null 2>&1; then return; fi
@@ -71,13 +71,15 @@ mapfile -t new < <(cd "$folder/new" && ls)
 SECONDS=0
 install_packages "${old[@]}"
 echo "ok: installed in $SECONDS s, with what it depends on"
-inside apt-get install -y --no-install-recommends systemd >>"$folder/apt.log" 2>&1
+inside apt-get install -y --no-install-recommends systemd python3-seccomp >>"$folder/apt.log" 2>&1
 inside systemd-analyze security --offline=true --threshold=15 cellcrushd.service | tail -1
 expect "the user" "$(inside id -un cellcrush)" cellcrush
 expect "the checked configuration" \
   "$(inside cellcrushd check-config --config /etc/cellcrush/cellcrushd.toml | head -2 | tr '\n' ';')" \
   "data in /var/lib/cellcrush;gRPC at unix:/run/cellcrush/cellcrushd.sock;"
 start_daemon
+expect "the number of filters of its system calls" \
+  "$(sed -n 's/^Seccomp_filters:[[:space:]]*//p' "/proc/$daemon/status")" 11
 client submit preset:hexagon-small --watch >"$folder/watch.log"
 expect "the first job" "$(state_of jobs/1)" SUCCEEDED
 expect "where it listens" "$(sed -n 's/.* listening on //p; /http:/p' "$folder/daemon.log" | sort -u)" \
