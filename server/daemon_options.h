@@ -15,7 +15,7 @@
 #include "jobs/executor.h"
 #include "jobs/queue_hold.h"
 #include "net/connection_limits.h"
-#include "notices/notice_options.h"
+#include "notices/notice.h"
 #include "watch/watch_times.h"
 
 namespace cellcrush {

@@ -170,16 +170,17 @@ void DaemonFlags::add_monitoring(CLI::App& app) {
   app.add_option("--metrics", options_.metrics,
                  "Loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)")
       ->type_name("ADDR");
-  app.add_option("--audit-log", options_.audit_log,
-                 "File to which every change by a caller and every refused call is appended; SIGHUP opens it again "
-                 "(default: none)")
+  app.add_option(
+         "--audit-log", options_.audit_log,
+         "File to append changes by callers and calls refused for lack of access to; SIGHUP reopens it (default: "
+         "none)")
       ->type_name("FILE");
   app.add_option("--webhook", notices.webhooks,
                  "URL that is told of ended jobs and sweeps and of held queues, in signed messages; may be repeated "
                  "(default: none)")
       ->type_name("URL");
   app.add_option("--webhook-secret", notices.webhook_secret,
-                 "File with the key that signs what --webhook sends, as whsec_BASE64 (default: none)")
+                 "File with the key, whsec_BASE64, that signs all webhooks; required with --webhook (default: none)")
       ->type_name("FILE");
   app.add_option("--notify-command", notices.command,
                  "Program that is run for each of these notices, which it reads as JSON, such as one that sends mail "

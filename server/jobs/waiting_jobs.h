@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "metrics/standing.h"
+#include "metrics/metrics.h"
 #include "store/queued_job.h"
 
 namespace cellcrush::jobs {

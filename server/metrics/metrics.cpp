@@ -1,27 +1,21 @@
 #include "metrics/metrics.h"
 
-#include <prometheus/collectable.h>
 #include <prometheus/counter.h>
 #include <prometheus/exposer.h>
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
-#include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <array>
 #include <exception>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "audit_log.h"
 #include "cellcrush/simd.h"
 #include "error.h"
-#include "log_writer.h"
-#include "metrics/process_facts.h"
+#include "metrics/measured.h"
 #include "mutex.h"
 #include "revision.h"
 
@@ -67,46 +61,6 @@ prometheus::Histogram& histogram(prometheus::Registry& registry, const char* nam
 
 constexpr std::array kNoticeResults = {"delivered", "retried", "dropped"};  // as Metrics::Notice
 
-// With this many series an owner is a person; whoever makes up tokens makes no more.
-constexpr std::size_t kMostOwners = 200;
-
-/// A family of gauges with one label.
-template <class Map, class Value>
-prometheus::MetricFamily labelled(const char* name, const char* help, const char* label, const Map& map,
-                                  const Value& value) {
-  prometheus::MetricFamily out = gauge_family(name, help, 0.0);
-  out.metric.clear();
-  for (const auto& [key, entry] : map) {
-    if (out.metric.size() == kMostOwners) break;
-    auto& metric = out.metric.emplace_back();
-    metric.label = {{label, key}};
-    metric.gauge.value = static_cast<double>(value(entry));
-  }
-  return out;
-}
-
-std::vector<prometheus::MetricFamily> families_of(const Standing& now) {
-  using Owner = Standing::Owner;
-  std::vector<prometheus::MetricFamily> out = {
-      gauge_family("cellcrush_queue_age_seconds",
-                   "Time for which the first waiting job has waited in this daemon; 0 without one.", now.queue_age_s),
-      gauge_family("cellcrush_disk_free_bytes", "Free space on the disk of the data folder.",
-                   static_cast<double>(now.free_disk_bytes)),
-      gauge_family("cellcrush_disk_kept_bytes", "Free space below which no job starts.",
-                   static_cast<double>(now.kept_disk_bytes)),
-      labelled("cellcrush_owner_jobs_waiting", "Waiting jobs of an owner.", "owner", now.owners,
-               [](const Owner& owner) { return owner.waiting; }),
-      labelled("cellcrush_owner_jobs_running", "Running jobs of an owner.", "owner", now.owners,
-               [](const Owner& owner) { return owner.running; }),
-      labelled("cellcrush_owner_disk_bytes", "Journal rows, and results of ended jobs, of an owner.", "owner",
-               now.owners, [](const Owner& owner) { return owner.bytes; }),
-      labelled("cellcrush_notices_behind", "Changes that a receiver of notices has not seen yet.", "target", now.behind,
-               [](std::int64_t changes) { return changes; }),
-  };
-  std::erase_if(out, [](const auto& family) { return family.metric.empty(); });
-  return out;
-}
-
 // A scraper that connects and sends nothing, or a byte now and then, holds one thread for a second. At most 8
 // connections are served, 8 wait in the queue and 16 in the kernel; behind these a scrape waits for 4 s.
 std::vector<std::string> http_options(const ListenAddress& address) {
@@ -131,31 +85,6 @@ void visit_stages(const v1::StageTimes& times, const Visit& visit) {
 }  // namespace
 
 struct Metrics::Impl {
-  // What is read when it is asked for.
-  class Measured final : public prometheus::Collectable {
-   public:
-    [[nodiscard]] std::vector<prometheus::MetricFamily> Collect() const override {
-      auto out = process_families();
-      out.push_back(counter_family("cellcrush_log_lines_lost_total",
-                                   "Lines of the log that came faster than it was read, or were not written.",
-                                   static_cast<double>(LogWriter::lost_lines())));
-      out.push_back(counter_family("cellcrush_audit_lines_lost_total", "Lines of the audit log that were not written.",
-                                   static_cast<double>(AuditLog::lost_lines())));
-      const MutexLock lock(mutex);
-      if (!standing) return out;
-      try {
-        auto more = families_of(standing());
-        std::ranges::move(more, std::back_inserter(out));
-      } catch (const std::exception& error) {
-        spdlog::warn("A scrape lacks the queue, the disk and the owners: {}", error.what());
-      }
-      return out;
-    }
-
-    mutable Mutex mutex;
-    std::function<Standing()> standing CELLCRUSH_GUARDED_BY(mutex);
-  };
-
   Impl() {
     // All are there from the start, at 0.
     add_stages({});
@@ -200,10 +129,12 @@ struct Metrics::Impl {
       counters(*registry, "cellcrush_run_seconds_total",
                "Wall-clock time of runs on this machine that succeeded without interruption.")
           .Add({});
-  prometheus::Counter& forecast_seconds =
-      counters(*registry, "cellcrush_forecast_seconds_total", "Time that was predicted for these runs.").Add({});
+  prometheus::Counter& forecast_seconds = counters(*registry, "cellcrush_forecast_seconds_total",
+                                                   "Predicted time of the runs of cellcrush_run_seconds_total.")
+                                              .Add({});
   prometheus::Histogram& forecast_ratios =
-      histograms(*registry, "cellcrush_forecast_ratio", "Predicted over actual time of each of these runs.")
+      histograms(*registry, "cellcrush_forecast_ratio",
+                 "Predicted over actual time, per run of cellcrush_run_seconds_total.")
           .Add({}, ratios());
   Counters& calls = counters(*registry, "cellcrush_calls_total", "Calls that have ended, by method and code.");
   prometheus::Family<prometheus::Histogram>& call_times =
@@ -297,10 +228,7 @@ void Metrics::count_refused_connection() { impl_->refused.Increment(); }
 
 void Metrics::count_skipped_frames(int frames) { impl_->skipped.Increment(frames); }
 
-void Metrics::ask(std::function<Standing()> standing) {
-  const MutexLock lock(impl_->measured->mutex);
-  impl_->measured->standing = std::move(standing);
-}
+void Metrics::ask(std::function<Standing()> standing) { impl_->measured->ask(std::move(standing)); }
 
 void Metrics::observe_run(double seconds, double predicted_seconds) {
   impl_->run_seconds.Increment(seconds);

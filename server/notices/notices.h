@@ -10,7 +10,7 @@
 #include "metrics/metrics.h"
 #include "mutex.h"
 #include "notices/courier.h"
-#include "notices/notice_options.h"
+#include "notices/notice.h"
 #include "store/journal.h"
 
 namespace cellcrush::notices {

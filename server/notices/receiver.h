@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "notices/notice.h"
-#include "notices/notice_options.h"
 #include "store/journal_reader.h"
 
 namespace cellcrush::notices {

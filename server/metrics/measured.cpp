@@ -1,14 +1,22 @@
-#include "metrics/process_facts.h"
+#include "metrics/measured.h"
 
+#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
+
+#include "audit_log.h"
+#include "log_writer.h"
 
 namespace cellcrush::metrics {
 namespace {
@@ -74,8 +82,6 @@ prometheus::MetricFamily family(const char* name, const char* help, prometheus::
   return {.name = name, .help = help, .type = type, .metric = std::vector<prometheus::ClientMetric>(1)};
 }
 
-}  // namespace
-
 prometheus::MetricFamily gauge_family(const char* name, const char* help, double value) {
   auto out = family(name, help, prometheus::MetricType::Gauge);
   out.metric[0].gauge.value = value;
@@ -88,6 +94,7 @@ prometheus::MetricFamily counter_family(const char* name, const char* help, doub
   return out;
 }
 
+// The metrics of this process that all Prometheus clients have. Leaves out what /proc does not tell.
 std::vector<prometheus::MetricFamily> process_families() {
   std::vector<prometheus::MetricFamily> out;
   if (Stat stat; read_stat(stat)) {
@@ -109,6 +116,71 @@ std::vector<prometheus::MetricFamily> process_families() {
   if (rlimit limit{}; getrlimit(RLIMIT_NOFILE, &limit) == 0)
     out.push_back(gauge_family("process_max_fds", "File descriptors that the daemon may open.",
                                static_cast<double>(limit.rlim_cur)));
+  return out;
+}
+
+// With this many series an owner is a person; whoever makes up tokens makes no more.
+constexpr std::size_t kMostOwners = 200;
+
+/// A family of gauges with one label.
+template <class Map, class Value>
+prometheus::MetricFamily labelled(const char* name, const char* help, const char* label, const Map& map,
+                                  const Value& value) {
+  prometheus::MetricFamily out = gauge_family(name, help, 0.0);
+  out.metric.clear();
+  for (const auto& [key, entry] : map) {
+    if (out.metric.size() == kMostOwners) break;
+    auto& metric = out.metric.emplace_back();
+    metric.label = {{label, key}};
+    metric.gauge.value = static_cast<double>(value(entry));
+  }
+  return out;
+}
+
+std::vector<prometheus::MetricFamily> families_of(const Standing& now) {
+  using Owner = Standing::Owner;
+  std::vector<prometheus::MetricFamily> out = {
+      gauge_family("cellcrush_queue_age_seconds",
+                   "Time for which the first waiting job has waited in this daemon; 0 without one.", now.queue_age_s),
+      gauge_family("cellcrush_disk_free_bytes", "Free space on the disk of the data folder.",
+                   static_cast<double>(now.free_disk_bytes)),
+      gauge_family("cellcrush_disk_kept_bytes", "Free space below which no job starts.",
+                   static_cast<double>(now.kept_disk_bytes)),
+      labelled("cellcrush_owner_jobs_waiting", "Waiting jobs of an owner.", "owner", now.owners,
+               [](const Owner& owner) { return owner.waiting; }),
+      labelled("cellcrush_owner_jobs_running", "Running jobs of an owner.", "owner", now.owners,
+               [](const Owner& owner) { return owner.running; }),
+      labelled("cellcrush_owner_disk_bytes", "Journal rows, and results of ended jobs, of an owner.", "owner",
+               now.owners, [](const Owner& owner) { return owner.bytes; }),
+      labelled("cellcrush_notices_behind", "Changes that a receiver of notices has not seen yet.", "target", now.behind,
+               [](std::int64_t changes) { return changes; }),
+  };
+  std::erase_if(out, [](const auto& family) { return family.metric.empty(); });
+  return out;
+}
+
+}  // namespace
+
+void Measured::ask(std::function<Standing()> standing) {
+  const MutexLock lock(mutex_);
+  standing_ = std::move(standing);
+}
+
+std::vector<prometheus::MetricFamily> Measured::Collect() const {
+  auto out = process_families();
+  out.push_back(counter_family("cellcrush_log_lines_lost_total",
+                               "Lines of the log that came faster than it was read, or were not written.",
+                               static_cast<double>(LogWriter::lost_lines())));
+  out.push_back(counter_family("cellcrush_audit_lines_lost_total", "Lines of the audit log that were not written.",
+                               static_cast<double>(AuditLog::lost_lines())));
+  const MutexLock lock(mutex_);
+  if (!standing_) return out;
+  try {
+    auto more = families_of(standing_());
+    std::ranges::move(more, std::back_inserter(out));
+  } catch (const std::exception& error) {
+    spdlog::warn("A scrape lacks the queue, the disk and the owners: {}", error.what());
+  }
   return out;
 }
 
