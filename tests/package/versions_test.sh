@@ -2,8 +2,8 @@
 # Upgrades a daemon from the version before to this one, back, and again, with data of both, and calls each with the
 # client of the other.
 #   tests/package/versions_test.sh NEW [OLD]   # folders with the programs of this version and of the one before
-# Without OLD it builds the commit before the last one that changed the API, the result file or the solver
-# (tests/server/data/versions.csv).
+# Without OLD it builds the last release, or without one the commit before the last change of the API, the result file
+# or the solver (tests/server/data/versions.csv).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 new=$(cd "$1" && pwd)
@@ -19,9 +19,10 @@ trap finish EXIT
 if [[ -n ${2:-} ]]; then
   old=$(cd "$2" && pwd)
 else
-  before=$(git -C "$root" log -1 --format=%H -- tests/server/data/versions.csv)^
+  before=$(git -C "$root" describe --tags --abbrev=0 --match 'v*' HEAD^ 2>/dev/null ||
+    git -C "$root" log -1 --format=%H^ -- tests/server/data/versions.csv)
   git clone -q "$root" "$folder/source"
-  git -C "$folder/source" checkout -q "$(git -C "$root" rev-parse "$before")"
+  git -C "$folder/source" checkout -q "$(git -C "$root" rev-parse "$before^{commit}")"
   cmake -S "$folder/source" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF \
     >"$folder/build.log"
   cmake --build "$folder/build" --target cellcrushd cellcrush >>"$folder/build.log"
