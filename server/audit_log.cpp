@@ -18,7 +18,7 @@
 namespace cellcrush {
 namespace {
 
-std::atomic<std::int64_t> lost_lines_of_process = 0;
+std::atomic<std::int64_t> lost_audit_lines = 0;
 
 OpenFile open_audit_log(const std::filesystem::path& path) {
   if (path.empty()) return OpenFile();
@@ -48,7 +48,7 @@ AuditLog::AuditLog(std::filesystem::path path) : path_(std::move(path)), file_(o
 
 AuditLog::~AuditLog() { thread_ = {}; }
 
-std::int64_t AuditLog::lost_lines() { return lost_lines_of_process; }
+std::int64_t AuditLog::lost_lines() { return lost_audit_lines; }
 
 void AuditLog::reopen() {
   try {
@@ -66,7 +66,7 @@ void AuditLog::write(const std::string& line) {
   // A line that was written in part ends here.
   const bool written = write_text(file_.get(), failed_ ? "\n" + line : line);
   const int error = errno;
-  if (!written) ++lost_lines_of_process;
+  if (!written) ++lost_audit_lines;
   if (std::exchange(failed_, !written) == !written) return;
   written ? spdlog::info("the audit log is written again")
           : spdlog::error("The audit log {} cannot be written: {}. Calls are still answered.", path_.string(),
