@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
+#include "case_file/case_source.h"
+#include "case_file/typed_number.h"
 #include "commands/commands.h"
 #include "connection/connection.h"
 #include "connection/frames.h"
 #include "plots/job_picture.h"
+#include "results/curve_difference.h"
 #include "results/sweep_results.h"
 #include "terminal/output_file.h"
 #include "terminal/terminal.h"
@@ -18,6 +24,7 @@ namespace cellcrush::client {
 namespace {
 
 constexpr const char* kFrameOptions = "Frames";
+constexpr const char* kTestOptions = "Test";
 
 struct PlotOptions {
   std::vector<std::string> names;
@@ -29,6 +36,9 @@ struct PlotOptions {
   std::string logarithmic;  ///< the letters of the axes
   bool each = false;
   bool series = false;
+  std::vector<std::string> tests;
+  std::string columns;
+  std::string window;
   PrintSize print;
 };
 
@@ -85,6 +95,68 @@ std::string render_jobs(Connection& connection, PictureFormat format, const std:
                       : render_job_picture(format, histories.front(), stages, options.print);
 }
 
+std::string text_of(const std::string& file) {
+  std::ifstream stream;
+  if (const std::string failure = open_failure(file, stream); !failure.empty()) refuse(failure);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The lattice of the job before loading.
+Specimen fetch_specimen(Connection& connection, const v1::Job& job) {
+  v1::CheckCaseRequest request;
+  *request.mutable_case_() = job.case_();
+  const auto check = connection.call(connection.cases(), &v1::Cases::Stub::CheckCase, request);
+  if (check.width_mm() <= 0.0 || check.length_mm() <= 0.0)
+    refuse(job.name() + " has no plates: a test is compared with a lattice between plates");
+  return {check.length_mm(), check.width_mm() * job.case_().depth_mm()};
+}
+
+std::optional<StrainRange> window_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  StrainRange out;
+  const auto comma = text.find(',');
+  if (comma == std::string::npos || !parse_plain(text.substr(0, comma), out.from) ||
+      !parse_plain(text.substr(comma + 1), out.to) || out.from < 0.0 || out.to <= out.from)
+    refuse("plot: --window is \"" + text + "\"; give two nominal strains, the smaller first: --window 0.2,0.4");
+  return out;
+}
+
+// Writes the picture of jobs and tests, and prints how they differ.
+void plot_tests(Session& session, const PlotOptions& options, const std::vector<NamedJob>& jobs) {
+  Connection& connection = session.connection();
+  const auto window = window_of(options.window);
+  std::vector<JobHistory> histories;
+  std::vector<CurveDifference> differences;
+  std::vector<Measurement> measured;
+  for (const NamedJob& job : jobs) {
+    histories.push_back(fetch_drawable_history(connection, job));
+    const Specimen specimen = fetch_specimen(connection, job.job);
+    measured.clear();
+    for (const std::string& file : options.tests)
+      measured.push_back(read_measurement(text_of(file), file, options.columns, specimen));
+    differences.push_back(compare_curves(stress_curve_of(histories.back()), measured, window));
+    if (session.json) {
+      fmt::print("{}\n", difference_json(job.job.name(), differences.back(), measured));
+    } else {
+      fmt::print("{}{} {}", differences.size() > 1 ? "\n" : "", picture_name(job.job),
+                 difference_table(differences.back(), measured));
+    }
+  }
+  const CurveDifference& last = differences.back();
+  TestOverlay test{measured.size() == 1 ? "measured: " + measured.front().name
+                                        : fmt::format("mean and band of {} tests", measured.size()),
+                   last.strain,
+                   last.mean_mpa,
+                   {},
+                   {}};
+  if (measured.size() > 1) {
+    test.least_mpa = last.least_mpa;
+    test.most_mpa = last.most_mpa;
+  }
+  write_file(options.file, render_comparison_picture(picture_format(options.file), histories, options.print, test));
+  if (!session.json) fmt::print("\n{}\n", options.file);
+}
+
 void plot_jobs(Session& session, const PlotOptions& options) {
   const PictureFormat format = picture_format(options.file);
   const auto names = session.find_jobs(options.names);
@@ -94,6 +166,7 @@ void plot_jobs(Session& session, const PlotOptions& options) {
     jobs.push_back({names[i], fetch_job(connection, names[i])});
     if (names_file(options.names[i])) jobs.back().job.set_name(options.names[i]);
   }
+  if (!options.tests.empty()) return plot_tests(session, options, jobs);
   write_file(options.file, render_jobs(connection, format, jobs, options));
   v1::ListJobsResponse printed;
   for (const NamedJob& job : jobs) *printed.add_jobs() = job.job;
@@ -105,6 +178,12 @@ void check_options(const PlotOptions& options) {
   const bool frames = options.strip > 0 || options.frames_only || options.wide || !options.frame_strains.empty();
   if (sweep && !std::all_of(options.names.begin(), options.names.end(), names_sweep)) {
     refuse("plot: jobs and sweeps cannot share a chart; name only jobs or only sweeps");
+  }
+  if (!options.tests.empty() && (sweep || frames)) {
+    refuse("plot: --with compares curves of jobs; leave out sweeps, --strip, --frame-strain, --frames-only and --wide");
+  }
+  if (options.tests.empty() && (!options.columns.empty() || !options.window.empty())) {
+    refuse("plot: --columns and --window apply to --with; give the file of a test");
   }
   if (!options.logarithmic.empty() && !sweep) refuse("plot: --log applies to sweeps only; leave it out");
   if ((options.each || options.series) && !sweep) refuse("plot: --each and --series apply to sweeps only");
@@ -149,6 +228,19 @@ void add_plot_command(CLI::App& app, Session& session) {
   add_option(*command, kFrameOptions, "--strip", options->strip,
              "Show this many frames, evenly spaced over the run (default: the frames of --frame-strain)")
       ->check(CLI::Range(1, 100));
+  add_option(*command, kTestOptions, "--with", options->tests,
+             "Compare with a test: a CSV file whose header names columns and units, of strain or displacement and of "
+             "stress or force (may be repeated: mean and band of several)")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+  add_option(
+      *command, kTestOptions, "--columns", options->columns,
+      "Columns of the test in order with their units, and - for others, such as \"-, displacement mm, force kN\" "
+      "(default: its header)")
+      ->type_name("LIST");
+  add_option(*command, kTestOptions, "--window", options->window,
+             "Nominal strains between which to compare mean stresses (default: 0.2,0.4)")
+      ->type_name("LOW,HIGH");
   add_option(*command, kOutputOptions, "--log", options->logarithmic,
              "Logarithmic axes of a sweep plot: x, y or xy (default: none)")
       ->check(CLI::IsMember({"x", "y", "xy"}));
@@ -175,7 +267,7 @@ void add_plot_command(CLI::App& app, Session& session) {
   add_option(*command, kFrameOptions, "--wide", options->wide,
              "Draw the frames beside the stress curves, as for a slide");
   add_examples(*command,
-               {"cellcrush plot jobs/12 jobs/13 -o compared.svg", "cellcrush plot results/result.h5 -o crush.png",
+               {"cellcrush plot jobs/12 jobs/13 -o compared.svg", "cellcrush plot jobs/12 --with test.csv -o test.svg",
                 "cellcrush plot sweeps/3 sweeps/4 --width 85mm --font 8pt -o sweeps.pdf"});
 }
 

@@ -316,7 +316,7 @@ Chart build_job_chart(const JobHistory& history) {
   return chart;
 }
 
-Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
+Chart build_comparison_chart(const std::vector<JobHistory>& histories, const TestOverlay& test) {
   std::map<std::string, std::vector<const v1::Case*>> cases;  // of each name
   for (const JobHistory& history : histories) cases[comparison_name(history.job)].push_back(&history.job.case_());
   std::vector<Curve> curves;
@@ -341,6 +341,7 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
     top = std::max(top, find_top(histories[i], smooth));
     peak = std::max(peak, highest(raw));
   }
+  for (const double stress : test.mean_mpa) top = std::max(top, 1.05 * stress);
   Chart chart = empty_chart(strain, top, peak);
   for (const Curve& curve : curves) add_overshoot(chart, curve.x, curve.y, curve.style.colour);
   chart.note += "; solid: impact plate, dashed: support plate";
@@ -354,8 +355,19 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
     if (summary.has_valid_to_strain() && summary.valid_to_strain() < last_strain(curves_of(histories[i])))
       chart.marks.push_back({summary.valid_to_strain(), "closed", kSeriesColours[i % kSeriesColours.size()]});
   }
+  if (!test.name.empty()) {
+    for (const auto& edge : {test.least_mpa, test.most_mpa}) {
+      if (!edge.empty()) chart.curves.push_back({test.strain, edge, {kMutedInk, 0.8, {}}, ""});
+    }
+    chart.curves.push_back({test.strain, test.mean_mpa, {kInk, 2.0, {}}, test.name});
+  }
   show_stress(chart);
   return chart;
+}
+
+StressCurve stress_curve_of(const JobHistory& history) {
+  const PlateCurves curves = curves_of(history);
+  return {curves.strain, has_support(history.job) ? curves.support : curves.impact};
 }
 
 Chart build_node_chart(const JobHistory& history) {

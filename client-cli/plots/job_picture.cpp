@@ -193,15 +193,18 @@ std::string render_stages_picture(PictureFormat format, const std::vector<MeshFr
 }
 
 std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories,
-                                      const PrintSize& print) {
+                                      const PrintSize& print, const TestOverlay& test) {
   const Page page(print, kWidth);
   const double chart_height = page.chart_height(1.2 * kChartHeight) + 20.0 * static_cast<double>(histories.size());
   return render_picture(
       format, page.width, page.top + chart_height + page.margin,
       [&](cairo_t* context) {
-        draw_title(context, page, fmt::format("{} jobs compared", histories.size()),
+        const std::string title = histories.size() == 1 ? picture_name(histories.front().job)
+                                                        : fmt::format("{} jobs compared", histories.size());
+        draw_title(context, page, title + (test.name.empty() ? "" : " and a test"),
                    "plate stress against nominal strain");
-        draw_chart(context, {page.margin, page.top, page.inner(), chart_height}, build_comparison_chart(histories));
+        draw_chart(context, {page.margin, page.top, page.inner(), chart_height},
+                   build_comparison_chart(histories, test));
       },
       print);
 }

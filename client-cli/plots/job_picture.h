@@ -30,9 +30,9 @@ std::string render_wide_picture(PictureFormat format, const JobHistory& history,
 std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& stages,
                                   const RigidWalls& rigid_walls = {}, const PrintSize& print = {});
 
-/// The picture of several jobs: their curves over common axes.
+/// The picture of several jobs, or of jobs and tests: their curves over common axes.
 std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories,
-                                      const PrintSize& print = {});
+                                      const PrintSize& print = {}, const TestOverlay& test = {});
 
 /// The picture of one or several sweeps: plateau stress against the varied field, or, for one sweep over two fields and
 /// unless `series`, as a map over both. REQUIRES: at least one sweep.

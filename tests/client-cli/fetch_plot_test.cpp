@@ -316,6 +316,9 @@ TEST(Plot, OptionsThatDoNotGoTogetherAreRefused) {
                                              {"sweeps/1", "test"},
                                              {"test", "--log", "x"},
                                              {"test", "--series"},
+                                             {"test", "--window", "0.1,0.2"},
+                                             {"sweeps/1", "--with", "test.csv"},
+                                             {"test", "--with", "test.csv", "--wide"},
                                              {"test", "--width", "85mm"},
                                              {"test", "--width", "85", "-o", "a.svg"},
                                              {"sweeps/1", "--frames-only"}}) {
@@ -325,6 +328,34 @@ TEST(Plot, OptionsThatDoNotGoTogetherAreRefused) {
     EXPECT_EQ(server.run(arguments).exit_code, 2) << words[0] << words[1];
   }
   EXPECT_FALSE(fs::exists(file));
+}
+
+// The lattice is 100 mm long and 50 mm wide, and its depth 4 mm: 200 N are 1 MPa.
+TEST(Plot, ATestIsComparedWithTheCurveOfAJob) {
+  Script script = finished_script();
+  script.check.set_length_mm(100.0);
+  script.check.set_width_mm(50.0);
+  script.job.mutable_case_()->set_depth_mm(4.0);
+  const FakeServer server(script);
+  const fs::path test = server.folder() / "test.csv";
+  std::ofstream file(test);
+  file << "Weg / mm;Kraft / N\n";
+  for (const v1::Sample& sample : script.samples)
+    file << 100.0 * sample.strain() << ";" << 180.0 * sample.stress_support_mpa() << "\n";
+  file.close();
+  const fs::path picture = server.folder() / "a.svg";
+  const ProgramResult result = server.run({"plot", "test", "--with", test, "-o", picture});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("mean from 0.2 to 0.4, MPa"));
+  EXPECT_THAT(result.output, HasSubstr("+11.1 %")) << "The test has nine tenths of the stress.";
+  EXPECT_THAT(text_of_file(picture), HasSubstr("svg"));
+  const ProgramResult json =
+      server.run({"plot", "test", "--with", test, "--window", "0.1,0.3", "-o", picture, "--json"});
+  EXPECT_THAT(json.output, HasSubstr("\"window_to\":0.3"));
+  const ProgramResult refused = server.run({"plot", "test", "--with", test, "--window", "0.3", "-o", picture});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("--window 0.2,0.4"));
+  EXPECT_EQ(server.run({"plot", "test", "--with", server.folder() / "missing.csv", "-o", picture}).exit_code, 2);
 }
 
 TEST(Plot, AJobWithoutSamplesAndAnUnknownFormatAreRefused) {
