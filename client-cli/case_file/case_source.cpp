@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <iostream>
 #include <utility>
 #include <vector>
@@ -128,6 +129,12 @@ std::string open_failure(const std::string& file, std::ifstream& stream) {
   const int error = errno;
   const std::string message = fmt::format("{}: cannot be read: {}", file, std::strerror(error));
   return error == ENOENT ? with_suggestion(message, find_nearest_file(file)) : message;
+}
+
+std::string read_bytes(const std::string& file) {
+  std::ifstream stream;
+  if (const std::string failure = open_failure(file, stream); !failure.empty()) refuse(failure);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::string preset_name(const std::string& source) {

@@ -35,6 +35,9 @@ std::string preset_name(const std::string& source);
 /// file.
 std::string open_failure(const std::string& file, std::ifstream& stream);
 
+/// The bytes of a file. Throws CommandError (refused) with that reason.
+std::string read_bytes(const std::string& file);
+
 /// Reads a case from protobuf text. Throws CommandError (refused) with all errors found, one per line as
 /// "FILE:LINE:COLUMN: message" (counted from 1), with suggestions for misspelt fields.
 v1::Case parse_text_case(const std::string& text, const std::string& file);

@@ -1,7 +1,5 @@
 #include "case_file/drawn_lattice.h"
 
-#include <fstream>
-#include <iterator>
 
 #include "case_file/case_source.h"
 #include "command_error.h"
@@ -13,11 +11,9 @@ namespace cellcrush::client {
 v1::ImportLatticeResponse read_drawn_lattice(const DrawingOptions& options) {
   v1::ImportLatticeRequest request;
   for (const std::string& name : options.files) {
-    std::ifstream stream;
-    if (const std::string failure = open_failure(name, stream); !failure.empty()) refuse(failure);
     auto& file = *request.add_files();
     file.set_name(name);
-    file.mutable_content()->assign(std::istreambuf_iterator<char>(stream), {});
+    file.set_content(read_bytes(name));
   }
   request.set_unit(options.unit);
   if (options.thickness) request.set_thickness_mm(*options.thickness);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -95,12 +93,6 @@ std::string render_jobs(Connection& connection, PictureFormat format, const std:
                       : render_job_picture(format, histories.front(), stages, options.print);
 }
 
-std::string text_of(const std::string& file) {
-  std::ifstream stream;
-  if (const std::string failure = open_failure(file, stream); !failure.empty()) refuse(failure);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 // The lattice of the job before loading.
 Specimen fetch_specimen(Connection& connection, const v1::Job& job) {
   v1::CheckCaseRequest request;
@@ -133,7 +125,7 @@ void plot_tests(Session& session, const PlotOptions& options, const std::vector<
     const Specimen specimen = fetch_specimen(connection, job.job);
     measured.clear();
     for (const std::string& file : options.tests)
-      measured.push_back(read_measurement(text_of(file), file, options.columns, specimen));
+      measured.push_back(read_measurement(read_bytes(file), file, options.columns, specimen));
     differences.push_back(compare_curves(stress_curve_of(histories.back()), measured, window));
     if (session.json) {
       fmt::print("{}\n", difference_json(job.job.name(), differences.back(), measured));

@@ -16,58 +16,58 @@
 namespace cellcrush::client {
 namespace {
 
-enum class Measured { none, strain, displacement, stress, force };
+enum class TestQuantity { none, strain, displacement, stress, force };
 
-struct MeasuredUnit {
+struct TestUnit {
   std::string_view name;
-  Measured quantity;
+  TestQuantity quantity;
   double factor;  ///< to 1, mm, MPa or N
 };
 
-constexpr std::array kUnits = {MeasuredUnit{"%", Measured::strain, 0.01},
-                               MeasuredUnit{"mm/mm", Measured::strain, 1.0},
-                               MeasuredUnit{"-", Measured::strain, 1.0},
-                               MeasuredUnit{"mm", Measured::displacement, 1.0},
-                               MeasuredUnit{"cm", Measured::displacement, 10.0},
-                               MeasuredUnit{"m", Measured::displacement, 1000.0},
-                               MeasuredUnit{"um", Measured::displacement, 1e-3},
-                               MeasuredUnit{"in", Measured::displacement, 25.4},
-                               MeasuredUnit{"Pa", Measured::stress, 1e-6},
-                               MeasuredUnit{"kPa", Measured::stress, 1e-3},
-                               MeasuredUnit{"MPa", Measured::stress, 1.0},
-                               MeasuredUnit{"GPa", Measured::stress, 1e3},
-                               MeasuredUnit{"N/mm2", Measured::stress, 1.0},
-                               MeasuredUnit{"N/mm^2", Measured::stress, 1.0},
-                               MeasuredUnit{"psi", Measured::stress, 0.00689475729},
-                               MeasuredUnit{"N", Measured::force, 1.0},
-                               MeasuredUnit{"kN", Measured::force, 1000.0},
-                               MeasuredUnit{"mN", Measured::force, 1e-3},
-                               MeasuredUnit{"lbf", Measured::force, 4.4482216153}};
+constexpr std::array kUnits = {TestUnit{"%", TestQuantity::strain, 0.01},
+                               TestUnit{"mm/mm", TestQuantity::strain, 1.0},
+                               TestUnit{"-", TestQuantity::strain, 1.0},
+                               TestUnit{"mm", TestQuantity::displacement, 1.0},
+                               TestUnit{"cm", TestQuantity::displacement, 10.0},
+                               TestUnit{"m", TestQuantity::displacement, 1000.0},
+                               TestUnit{"um", TestQuantity::displacement, 1e-3},
+                               TestUnit{"in", TestQuantity::displacement, 25.4},
+                               TestUnit{"Pa", TestQuantity::stress, 1e-6},
+                               TestUnit{"kPa", TestQuantity::stress, 1e-3},
+                               TestUnit{"MPa", TestQuantity::stress, 1.0},
+                               TestUnit{"GPa", TestQuantity::stress, 1e3},
+                               TestUnit{"N/mm2", TestQuantity::stress, 1.0},
+                               TestUnit{"N/mm^2", TestQuantity::stress, 1.0},
+                               TestUnit{"psi", TestQuantity::stress, 0.00689475729},
+                               TestUnit{"N", TestQuantity::force, 1.0},
+                               TestUnit{"kN", TestQuantity::force, 1000.0},
+                               TestUnit{"mN", TestQuantity::force, 1e-3},
+                               TestUnit{"lbf", TestQuantity::force, 4.4482216153}};
 constexpr const char* kKnownUnits = "%, mm/mm, mm, cm, m, um, in, N, mN, kN, lbf, Pa, kPa, MPa, GPa, N/mm2, psi";
 constexpr const char* kRemedy =
     "Name all columns in order with their units, and - for one that does not count: --columns \"displacement mm, force "
     "N\"";
 
 struct TestColumn {
-  Measured quantity = Measured::none;
+  TestQuantity quantity = TestQuantity::none;
   double factor = 1.0;
 };
 
-const char* name_of(Measured quantity) {
+const char* name_of(TestQuantity quantity) {
   switch (quantity) {
-    case Measured::strain: return "strain";
-    case Measured::displacement: return "displacement";
-    case Measured::stress: return "stress";
-    case Measured::force: return "force";
-    case Measured::none: break;
+    case TestQuantity::strain: return "strain";
+    case TestQuantity::displacement: return "displacement";
+    case TestQuantity::stress: return "stress";
+    case TestQuantity::force: return "force";
+    case TestQuantity::none: break;
   }
   return "none";
 }
 
 [[noreturn]] void refuse_file(const std::string& file, const std::string& why) { refuse(file + ": " + why); }
 
-const MeasuredUnit* find_unit(std::string_view text) {
-  const auto found = std::ranges::find(kUnits, text, &MeasuredUnit::name);
+const TestUnit* find_unit(std::string_view text) {
+  const auto found = std::ranges::find(kUnits, text, &TestUnit::name);
   return found == kUnits.end() ? nullptr : &*found;
 }
 
@@ -85,8 +85,8 @@ std::string_view trimmed(std::string_view text) {
 }
 
 // The unit of "Load (kN)", "Load [kN]", "Load / kN", "load_kN" or "load kN"; null without one.
-const MeasuredUnit* unit_in(std::string_view title) {
-  if (const MeasuredUnit* whole = find_unit(title); whole != nullptr && title != "-") return whole;
+const TestUnit* unit_in(std::string_view title) {
+  if (const TestUnit* whole = find_unit(title); whole != nullptr && title != "-") return whole;
   const auto open = title.find_last_of("([");
   if (open != std::string_view::npos) {
     const auto close = title.find_first_of(")]", open);
@@ -96,18 +96,18 @@ const MeasuredUnit* unit_in(std::string_view title) {
   // The sign of "mm/mm" or "N/mm2" is part of the unit.
   for (auto at = title.find_first_of("/_ \t"); at != std::string_view::npos;
        at = title.find_first_of("/_ \t", at + 1)) {
-    if (const MeasuredUnit* unit = find_unit(trimmed(title.substr(at + 1)))) return unit;
+    if (const TestUnit* unit = find_unit(trimmed(title.substr(at + 1)))) return unit;
     if (at == sign) break;
   }
   return nullptr;
 }
 
 TestColumn column_of(std::string_view title) {
-  if (const MeasuredUnit* unit = unit_in(title)) return {unit->quantity, unit->factor};
+  if (const TestUnit* unit = unit_in(title)) return {unit->quantity, unit->factor};
   std::string lower(title);
   std::ranges::transform(lower, lower.begin(), [](unsigned char letter) { return std::tolower(letter); });
   if (lower.find("strain") != std::string::npos && lower.find("rate") == std::string::npos)
-    return {Measured::strain, 1.0};
+    return {TestQuantity::strain, 1.0};
   return {};
 }
 
@@ -170,7 +170,7 @@ TestLayout layout_of(const std::vector<std::string>& titles, const std::vector<T
                      const std::string& file) {
   TestLayout out;
   out.columns = columns;
-  const auto find = [&](Measured one, Measured other) {
+  const auto find = [&](TestQuantity one, TestQuantity other) {
     std::optional<std::size_t> found;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (columns[i].quantity != one && columns[i].quantity != other) continue;
@@ -186,8 +186,8 @@ TestLayout layout_of(const std::vector<std::string>& titles, const std::vector<T
     }
     return *found;
   };
-  out.along = find(Measured::strain, Measured::displacement);
-  out.across = find(Measured::stress, Measured::force);
+  out.along = find(TestQuantity::strain, TestQuantity::displacement);
+  out.across = find(TestQuantity::stress, TestQuantity::force);
   return out;
 }
 
@@ -232,7 +232,7 @@ Measurement read_measurement(const std::string& text, const std::string& file, c
   // Testing machines write a row of units below the titles.
   if (data != lines.end() && !titles.empty() && !std::ranges::any_of(data->cells, is_number)) {
     for (std::size_t i = 0; i < std::min(found.size(), data->cells.size()); ++i) {
-      if (const MeasuredUnit* unit = unit_in(data->cells[i])) found[i] = {unit->quantity, unit->factor};
+      if (const TestUnit* unit = unit_in(data->cells[i])) found[i] = {unit->quantity, unit->factor};
     }
     ++data;
   }
@@ -241,7 +241,7 @@ Measurement read_measurement(const std::string& text, const std::string& file, c
     found.clear();
     for (const auto& title : titles) {
       found.push_back(title == "-" ? TestColumn() : column_of(title));
-      if (title != "-" && found.back().quantity == Measured::none)
+      if (title != "-" && found.back().quantity == TestQuantity::none)
         refuse_file(file, fmt::format("--columns has \"{}\" without a unit that is known ({}). {}", title, kKnownUnits,
                                       kRemedy));
     }
@@ -257,8 +257,8 @@ Measurement read_measurement(const std::string& text, const std::string& file, c
   if (strain.size() < 3) refuse_file(file, fmt::format("has {} rows of numbers; a curve needs 3", strain.size()));
   make_positive(strain);
   make_positive(stress);
-  const bool is_displacement = layout.columns[layout.along].quantity == Measured::displacement;
-  const bool is_force = layout.columns[layout.across].quantity == Measured::force;
+  const bool is_displacement = layout.columns[layout.along].quantity == TestQuantity::displacement;
+  const bool is_force = layout.columns[layout.across].quantity == TestQuantity::force;
   Measurement out{file, {}};
   for (std::size_t i = 0; i < strain.size(); ++i) {
     const double now = is_displacement ? strain[i] / specimen.length_mm : strain[i];

@@ -48,7 +48,7 @@ class Courier {
   using Clock = std::chrono::steady_clock;
 
   void work(const std::stop_token& stop);
-  /// Sends what there is. Throws ServiceError if the journal cannot be read.
+  /// Sends all notices that the receiver has not seen. Throws ServiceError if the journal cannot be read.
   void send_all(const std::stop_token& stop);
   /// Returns once it is taken or given up; false if a stop is requested first.
   bool send(const Notice& notice, const std::stop_token& stop);

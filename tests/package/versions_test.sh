@@ -46,6 +46,12 @@ stop() {
   wait "$daemon"
   daemon=
 }
+# Stops the daemon once a job has a checkpoint, which comes every second.
+stop_amid() {  # stop_amid PROGRAMS JOB
+  until [[ $("$1/cellcrush" show "$2" --json | jq '.progress.step // 0 | tonumber') -gt 0 ]]; do sleep 0.2; done
+  sleep 1.5
+  stop
+}
 expect() {  # expect WHAT IS WANTED
   [[ $2 == "$3" ]] || { echo "$1 is \"$2\", not \"$3\""; tail -20 "$folder/daemon.log"; exit 1; }
   echo "ok: $1 is $2"
@@ -72,9 +78,7 @@ sweep=$(sweep_of "$new")
 table=$(table_of "$old" "$sweep")
 running=$("$old/cellcrush" submit preset:papka-kyriakides-1 --json | jq -r .name)
 waiting=$("$old/cellcrush" submit preset:hexagon-small --json | jq -r .name)
-until [[ $("$old/cellcrush" show "$running" --json | jq '.progress.step // 0 | tonumber') -gt 0 ]]; do sleep 0.2; done
-sleep 1.5
-stop
+stop_amid "$old" "$running"
 
 "$old/cellcrushd" backup "$folder/of-old" --data "$folder/data" >/dev/null
 start "$new"
@@ -93,9 +97,7 @@ second=$("$new/cellcrush" submit preset:hexagon-small --set loading.speed_m_per_
 of_second=$(digest "$new" "$second")
 expect "the new job as the old client reads it" "$(digest "$old" "$second")" "$of_second"
 later=$("$new/cellcrush" submit preset:papka-kyriakides-1 --json | jq -r .name)
-until [[ $("$new/cellcrush" show "$later" --json | jq '.progress.step // 0 | tonumber') -gt 0 ]]; do sleep 0.2; done
-sleep 1.5
-stop
+stop_amid "$new" "$later"
 
 "$new/cellcrushd" backup "$folder/of-new" --data "$folder/data" >/dev/null
 start "$old"
