@@ -117,14 +117,16 @@ double lightest_mass_of(const Scene& scene) {
 }  // namespace
 
 Material material_of(const MaterialSpec& spec) {
-  const bool held = spec.plane == MaterialSpec::Plane::strain;
-  const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
+  using Plane = MaterialSpec::Plane;
+  const bool held = spec.plane != Plane::stress;
+  const double elastic = spec.plane == Plane::strain ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
   const double flowing = held ? kHeldFlow : 1.0;
   Material material = {elastic * *spec.youngs_modulus_mpa,
                        flowing * *spec.yield_stress_mpa,
                        spec,
                        *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3,
                        held,
+                       spec.plane == Plane::strip,
                        {},
                        {}};
   if (held) {

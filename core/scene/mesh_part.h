@@ -12,8 +12,8 @@
 namespace cellcrush {
 
 /// The material of a spec in the plane of its lattice, as seen by a fibre along the wall. In plane strain the wall is
-/// held across (E6b): the elastic modulus is E / (1 - nu^2). In plastic flow, the stress along the wall is 2 / sqrt 3
-/// of the effective stress, and its strain sqrt 3 / 2 of the effective strain.
+/// held across (E6b): the elastic modulus is E / (1 - nu^2). In plastic flow, of a strip too, the stress along the wall
+/// is 2 / sqrt 3 of the effective stress, and its strain sqrt 3 / 2 of the effective strain.
 Material material_of(const MaterialSpec& spec);
 
 /// That of the spec, then those of its walls, in their order.

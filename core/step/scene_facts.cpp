@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "beam/element_place.h"
@@ -141,6 +142,53 @@ std::string step_text(const Scene& scene) {
   return "limited by contacts of walls stacked along the crush direction, which oscillate and would create energy.";
 }
 
+/// Depth of the walls over the mean of their thickness, and of their length. Walls in a chain count as one.
+struct WallDepth {
+  double over_thickness = 0.0;
+  double over_length = 0.0;
+};
+
+WallDepth depth_of(const Scene& scene) {
+  const Walls& walls = scene.walls;
+  double thickness = 0.0;
+  double length = 0.0;
+  for (const WallBlock& block : walls.blocks) {
+    for (int wall = block.first_wall; wall < block.first_wall + block.walls; ++wall) {
+      thickness += walls.thickness[wall];
+      length += block.elements * walls.undeformed_length[wall];
+    }
+  }
+  auto chains = static_cast<double>(walls.thickness.size());
+  for (int joint = 0; joint < scene.joint_count; ++joint) {
+    if (scene.wall_end_offset[joint + 1] - scene.wall_end_offset[joint] == 2) chains -= 1.0;
+  }
+  return {scene.depth * static_cast<double>(walls.thickness.size()) / thickness,
+          scene.depth * std::max(chains, 1.0) / length};
+}
+
+/// How walls contract along their depth, and what their shape asks for (E6b): hinges are one to two thicknesses long.
+std::string plane_text(const Scene& scene) {
+  const Material& material = scene.materials.front();
+  const std::string given = !material.plane_strain ? "PLANE_STRESS" : material.strip ? "STRIP" : "PLANE_STRAIN";
+  std::string text = "Plane: walls " +
+                     std::string(!material.plane_strain ? "can contract along the depth"
+                                 : material.strip       ? "bend elastically in plane stress and flow in plane strain"
+                                                        : "cannot contract along the depth") +
+                     " (material.plane " + given + ").";
+  if (scene.walls.thickness.empty()) return text;
+  const WallDepth depth = depth_of(scene);
+  const bool wide = depth.over_thickness > 2.0;
+  const std::string fitting = !wide ? "PLANE_STRESS" : depth.over_length < 1.0 ? "STRIP" : "PLANE_STRAIN";
+  if (given == fitting) return text;
+  text += " They are " + to_text(std::round(10.0 * depth.over_thickness) / 10.0) + " times as deep as thick";
+  if (wide) text += " and " + to_text(std::round(100.0 * depth.over_length) / 100.0) + " times as deep as long";
+  const std::string plane = " (" + fitting + ").";
+  if (!wide) return text + ": real ones flow in plane stress" + plane;
+  if (!material.plane_strain)
+    return text + ": real ones flow in plane strain, at up to 1.15 times the yield stress" + plane;
+  return text + ": real ones bend elastically in plane " + (material.strip ? "strain, too" : "stress") + plane;
+}
+
 /// What is modelled and what is left out, one sentence each.
 std::vector<std::string> what_is_modelled(const Scene& scene) {
   std::vector<std::string> lines = {walls_text(scene), fibres_text(scene)};
@@ -157,10 +205,10 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
       scene.constant_area
           ? "Cross-section: walls keep their cross-sectional area; strains are taken over undeformed lengths."
           : "Cross-section: walls that shorten by plastic flow keep their volume and grow thicker, in " +
-                std::string(scene.materials.front().plane_strain ? "the plane (plane strain)."
-                                                                 : "the plane and in depth alike (plane stress).") +
+                std::string(scene.materials.front().plane_strain ? "the plane." : "the plane and in depth alike.") +
                 std::string(scene.can_break() ? " Walls that are stretched keep their area."
                                               : " Walls that are stretched keep their area and do not neck."));
+  lines.push_back(plane_text(scene));
   for (const Pusher* pusher : pushers()) {
     pusher->describe(scene, lines);
   }

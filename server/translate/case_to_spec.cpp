@@ -66,7 +66,7 @@ constexpr bool ends_alike(Wire greatest, Wire last, Out place, Out first = Out()
 using Precision = NumericsSpec::FibrePrecision;
 static_assert(ends_alike(v1::Lattice::Inclusions::Model_MAX, v1::Lattice::Inclusions::MESHED,
                          Inclusions::Model::meshed));
-static_assert(ends_alike(v1::Material::Plane_MAX, v1::Material::PLANE_STRAIN, MaterialSpec::Plane::strain));
+static_assert(ends_alike(v1::Material::Plane_MAX, v1::Material::STRIP, MaterialSpec::Plane::strip));
 static_assert(ends_alike(v1::Section::Formulation_MAX, v1::Section::DISPLACEMENT_BASED,
                          SectionSpec::Formulation::displacement_based));
 static_assert(ends_alike(v1::Section::DepthRule_MAX, v1::Section::LOBATTO, SectionSpec::DepthRule::lobatto));

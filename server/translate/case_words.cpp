@@ -251,7 +251,9 @@ std::string material_text(const v1::Material& material) {
                         law.rate_table.rates_per_s.back());
   }
   text += fmt::format(", {} kg/m3", law.density_kg_per_m3.value_or(0.0));
-  return text + (law.plane == MaterialSpec::Plane::strain ? ", plane strain" : "");
+  return text + (law.plane == MaterialSpec::Plane::strain  ? ", plane strain"
+                 : law.plane == MaterialSpec::Plane::strip ? ", strip"
+                                                           : "");
 }
 
 bool has_plates(const v1::Case& scene) { return scene.loading().has_speed_m_per_s() || scene.loading().quasi_static(); }

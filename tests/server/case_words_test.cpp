@@ -81,6 +81,8 @@ TEST(CaseWords, DescribeRegularLattices) {
        {"walls: 5 mm long, 0.2 mm thick; vertical wall thickness 0.4 mm", "elements per wall: 2",
         "inclusions: stiff cells in rows 3, 6, walls 4 times as thick, rigid", "friction between walls: 0.3",
         "material: E 68000 MPa, yield 130 MPa, hardening 680 MPa, isotropic fraction 0.5, 2700 kg/m3, plane strain"}},
+      {"material { youngs_modulus_mpa: 68000 yield_stress_mpa: 130 density_kg_per_m3: 2700 plane: STRIP }",
+       {"material: E 68000 MPa, yield 130 MPa, 2700 kg/m3, strip"}},
       {"", {}}};
   for (const Row& row : rows) EXPECT_THAT(facts_of(words_of_case(row.text)), IsSupersetOf(row.facts)) << row.text;
 }

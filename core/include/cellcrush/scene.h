@@ -37,7 +37,8 @@ struct Material {
   double yield_stress = 0.0;    ///< MPa
   LawParameters law;            ///< in plane strain, those of the wall (E6b)
   double density = 0.0;         ///< tonne / mm^3
-  bool plane_strain = false;    ///< squashed walls grow in thickness alone, not in depth (E5f)
+  bool plane_strain = false;    ///< in plastic flow: squashed walls grow in thickness alone, not in depth (E5f)
+  bool strip = false;           ///< bends elastically in plane stress all the same (E6b)
   BentLine hardening;           ///< of the table: stress beyond the yield stress over plastic strain, MPa (E6d)
   BentLine rate;                ///< of the table or Johnson and Cook: factor - 1 over ln(ep' s) (E6e)
 };

@@ -38,9 +38,9 @@ struct RegularLattice {
 struct MaterialSpec : LawParameters {
   std::optional<double> youngs_modulus_mpa;
   std::optional<double> yield_stress_mpa;
-  /// Whether a wall can contract along the depth of the lattice (stress) or is held (strain, E6b). Held walls yield at
-  /// 2 / sqrt 3 of the yield stress.
-  enum class Plane { stress, strain };
+  /// Whether a wall can contract along the depth of the lattice (stress), is held (strain), or is held in plastic flow
+  /// alone (strip, E6b). Held walls yield at 2 / sqrt 3 of the yield stress.
+  enum class Plane { stress, strain, strip };
   Plane plane = Plane::stress;
   /// In plane strain it replaces E by E / (1 - nu^2); of walls that shear it gives the shear modulus (E5i). Otherwise
   /// not used.
