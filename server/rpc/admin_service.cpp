@@ -15,6 +15,7 @@
 #include "rpc/services.h"
 #include "store/journal_schema.h"
 #include "store/resource_name.h"
+#include "translate/case_to_spec.h"
 
 namespace cellcrush::rpc {
 namespace {

@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include "compare/compare_test.h"
 #include "error_table.h"
 #include "rpc/export_source.h"
 #include "rpc/job_query.h"
@@ -12,12 +13,18 @@
 #include "store/job_state.h"
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
+#include "translate/case_words.h"
 #include "translate/check_case.h"
 #include "translate/materials.h"
 #include "watch/job_source.h"
 
 namespace cellcrush::rpc {
 namespace {
+
+constexpr int kSamplesAtOnce = 1000;
+
+/// Reading tests of this size takes a tenth of a second.
+constexpr std::size_t kLargeTests = 256 * 1024;
 
 /// The calls of Jobs. Thread-safe. Streams hold no thread, even for slow readers; the pools run all other calls.
 class JobCalls {
@@ -151,6 +158,25 @@ class JobCalls {
     return out;
   }
 
+  v1::CompareTestResponse compare_test(const Call& call, const v1::CompareTestRequest& request) {
+    auto stored = find(request.name());
+    translate::add_words(stored.job);
+    constexpr int kMostTests = 100;
+    if (request.tests_size() > kMostTests)
+      throw InvalidField("tests", "has " + std::to_string(request.tests_size()) + " tests.", "Give at most 100.");
+    for (const auto& test : request.tests()) check_length("tests.name", test.name(), kLongestFilter);
+    check_length("columns", request.columns(), kLongestFilter);
+    check_length("force_part", request.force_part(), kLongestFilter);
+    check_length("displacement_part", request.displacement_part(), kLongestName);
+    compare::TestComparison comparison(request, stored.job, parts_.reader.mesh(stored.number));
+    commit_samples();
+    for (store::StoredSamples page{{}, 0, true}; page.has_more && !call.is_cancelled();) {
+      page = parts_.reader.samples(stored.number, page.last_sequence, {kSamplesAtOnce, kPageBytes});
+      for (const auto& sample : page.samples) comparison.add(sample);
+    }
+    return comparison.result();
+  }
+
   std::unique_ptr<watch::JobSource> watch_job(const v1::WatchJobRequest& request) {
     const std::int64_t job = find(request.name()).number;
     check_epoch(parts_.reader.epoch(), request.epoch());
@@ -244,6 +270,8 @@ void add_jobs_methods(MethodTable& table, const ServiceParts& parts) {
   table.unary("/cellcrush.v1.Jobs/ResumeJob", Scope::submit, &parts.calls, calls, &JobCalls::resume_job);
   table.unary("/cellcrush.v1.Jobs/DeleteJob", Scope::submit, &parts.calls, calls, &JobCalls::delete_job);
   table.unary("/cellcrush.v1.Jobs/GetHistory", Scope::read, &parts.calls, calls, &JobCalls::get_history);
+  table.unary("/cellcrush.v1.Jobs/CompareTest", Scope::read, &parts.checks, calls, &JobCalls::compare_test,
+              [](const v1::CompareTestRequest& request) { return request.ByteSizeLong() > kLargeTests; });
   table.stream("/cellcrush.v1.Jobs/WatchJob", Scope::read, parts.streams, calls, &JobCalls::watch_job);
   table.stream("/cellcrush.v1.Jobs/WatchJobs", Scope::read, parts.streams, calls, &JobCalls::watch_jobs);
   table.stream("/cellcrush.v1.Jobs/StreamFrames", Scope::read, parts.streams, calls, &JobCalls::stream_frames);

@@ -294,6 +294,10 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "CaseWords.Fact.text",
       // Of a drawing to be imported: its bytes, its name with the ending that tells the format, its unit.
       "ImportLatticeRequest.File.content", "ImportLatticeRequest.File.name", "ImportLatticeRequest.unit",
+      // Of a test to be compared: its text and the name for messages; columns; ids of parts, compared with those of the
+      // job.
+      "CompareTestRequest.name", "CompareTestRequest.TestFile.name", "CompareTestRequest.TestFile.text",
+      "CompareTestRequest.columns", "CompareTestRequest.force_part", "CompareTestRequest.displacement_part",
       // Of a case: the name of a material, compared with those that the daemon has.
       "Material.named",
       // Of a case: its title and the ids of a frame and of grips.
