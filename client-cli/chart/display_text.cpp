@@ -142,4 +142,14 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+std::string valid_utf8(std::string_view text) {
+  std::string out;
+  for (std::size_t position = 0; position < text.size();) {
+    const std::size_t size = character_size(text, position);
+    out += size == 0 ? "?" : text.substr(position, size);
+    position += size == 0 ? 1 : size;
+  }
+  return out;
+}
+
 }  // namespace cellcrush::client

@@ -31,4 +31,7 @@ std::string wrapped(std::string_view text, int width, std::string_view first = {
 /// replaced by escapes such as \x1b, so that untrusted text can neither control the terminal nor reorder a line.
 std::string printable(std::string_view text);
 
+/// `text` with ? in place of bytes that are not UTF-8, as those of a file in Latin-1.
+std::string valid_utf8(std::string_view text);
+
 }  // namespace cellcrush::client

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,13 @@
 
 #include "case_file/case_source.h"
 #include "case_file/typed_number.h"
+#include "chart/display_text.h"
 #include "commands/commands.h"
 #include "connection/connection.h"
 #include "connection/frames.h"
 #include "plots/job_picture.h"
-#include "results/curve_difference.h"
 #include "results/sweep_results.h"
+#include "results/test_difference.h"
 #include "terminal/output_file.h"
 #include "terminal/terminal.h"
 
@@ -37,6 +39,9 @@ struct PlotOptions {
   std::vector<std::string> tests;
   std::string columns;
   std::string window;
+  std::optional<double> energy_to;
+  std::string force;         ///< of which part; empty: stress between plates
+  std::string displacement;  ///< of which part; empty: of the same
   PrintSize print;
 };
 
@@ -93,59 +98,71 @@ std::string render_jobs(Connection& connection, PictureFormat format, const std:
                       : render_job_picture(format, histories.front(), stages, options.print);
 }
 
-// The lattice of the job before loading.
-Specimen fetch_specimen(Connection& connection, const v1::Job& job) {
-  v1::CheckCaseRequest request;
-  *request.mutable_case_() = job.case_();
-  const auto check = connection.call(connection.cases(), &v1::Cases::Stub::CheckCase, request);
-  if (check.width_mm() <= 0.0 || check.length_mm() <= 0.0)
-    refuse(job.name() + " has no plates: a test is compared with a lattice between plates");
-  return {check.length_mm(), check.width_mm() * job.case_().depth_mm()};
+void set_window(const std::string& text, v1::CompareTestRequest& request) {
+  if (text.empty()) return;
+  double low = 0.0;
+  double high = 0.0;
+  const auto comma = text.find(',');
+  if (comma == std::string::npos || !parse_plain(text.substr(0, comma), low) ||
+      !parse_plain(text.substr(comma + 1), high) || low < 0.0 || high <= low)
+    refuse("plot: --window is \"" + text +
+           "\"; give two strains or displacements, the smaller first: --window 0.2,0.4");
+  request.set_window_low(low);
+  request.set_window_high(high);
 }
 
-std::optional<StrainRange> window_of(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  StrainRange out;
-  const auto comma = text.find(',');
-  if (comma == std::string::npos || !parse_plain(text.substr(0, comma), out.from) ||
-      !parse_plain(text.substr(comma + 1), out.to) || out.from < 0.0 || out.to <= out.from)
-    refuse("plot: --window is \"" + text + "\"; give two nominal strains, the smaller first: --window 0.2,0.4");
+v1::CompareTestRequest request_of(const PlotOptions& options) {
+  v1::CompareTestRequest request;
+  for (const std::string& file : options.tests) {
+    auto& test = *request.add_tests();
+    test.set_name(valid_utf8(file));
+    test.set_text(valid_utf8(read_bytes(file)));
+  }
+  request.set_columns(options.columns);
+  set_window(options.window, request);
+  if (options.energy_to) request.set_energy_to(*options.energy_to);
+  request.set_force_part(options.force);
+  request.set_displacement_part(options.displacement);
+  return request;
+}
+
+TestOverlay overlay_of(const v1::CompareTestResponse& difference, const std::vector<std::string>& tests) {
+  const auto list = [](const auto& values) { return std::vector<double>(values.begin(), values.end()); };
+  TestOverlay out{"test: " + tests.front(), list(difference.x()), list(difference.measured_mean()), {}, {}};
+  if (tests.size() == 1) return out;
+  out.name = fmt::format("mean and band of {} tests", tests.size());
+  out.least = list(difference.measured_least());
+  out.most = list(difference.measured_most());
   return out;
 }
 
 // Writes the picture of jobs and tests, and prints how they differ.
 void plot_tests(Session& session, const PlotOptions& options, const std::vector<NamedJob>& jobs) {
   Connection& connection = session.connection();
-  const auto window = window_of(options.window);
+  v1::CompareTestRequest request = request_of(options);
   std::vector<JobHistory> histories;
-  std::vector<CurveDifference> differences;
-  std::vector<Measurement> measured;
+  std::vector<v1::Job> compared;
+  std::vector<v1::CompareTestResponse> differences;
   for (const NamedJob& job : jobs) {
-    histories.push_back(fetch_drawable_history(connection, job));
-    const Specimen specimen = fetch_specimen(connection, job.job);
-    measured.clear();
-    for (const std::string& file : options.tests)
-      measured.push_back(read_measurement(read_bytes(file), file, options.columns, specimen));
-    differences.push_back(compare_curves(stress_curve_of(histories.back()), measured, window));
+    request.set_name(job.name);
+    differences.push_back(connection.call(connection.jobs(), &v1::Jobs::Stub::CompareTest, request));
+    compared.push_back(job.job);
     if (session.json) {
-      fmt::print("{}\n", difference_json(job.job.name(), differences.back(), measured));
+      print_json(differences.back());
     } else {
-      fmt::print("{}{} {}", differences.size() > 1 ? "\n" : "", picture_name(job.job),
-                 difference_table(differences.back(), measured));
+      fmt::print("{}{} {}", compared.size() > 1 ? "\n" : "", picture_name(job.job),
+                 difference_table(differences.back(), fmt::format("{}", fmt::join(options.tests, ", "))));
     }
+    if (options.force.empty()) histories.push_back(fetch_drawable_history(connection, job));
   }
-  const CurveDifference& last = differences.back();
-  TestOverlay test{measured.size() == 1 ? "measured: " + measured.front().name
-                                        : fmt::format("mean and band of {} tests", measured.size()),
-                   last.strain,
-                   last.mean_mpa,
-                   {},
-                   {}};
-  if (measured.size() > 1) {
-    test.least_mpa = last.least_mpa;
-    test.most_mpa = last.most_mpa;
-  }
-  write_file(options.file, render_comparison_picture(picture_format(options.file), histories, options.print, test));
+  const PictureFormat format = picture_format(options.file);
+  const TestOverlay test = overlay_of(differences.back(), options.tests);
+  const std::string over =
+      options.displacement.empty() ? "its displacement" : "the displacement of " + options.displacement;
+  write_file(options.file, options.force.empty() ? render_comparison_picture(format, histories, options.print, test)
+                                                 : render_force_picture(format, compared, differences,
+                                                                        "force of " + options.force + " over " + over,
+                                                                        options.print, test));
   if (!session.json) fmt::print("\n{}\n", options.file);
 }
 
@@ -174,8 +191,10 @@ void check_options(const PlotOptions& options) {
   if (!options.tests.empty() && (sweep || frames)) {
     refuse("plot: --with compares curves of jobs; leave out sweeps, --strip, --frame-strain, --frames-only and --wide");
   }
-  if (options.tests.empty() && (!options.columns.empty() || !options.window.empty())) {
-    refuse("plot: --columns and --window apply to --with; give the file of a test");
+  if (options.tests.empty() && (!options.columns.empty() || !options.window.empty() || options.energy_to ||
+                                !options.force.empty() || !options.displacement.empty())) {
+    refuse(
+        "plot: --columns, --window, --energy-to, --force and --displacement apply to --with; give the file of a test");
   }
   if (!options.logarithmic.empty() && !sweep) refuse("plot: --log applies to sweeps only; leave it out");
   if ((options.each || options.series) && !sweep) refuse("plot: --each and --series apply to sweeps only");
@@ -231,8 +250,21 @@ void add_plot_command(CLI::App& app, Session& session) {
       "(default: its header)")
       ->type_name("LIST");
   add_option(*command, kTestOptions, "--window", options->window,
-             "Nominal strains between which to compare mean stresses (default: 0.2,0.4)")
+             "Nominal strains between which to compare mean stresses, or displacements in mm between which to compare "
+             "mean forces (default: 0.2,0.4, or all)")
       ->type_name("LOW,HIGH");
+  add_option(
+      *command, kTestOptions, "--energy-to", options->energy_to,
+      "Nominal strain, or displacement in mm, up to which to compare energies (default: as far as all curves go)")
+      ->type_name("END");
+  add_option(
+      *command, kTestOptions, "--force", options->force,
+      "Compare the force of a rigid wall (its id), or of a grip or a watched node (its id with .x or .y; several "
+      "with +), instead of the stress between plates")
+      ->type_name("PART");
+  add_option(*command, kTestOptions, "--displacement", options->displacement,
+             "Part whose displacement goes with --force (default: the same)")
+      ->type_name("PART");
   add_option(*command, kOutputOptions, "--log", options->logarithmic,
              "Logarithmic axes of a sweep plot: x, y or xy (default: none)")
       ->check(CLI::IsMember({"x", "y", "xy"}));

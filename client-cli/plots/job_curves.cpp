@@ -217,6 +217,14 @@ std::string with_speed(const v1::Job& job, const std::string& title) {
   return name.find(speed) == std::string::npos ? name + ", " + speed : name;
 }
 
+void add_test(const TestOverlay& test, Chart& chart) {
+  if (test.name.empty()) return;
+  for (const auto& edge : {test.least, test.most}) {
+    if (!edge.empty()) chart.curves.push_back({test.x, edge, {kMutedInk, 0.8, {}}, ""});
+  }
+  chart.curves.push_back({test.x, test.mean, {kInk, 2.0, {}}, test.name});
+}
+
 // Without the values that a sweep has appended to the title: what differs stands behind the name.
 std::string comparison_name(const v1::Job& job) { return with_speed(job, base_title(job.case_().title())); }
 
@@ -341,7 +349,7 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories, const Tes
     top = std::max(top, find_top(histories[i], smooth));
     peak = std::max(peak, highest(raw));
   }
-  for (const double stress : test.mean_mpa) top = std::max(top, 1.05 * stress);
+  for (const double stress : test.mean) top = std::max(top, 1.05 * stress);
   Chart chart = empty_chart(strain, top, peak);
   for (const Curve& curve : curves) add_overshoot(chart, curve.x, curve.y, curve.style.colour);
   chart.note += "; solid: impact plate, dashed: support plate";
@@ -355,19 +363,26 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories, const Tes
     if (summary.has_valid_to_strain() && summary.valid_to_strain() < last_strain(curves_of(histories[i])))
       chart.marks.push_back({summary.valid_to_strain(), "closed", kSeriesColours[i % kSeriesColours.size()]});
   }
-  if (!test.name.empty()) {
-    for (const auto& edge : {test.least_mpa, test.most_mpa}) {
-      if (!edge.empty()) chart.curves.push_back({test.strain, edge, {kMutedInk, 0.8, {}}, ""});
-    }
-    chart.curves.push_back({test.strain, test.mean_mpa, {kInk, 2.0, {}}, test.name});
-  }
+  add_test(test, chart);
   show_stress(chart);
   return chart;
 }
 
-StressCurve stress_curve_of(const JobHistory& history) {
-  const PlateCurves curves = curves_of(history);
-  return {curves.strain, has_support(history.job) ? curves.support : curves.impact};
+Chart build_force_chart(const std::vector<v1::Job>& jobs, const std::vector<v1::CompareTestResponse>& forces,
+                        const TestOverlay& test) {
+  Chart chart;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const auto& force = forces[i];
+    add_curve(chart, {force.x().begin(), force.x().end()}, {force.computed_y().begin(), force.computed_y().end()},
+              comparison_name(jobs[i]));
+  }
+  add_test(test, chart);
+  fit_axes(chart);
+  chart.x.label = "displacement (mm)";
+  const ShownUnit unit = unit_by_size("N", std::max(chart.y.high, -chart.y.low));
+  chart.y.label = fmt::format("force ({})", unit.name);
+  scale_y(chart, unit.factor);
+  return chart;
 }
 
 Chart build_node_chart(const JobHistory& history) {

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "cellcrush/v1/job.pb.h"
+#include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "chart/chart.h"
-#include "results/measurement.h"
 
 namespace cellcrush::client {
 
@@ -22,18 +23,18 @@ Chart build_job_chart(const JobHistory& history);
 /// Tests that are laid over the curves of jobs: their mean, and the band of several.
 struct TestOverlay {
   std::string name;  ///< empty: no test
-  std::vector<double> strain{};
-  std::vector<double> mean_mpa{};
-  std::vector<double> least_mpa{};  ///< empty for one test
-  std::vector<double> most_mpa{};
+  std::vector<double> x{};
+  std::vector<double> mean{};
+  std::vector<double> least{};  ///< empty for one test
+  std::vector<double> most{};
 };
 
 /// The smoothed curves of several jobs, one colour per job: impact plate solid, support plate dashed. A test is black.
 Chart build_comparison_chart(const std::vector<JobHistory>& histories, const TestOverlay& test = {});
 
-/// Strain and stress of a job's samples, up to its greatest strain: at the support, where a test has its load cell, or
-/// at the impact plate of a job without one.
-StressCurve stress_curve_of(const JobHistory& history);
+/// Forces of jobs over a displacement in mm, without smoothing. A test is black.
+Chart build_force_chart(const std::vector<v1::Job>& jobs, const std::vector<v1::CompareTestResponse>& forces,
+                        const TestOverlay& test);
 
 /// A job's label in a picture: its title, or else its name, and its speed.
 std::string picture_name(const v1::Job& job);

@@ -209,6 +209,22 @@ std::string render_comparison_picture(PictureFormat format, const std::vector<Jo
       print);
 }
 
+std::string render_force_picture(PictureFormat format, const std::vector<v1::Job>& jobs,
+                                 const std::vector<v1::CompareTestResponse>& forces, const std::string& subtitle,
+                                 const PrintSize& print, const TestOverlay& test) {
+  const Page page(print, kWidth);
+  const double chart_height = page.chart_height(1.2 * kChartHeight) + 20.0 * static_cast<double>(jobs.size());
+  return render_picture(
+      format, page.width, page.top + chart_height + page.margin,
+      [&](cairo_t* context) {
+        const std::string title =
+            jobs.size() == 1 ? picture_name(jobs.front()) : fmt::format("{} jobs compared", jobs.size());
+        draw_title(context, page, title + " and a test", subtitle);
+        draw_chart(context, {page.margin, page.top, page.inner(), chart_height}, build_force_chart(jobs, forces, test));
+      },
+      print);
+}
+
 std::string render_sweep_picture(PictureFormat format, const std::vector<SweepResults>& sweeps,
                                  const LogarithmicAxes& logarithmic, bool series, const PrintSize& print) {
   const Page page(print, kSweepWidth);

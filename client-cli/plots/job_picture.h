@@ -34,6 +34,11 @@ std::string render_stages_picture(PictureFormat format, const std::vector<MeshFr
 std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories,
                                       const PrintSize& print = {}, const TestOverlay& test = {});
 
+/// Forces of jobs over a displacement, and a test.
+std::string render_force_picture(PictureFormat format, const std::vector<v1::Job>& jobs,
+                                 const std::vector<v1::CompareTestResponse>& forces, const std::string& subtitle,
+                                 const PrintSize& print, const TestOverlay& test);
+
 /// The picture of one or several sweeps: plateau stress against the varied field, or, for one sweep over two fields and
 /// unless `series`, as a map over both. REQUIRES: at least one sweep.
 std::string render_sweep_picture(PictureFormat format, const std::vector<SweepResults>& sweeps,

@@ -156,6 +156,15 @@ class FakeServer::Jobs : public v1::Jobs::Service {
     return grpc::Status::OK;
   }
 
+  grpc::Status CompareTest(grpc::ServerContext*, const v1::CompareTestRequest* request,
+                           v1::CompareTestResponse* response) override {
+    const std::lock_guard lock(shared_.mutex);
+    if (!shared_.script.difference) return {grpc::StatusCode::UNIMPLEMENTED, ""};
+    shared_.asked.compared = *request;
+    *response = *shared_.script.difference;
+    return grpc::Status::OK;
+  }
+
   grpc::Status GetFrame(grpc::ServerContext*, const v1::GetFrameRequest* request,
                         grpc::ServerWriter<v1::GetFrameResponse>* writer) override {
     if (!knows(request->name()) || shared_.script.stages.empty()) return not_found(request->name());

@@ -52,6 +52,7 @@ struct Script {
   SweepScript sweeps;
   std::optional<v1::Queue> queue;  ///< of GetQueue
   std::optional<v1::WhoAmIResponse> who;
+  std::optional<v1::CompareTestResponse> difference;  ///< of CompareTest
 };
 
 /// What the server was asked.
@@ -61,6 +62,7 @@ struct Asked {
   std::vector<std::int64_t> offsets;
   std::vector<std::int64_t> max_bytes;  ///< of ExportJob
   v1::Case checked;
+  v1::CompareTestRequest compared;
   std::vector<v1::ListJobsRequest> lists;
   std::vector<std::string> cancelled;
   std::vector<std::string> deleted;

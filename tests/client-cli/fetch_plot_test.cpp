@@ -330,32 +330,69 @@ TEST(Plot, OptionsThatDoNotGoTogetherAreRefused) {
   EXPECT_FALSE(fs::exists(file));
 }
 
-// The lattice is 100 mm long and 50 mm wide, and its depth 4 mm: 200 N are 1 MPa.
+// Of a test that has nine tenths of the stress.
+v1::CompareTestResponse nine_tenths(bool is_force) {
+  v1::CompareTestResponse out;
+  out.set_is_force(is_force);
+  out.set_to(0.5);
+  out.set_window_low(0.2);
+  out.set_window_high(0.4);
+  out.set_energy_to(0.5);
+  out.mutable_measured()->set_mean(0.9);
+  out.mutable_computed()->set_mean(1.0);
+  out.mutable_measured()->set_energy(0.45);
+  out.mutable_computed()->set_energy(0.5);
+  for (const double at : {0.0, 0.5}) {
+    out.add_x(at);
+    out.add_measured_mean(0.9);
+    out.add_measured_least(0.8);
+    out.add_measured_most(1.0);
+    out.add_computed_y(1.0);
+  }
+  return out;
+}
+
 TEST(Plot, ATestIsComparedWithTheCurveOfAJob) {
   Script script = finished_script();
-  script.check.set_length_mm(100.0);
-  script.check.set_width_mm(50.0);
-  script.job.mutable_case_()->set_depth_mm(4.0);
+  script.difference = nine_tenths(false);
   const FakeServer server(script);
   const fs::path test = server.folder() / "test.csv";
-  std::ofstream file(test);
-  file << "Weg / mm;Kraft / N\n";
-  for (const v1::Sample& sample : script.samples)
-    file << 100.0 * sample.strain() << ";" << 180.0 * sample.stress_support_mpa() << "\n";
-  file.close();
+  std::ofstream(test) << "Weg / mm;Kraft / N\n0;0\n1;2\n2;3\n";
   const fs::path picture = server.folder() / "a.svg";
   const ProgramResult result = server.run({"plot", "test", "--with", test, "-o", picture});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_THAT(result.output, HasSubstr("mean from 0.2 to 0.4, MPa"));
-  EXPECT_THAT(result.output, HasSubstr("+11.1 %")) << "The test has nine tenths of the stress.";
+  EXPECT_THAT(result.output, HasSubstr("elastic slope, MPa                         -         -           -"));
+  EXPECT_THAT(result.output, HasSubstr("mean from 0.2 to 0.4, MPa              0.900      1.00     +11.1 %"));
   EXPECT_THAT(text_of_file(picture), HasSubstr("svg"));
-  const ProgramResult json =
-      server.run({"plot", "test", "--with", test, "--window", "0.1,0.3", "-o", picture, "--json"});
-  EXPECT_THAT(json.output, HasSubstr("\"window_to\":0.3"));
+  EXPECT_THAT(server.asked().compared.tests(0).text(), HasSubstr("Kraft"));
+  const ProgramResult json = server.run(
+      {"plot", "test", "--with", test, "--window", "0.1,0.3", "--energy-to", "0.4", "-o", picture, "--json"});
+  EXPECT_THAT(json.output, HasSubstr("\"window_high\":0.4"));
+  EXPECT_DOUBLE_EQ(server.asked().compared.window_high(), 0.3);
+  EXPECT_DOUBLE_EQ(server.asked().compared.energy_to(), 0.4);
   const ProgramResult refused = server.run({"plot", "test", "--with", test, "--window", "0.3", "-o", picture});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.errors, HasSubstr("--window 0.2,0.4"));
   EXPECT_EQ(server.run({"plot", "test", "--with", server.folder() / "missing.csv", "-o", picture}).exit_code, 2);
+  EXPECT_EQ(server.run({"plot", "test", "--force", "press", "-o", picture}).exit_code, 2);
+}
+
+TEST(Plot, ATestIsComparedWithTheForceOfAPart) {
+  Script script = finished_script();
+  script.difference = nine_tenths(true);
+  const FakeServer server(script);
+  const fs::path test = server.folder() / "test.csv";
+  std::ofstream(test) << "Weg / mm;Kraft / N\n0;0\n1;2\n2;3\n";
+  const fs::path picture = server.folder() / "a.svg";
+  const ProgramResult result = server.run({"plot", "test", "--with", test, "--with", test, "--force", "left.y+right.y",
+                                           "--displacement", "top.y", "-o", picture});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("mean from 0.2 to 0.4 mm, N"));
+  EXPECT_THAT(result.output, HasSubstr("energy to 0.5 mm, mJ"));
+  EXPECT_EQ(server.asked().compared.force_part(), "left.y+right.y");
+  EXPECT_EQ(server.asked().compared.displacement_part(), "top.y");
+  EXPECT_EQ(server.asked().compared.tests_size(), 2);
+  EXPECT_THAT(text_of_file(picture), HasSubstr("svg"));
 }
 
 TEST(Plot, AJobWithoutSamplesAndAnUnknownFormatAreRefused) {

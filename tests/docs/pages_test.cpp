@@ -44,6 +44,7 @@ const std::map<std::string, Circumstances> kCircumstances = {
        {"converge sweeps/3", "converge sweeps/7"}},
       {"cellcrushd --workers 4 > cellcrushd.log 2>&1 &", "cellcrush show preset:hexagon-small > my.txtpb",
        R"(printf 'x1,y1,x2,y2\n0,0,5,5\n5,5,0,9\n' > foam.csv)",
+       R"(printf 'strain,stress MPa\n0,0\n0.1,0.3\n0.5,0.3\n' > test.csv)",
        "for i in 1 2 3 4; do cellcrush sweep my.txtpb --over loading.speed_m_per_s=50,100 --watch; done > log",
        "for i in 9 10 11 12 13; do cellcrush submit my.txtpb --watch; done > log",
        "for o in thin thick; do cellcrush run my.txtpb -o $o; done > log",

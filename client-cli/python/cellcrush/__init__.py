@@ -7,6 +7,7 @@
 2.4
 """
 from cellcrush.arrays import Frames, Mesh
+from cellcrush.comparison import Comparison
 from cellcrush.errors import (CaseError, CrushError, FileError, JobFailed, NotConnected, NotFound, Problem,
                               ServerChanged)
 from cellcrush.job import Job
@@ -16,6 +17,6 @@ from cellcrush.server import Check, Server, connect
 from cellcrush.sweep import Sweep
 from cellcrush.v1.case_pb2 import Case
 
-__all__ = ["Case", "CaseError", "Check", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
+__all__ = ["Case", "CaseError", "Check", "Comparison", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
            "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "ServerChanged", "Sweep", "connect", "open",
            "private_server", "run"]

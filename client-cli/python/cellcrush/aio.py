@@ -11,8 +11,8 @@ from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any, AsyncIterator, Dict, List, Mapping, Optional, Sequence, Union
 
 import cellcrush as _plain
-from cellcrush import (Case, CaseError, Check, CrushError, FileError, Frames, JobFailed, Mesh, NotConnected, NotFound,
-                       Problem, ResultFile, ServerChanged)
+from cellcrush import (Case, CaseError, Check, Comparison, CrushError, FileError, Frames, JobFailed, Mesh, NotConnected,
+                       NotFound, Problem, ResultFile, ServerChanged)
 from cellcrush import server as _server
 from cellcrush import sweep as _sweep
 from cellcrush.aio_job import Job, documented_as, follow
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
 
-__all__ = ["Case", "CaseError", "Check", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
+__all__ = ["Case", "CaseError", "Check", "Comparison", "CrushError", "FileError", "Frames", "Job", "JobFailed", "Mesh",
            "NotConnected", "NotFound", "Problem", "ResultFile", "Server", "ServerChanged", "Sweep", "connect", "open",
            "private_server", "run"]
 

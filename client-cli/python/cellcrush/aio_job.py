@@ -9,6 +9,7 @@ import grpc
 
 from cellcrush import job as _job
 from cellcrush.arrays import Array, Frames, Mesh
+from cellcrush.comparison import Comparison
 from cellcrush.connection import OPTIONS, RECOVERABLE, SILENCE_S, Connection, Patience
 from cellcrush.display import Bar
 from cellcrush.errors import NotConnected
@@ -200,6 +201,12 @@ class Job:
 
     async def download(self, path: PathLike = "result.h5") -> pathlib.Path:
         return await asyncio.to_thread(self.sync.download, path)
+
+    async def compare(self, *tests: PathLike, columns: str = "", window: Optional[Tuple[float, float]] = None,
+                      energy_to: Optional[float] = None, force: str = "", displacement: str = "") -> Comparison:
+        return await asyncio.to_thread(lambda: self.sync.compare(*tests, columns=columns, window=window,
+                                                                 energy_to=energy_to, force=force,
+                                                                 displacement=displacement))
 
     async def write_vtk(self, path: PathLike) -> None:
         await asyncio.to_thread(self.sync.write_vtk, path)

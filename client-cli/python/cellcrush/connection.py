@@ -178,6 +178,10 @@ class Connection:
                     request, timeout=CALL_TIMEOUT_S, metadata=self.metadata)
                 self.keep_epoch(call)
                 return answer
+            except ValueError as error:
+                if "closed channel" not in str(error):
+                    raise
+                raise NotConnected("the private daemon has stopped; call within `with private_server()`") from None
             except grpc.RpcError as error:
                 lost = error.code() in (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED)
                 if not lost or not self._pause(patience):

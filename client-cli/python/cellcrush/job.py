@@ -5,9 +5,10 @@ import pathlib
 import sys
 import zlib
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple
 
 from cellcrush.arrays import Array, Frames, Mesh, Values, breaks_array, frames_from, mesh_from, samples_array
+from cellcrush.comparison import Comparison
 from cellcrush.connection import Connection
 from cellcrush.display import Bar, html_table
 from cellcrush.errors import FileError, JobFailed
@@ -297,6 +298,20 @@ class Job(Results):
                     raise FileError(f"{path}: the file was damaged on its way. Download it again.")
                 request.offset, size = chunk.offset + len(chunk.data), chunk.total_size
         return target
+
+    def compare(self, *tests: PathLike, columns: str = "", window: Optional[Tuple[float, float]] = None,
+                energy_to: Optional[float] = None, force: str = "", displacement: str = "") -> Comparison:
+        """Lays tests over its curve: CSV files whose header, or `columns`, names columns and units. With `force`, a
+        part such as "press" or "grip.y", forces are compared over its displacement, or over that of `displacement`.
+        `window` is that of the mean, `energy_to` the end of the energy."""
+        request = jobs_service_pb2.CompareTestRequest(name=self.name, columns=columns, energy_to=energy_to,
+                                                      force_part=force, displacement_part=displacement)
+        if window is not None:
+            request.window_low, request.window_high = window
+        for test in tests:
+            request.tests.add(name=str(test), text=pathlib.Path(test).read_text(encoding="utf-8", errors="replace"))
+        answer = self._connection.call(self._connection.jobs.CompareTest, request)
+        return Comparison(answer, [str(test) for test in tests])
 
     def live_plot(self, **style: Any) -> "matplotlib.axes.Axes":
         """Draws the curves while the job runs, in a notebook or a window, and returns them at its end."""

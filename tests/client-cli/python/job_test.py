@@ -45,6 +45,31 @@ class Jobs(WithServer):
         self.assertEqual(repr(frames), f"<{len(frames)} frames, strain 0 to 0.5>")
         self.assertEqual([s.strain for s in job.watch()], list(samples["strain"]))
 
+    def test_a_test_is_laid_over_its_curve(self):
+        job = self.crush()
+        samples = job.samples()
+        with tempfile.TemporaryDirectory() as folder:
+            first, second = pathlib.Path(folder, "1.csv"), pathlib.Path(folder, "2.csv")
+            for path, factor in ((first, 0.5), (second, 1.5)):
+                rows = [f"{strain};{factor * stress}" for strain, stress in
+                        zip(samples["strain"], samples["stress_support_mpa"])]
+                path.write_text("\n".join(["strain;stress MPa", *rows]).replace(".", ","))
+            one = job.compare(first, window=(0.1, 0.3), energy_to=0.4)
+            both = job.compare(first, second)
+            awaited = asyncio.run(cellcrush.aio.Job(job).compare(first))
+            with self.assertRaisesRegex(cc.CrushError, "1.csv, which has no column that is stress or force"):
+                job.compare(first, columns="strain, -")
+            with self.assertRaisesRegex(cc.CrushError, 'force_part is "press", but the job has no rigid wall'):
+                job.compare(first, force="press")
+        self.assertAlmostEqual(one.ratio("energy"), 2.0, places=6)
+        self.assertAlmostEqual(one.ratio("mean"), 2.0, places=6)
+        self.assertEqual((one.window, one.energy_to, one.is_force), ((0.1, 0.3), 0.4, False))
+        self.assertAlmostEqual(both.ratio("energy"), 1.0, places=6)
+        np.testing.assert_allclose(both.measured_most, 1.5 * both.computed_y, atol=1e-9)
+        self.assertAlmostEqual(awaited.ratio("energy"), 2.0, places=6)
+        self.assertIn("energy +100.0%", repr(one))
+        self.assertEqual(both.plot().get_ylabel(), "nominal stress (MPa)")
+
     def test_a_note_replaces_only_the_one_that_is_known(self):
         job = self.server.submit(PRESET, SMALL, note="thin").wait()
         other = self.server.get(job.name)
