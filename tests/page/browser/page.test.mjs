@@ -36,6 +36,28 @@ test('a title is text, also when it is a script', async () => {
   assert.equal(await page.locator('img[src=x]').count(), 0);
 });
 
+test('a file dropped on the curves of a job is laid over them', async () => {
+  const { samples } = await daemon.call('Jobs/GetHistory', { name: 'jobs/1', pageSize: 100000 });
+  const rows = samples.map(({ strain = 0, stressSupportMpa = 0 }) => `${100 * strain};${0.5 * stressSupportMpa}`);
+  await page.goto(daemon.url + '/jobs/1');
+  await page.locator('canvas').first().waitFor();
+  const drop = async (text) => {
+    const files = await page.evaluateHandle((content) => {
+      const data = new DataTransfer();
+      data.items.add(new File([content], 'own.csv', { type: 'text/csv' }));
+      return data;
+    }, text);
+    const curves = page.locator('section.card', { hasText: 'Stress and strain' });
+    await curves.dispatchEvent('drop', { dataTransfer: files });
+  };
+  await drop(['Dehnung (%);Spannung (MPa)', ...rows].join('\n').replaceAll('.', ','));
+  const energy = page.getByRole('row', { name: /^energy to/ });
+  await energy.getByText('+100 %').waitFor();
+  await drop('a;b\n1;2\n2;3\n3;4\n');
+  await page.getByText('has no column that is strain or displacement').waitFor();
+  assert.equal(await energy.count(), 0);
+});
+
 test('a sweep over two fields with labels is started from the form', async () => {
   await page.goto(daemon.url + '/new');
   await page.getByLabel('a sweep').check();

@@ -25,6 +25,7 @@ import { addSaving, takeAwayOfPicture } from "../take_away/menus";
 import { brokenWalls } from "./broken_walls";
 import { JobHeader } from "./header";
 import { JobData } from "./job_data";
+import { OwnTest } from "./own_test";
 import { resultsList } from "./results";
 import { urlOf } from "../dom/base";
 
@@ -48,6 +49,7 @@ export class JobPage implements View {
   private readonly below = h("select", { "aria-label": "Measure of the chart", change: () => this.updateCurves() },
     h("option", { value: "" }, "Energy ledger"),
     ...kSampleColumns.map(({ name }) => h("option", { value: name }, wordsOfColumn(name))));
+  private readonly ownTest: OwnTest;
   private readonly waiting = h("p", { class: "picture-note" }, "Loading the frames…");
   private readonly numbers = h("section", { class: "card", hidden: true });
   private readonly facts = h("section", { class: "card", hidden: true });
@@ -70,6 +72,10 @@ export class JobPage implements View {
     this.data = new JobData(name);
     this.store = new JobStore(() => false);
     this.header = new JobHeader(this.store);
+    this.ownTest = new OwnTest(name, () => {
+      const { words } = this.data.job ?? {};
+      return words === undefined || words.plates || words.rigidWallPlates;
+    });
     this.rigidWalls = new RigidWalls(this.data);
     this.frames = new FrameView(this.data.frames, (frame) => this.axis.frame(frame), "The lattice as it is crushed",
                                 (time) => this.rigidWalls.at(time));
@@ -92,6 +98,7 @@ export class JobPage implements View {
     addSaving(this.energy, this.data, "energy");
     replaceChildren(this.element, this.header.element, this.problem, this.warnings,
       this.grid);
+    const curves = h("section", { class: "card" }, this.stress.element, this.energy.element);
     replaceChildren(this.grid,
       h("div", { class: "column" },
         h("section", { class: "card" },
@@ -101,7 +108,11 @@ export class JobPage implements View {
           this.thinned),
         this.numbers, this.facts),
       h("div", { class: "column" },
-        h("section", { class: "card" }, this.stress.element, this.energy.element), this.modelled));
+        curves, this.modelled));
+    if (!isExported) {
+      curves.append(this.ownTest.element);
+      this.ownTest.acceptDrops(curves);
+    }
   }
 
   private listen(): void {
@@ -199,6 +210,7 @@ export class JobPage implements View {
     const closed = closedBands(samples, this.axis, this.summary);
     const withClosed = (data: ChartData): ChartData => ({ ...data, bands: [...data.bands ?? [], ...closed] });
     if (stress) this.stress.setData(withClosed(stress));
+    this.ownTest.offer(samples[0]);
     const { value: column } = this.below;
     this.energy.setTitle(column ? wordsOfColumn(column) : "Energy ledger");
     this.energy.setData(withClosed(column ? sampleChart(samples, this.axis, column)
@@ -285,5 +297,6 @@ export class JobPage implements View {
     this.frames.destroy();
     this.stress.destroy();
     this.energy.destroy();
+    this.ownTest.destroy();
   }
 }

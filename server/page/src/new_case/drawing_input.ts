@@ -1,6 +1,7 @@
 // The lattice of a new case from a drawing: a file that is chosen, or dropped on the page.
 import type { Lattice_Network } from "../../gen/cellcrush/v1/case_pb";
 import { api, errorText } from "../api/clients";
+import { acceptDrops } from "../dom/drops";
 import { h, labelled, replaceChildren, setBanner } from "../dom/element";
 
 const kEndings = ".csv,.json,.dxf,.svg,.inp,.msh";
@@ -33,21 +34,7 @@ export class DrawingInput {
 
   /** Reads files that are dropped on an element. */
   acceptDrops(target: HTMLElement): void {
-    const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
-    target.addEventListener("dragover", (event) => {
-      if (!carriesFiles(event)) return;
-      event.preventDefault();
-      target.classList.add("dropping");
-    });
-    target.addEventListener("dragleave", (event) => {
-      if (!target.contains(event.relatedTarget as Node | null)) target.classList.remove("dropping");
-    });
-    target.addEventListener("drop", (event) => {
-      target.classList.remove("dropping");
-      if (!carriesFiles(event)) return;
-      event.preventDefault();
-      this.take([...event.dataTransfer?.files ?? []]);
-    });
+    acceptDrops(target, (files) => this.take(files));
   }
 
   private take(files: File[]): void {
