@@ -21,7 +21,8 @@ constexpr std::array kPresetNames = {
     "inclusions-0",      "inclusions-2",       "inclusions-6",          "ruan-2003",
     "zheng-2005",        "ajdari-2011-graded", "gibson-1982-reentrant", "struck-block",
     "thrown-block",      "pressure-pulse",     "dropped-weight",        "loaded-and-unloaded",
-    "brittle-lattice",   "tension-test",       "voce-hardening",        "thick-hexagons"};
+    "brittle-lattice",   "tension-test",       "voce-hardening",        "thick-hexagons",
+    "measured-ring"};
 
 // The values of an option, or prefixes if they end in "="; empty: a file.
 std::vector<std::string> words_of(const OptionEntry& option) {

@@ -149,4 +149,42 @@ SceneSpec thick_hexagons() {
   return spec;
 }
 
+SceneSpec measured_ring() {
+  constexpr double kRadius = 47.98;
+  constexpr double kRise = -14.053;  // of a quarter, to its right
+  NetworkWalls ring;
+  ring.joints_mm = {0.0, -kRadius, kRadius, 0.0, 0.0, kRadius, -kRadius, 0.0};
+  ring.walls = {0, 1, 1, 2, 2, 3, 3, 0};
+  ring.rises_mm = {kRise, kRise, kRise, kRise};
+  ring.wall_thickness_mm = 4.04;
+  SceneSpec spec;
+  spec.title = "Aluminium ring between plates";
+  spec.lattice = ring;
+  spec.elements_per_wall = 16;
+  spec.depth_mm = 15.0;
+  spec.material.youngs_modulus_mpa = 64000.0;
+  spec.material.yield_stress_mpa = 90.0;
+  spec.material.density_kg_per_m3 = 2700.0;
+  spec.material.poissons_ratio = 0.3;
+  spec.material.plane = MaterialSpec::Plane::strip;
+  spec.material.hardening_table = {
+      {0.0, 1e-4, 2e-4, 4e-4, 7e-4, 1e-3, 1.5e-3, 2e-3, 3e-3, 5e-3, 8e-3, 0.012, 0.018, 0.025, 0.031, 0.036},
+      {90.0, 93.2, 106.3, 120.4, 130.2, 135.4, 140.4, 143.6, 147.1, 150.7, 154.0, 158.0, 163.4, 168.9, 172.8, 175.3},
+      HardeningTable::Beyond::power_law};
+  LoadsSpec::RigidWall press = wall_at(Edge::top);
+  press.functions = {{"velocity_m_per_s",
+                      {{0.0, 0.0},
+                       {0.01, 0.78122},
+                       {0.06, 0.78122},
+                       {0.065, 0.0},
+                       {0.07, -1.0},
+                       {0.08, -1.0},
+                       {0.085, 0.0}}}};
+  spec.loads.rigid_walls = {wall_at(Edge::bottom), press};
+  spec.loading.end_time_s = 0.1;
+  spec.numerics.mass_damping_per_s = 200.0;
+  spec.output.frame_count = 40;
+  return spec;
+}
+
 }  // namespace cellcrush::scenes

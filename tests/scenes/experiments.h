@@ -22,5 +22,6 @@ SceneSpec brittle_lattice();
 SceneSpec tension_test();
 SceneSpec voce_hardening();
 SceneSpec thick_hexagons();
+SceneSpec measured_ring();
 
 }  // namespace cellcrush::scenes

@@ -139,6 +139,7 @@ std::span<const NamedSpec> presets() {
       {"tension-test", tension_test()},
       {"voce-hardening", voce_hardening()},
       {"thick-hexagons", thick_hexagons()},
+      {"measured-ring", measured_ring()},
   };
   return kPresets;
 }
