@@ -37,7 +37,8 @@ struct Measurement {
 /// commas, lines with # left out. The header, or `columns` in its place, names the columns and their units, as in
 /// "displacement (mm);force (kN)"; a row of units may follow it. One column is strain or displacement, one is stress or
 /// force; others are left out. Compression may be negative. Without a specimen the file has displacement and force;
-/// the force keeps its sign, unless both are negative for the most part. Throws InvalidField, which names file, line and remedy.
+/// the force keeps its sign, unless both are negative for the most part. Throws InvalidField, which names file, line
+/// and remedy.
 Measurement read_measurement(const std::string& text, const std::string& file, const std::string& columns,
                              const std::optional<Specimen>& specimen);
 

@@ -260,7 +260,8 @@ TEST(ForceCurve, OfATestMayBeNegative) {
 
 TEST(ForceCurve, IsComparedInNewtonsAndMillimetres) {
   const LoadCurve press = curve_of("press", "press");
-  const auto test = read_measurement("way mm,load N\n0,0\n-2,15\n-3,22.5\n-6,45\n-12,90\n", "test.csv", "", std::nullopt);
+  const std::string rows = "way mm,load N\n0,0\n-2,15\n-3,22.5\n-6,45\n-12,90\n";
+  const auto test = read_measurement(rows, "test.csv", "", std::nullopt);
   const auto found = compare_curves(CurveKind::force_displacement, press, {test}, {CurveRange{2.0, 4.0}, 8.0});
   EXPECT_NEAR(found.measured.slope.value(), 7.5, 1e-9);
   EXPECT_NEAR(found.computed.slope.value(), 10.0, 1e-9);

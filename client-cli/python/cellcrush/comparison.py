@@ -14,8 +14,8 @@ _Numbers = jobs_service_pb2.CompareTestResponse.Numbers
 
 
 class Comparison:
-    """`measured` and `computed` have `slope`, `peak`, `peak_at`, `mean` and `energy`; `HasField` says whether a curve has
-    a number. Stresses are in MPa over nominal strain, forces in N over displacement in mm."""
+    """`measured` and `computed` have `slope`, `peak`, `peak_at`, `mean` and `energy`; `HasField` says whether a curve
+    has a number. Stresses are in MPa over nominal strain, forces in N over displacement in mm."""
 
     def __init__(self, message: jobs_service_pb2.CompareTestResponse, names: Sequence[str]) -> None:
         self.names = list(names)
