@@ -32,7 +32,7 @@ TEST(Explain, PrintsAFieldWithoutADaemon) {
                   {"  Unit     m/s\n", "  Default  required\n", "  Limits   1e-6 to 1000"});
   expect_parts_in(
       run_program({"explain", "material.plane"}).output,
-      {"  Default  PLANE_STRESS\n", "Values:\n  PLANE_STRESS  Walls are free to contract along the depth.\n"});
+      {"  Default  PLANE_STRESS\n", "Values:\n  PLANE_STRESS  Walls are free to contract along the depth: bars"});
   EXPECT_THAT(run_program({"explain", "loading"}).output,
               HasSubstr("\n  speed_m_per_s       Speed V of the impact plate.\n"));
   EXPECT_THAT(run_program({"explain"}).output,

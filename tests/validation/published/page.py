@@ -105,7 +105,7 @@ def page():
     names = ["Case", "Published", "Assumed", "Published (black) and computed", "Published, computed: difference",
              "Causes of differences", "Run"]
     table = "\n".join([f"| {' | '.join(names)} |", "|---" * len(names) + "|", *rows])
-    files[PAGE] = f"""{(HERE / "head.md").read_text()}
+    files[PAGE] = f"""{(HERE / "head.txt").read_text()}
 <!-- table: cases -->
 
 {table}
