@@ -92,6 +92,21 @@ std::string sweep_subtitle(const SweepResults& results) {
   return fmt::format("{} over {}   ({})", job_count_text(results.sweep.jobs_size()), fields, results.sweep.name());
 }
 
+// One chart of several jobs, titled by the first if there is no other.
+std::string render_jobs_chart(PictureFormat format, const v1::Job& first, std::size_t jobs, bool has_test,
+                              const std::string& subtitle, const Chart& chart, const PrintSize& print) {
+  const Page page(print, kWidth);
+  const double chart_height = page.chart_height(1.2 * kChartHeight) + 20.0 * static_cast<double>(jobs);
+  return render_picture(
+      format, page.width, page.top + chart_height + page.margin,
+      [&](cairo_t* context) {
+        const std::string title = jobs == 1 ? picture_name(first) : fmt::format("{} jobs compared", jobs);
+        draw_title(context, page, title + (has_test ? " and a test" : ""), subtitle);
+        draw_chart(context, {page.margin, page.top, page.inner(), chart_height}, chart);
+      },
+      print);
+}
+
 }  // namespace
 
 LatticeStage lattice_stage(const MeshFrame& frame, const RigidWalls& rigid_walls) {
@@ -194,35 +209,15 @@ std::string render_stages_picture(PictureFormat format, const std::vector<MeshFr
 
 std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories,
                                       const PrintSize& print, const TestOverlay& test) {
-  const Page page(print, kWidth);
-  const double chart_height = page.chart_height(1.2 * kChartHeight) + 20.0 * static_cast<double>(histories.size());
-  return render_picture(
-      format, page.width, page.top + chart_height + page.margin,
-      [&](cairo_t* context) {
-        const std::string title = histories.size() == 1 ? picture_name(histories.front().job)
-                                                        : fmt::format("{} jobs compared", histories.size());
-        draw_title(context, page, title + (test.name.empty() ? "" : " and a test"),
-                   "plate stress against nominal strain");
-        draw_chart(context, {page.margin, page.top, page.inner(), chart_height},
-                   build_comparison_chart(histories, test));
-      },
-      print);
+  return render_jobs_chart(format, histories.front().job, histories.size(), !test.name.empty(),
+                           "plate stress against nominal strain", build_comparison_chart(histories, test), print);
 }
 
 std::string render_force_picture(PictureFormat format, const std::vector<v1::Job>& jobs,
                                  const std::vector<v1::CompareTestResponse>& forces, const std::string& subtitle,
                                  const PrintSize& print, const TestOverlay& test) {
-  const Page page(print, kWidth);
-  const double chart_height = page.chart_height(1.2 * kChartHeight) + 20.0 * static_cast<double>(jobs.size());
-  return render_picture(
-      format, page.width, page.top + chart_height + page.margin,
-      [&](cairo_t* context) {
-        const std::string title =
-            jobs.size() == 1 ? picture_name(jobs.front()) : fmt::format("{} jobs compared", jobs.size());
-        draw_title(context, page, title + " and a test", subtitle);
-        draw_chart(context, {page.margin, page.top, page.inner(), chart_height}, build_force_chart(jobs, forces, test));
-      },
-      print);
+  return render_jobs_chart(format, jobs.front(), jobs.size(), true, subtitle, build_force_chart(jobs, forces, test),
+                           print);
 }
 
 std::string render_sweep_picture(PictureFormat format, const std::vector<SweepResults>& sweeps,
