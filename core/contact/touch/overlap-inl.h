@@ -55,22 +55,24 @@ HWY_INLINE RelativePosition<D> relative_position(const Points<D>& ball, const Po
 
 /// Lanes whose ball is nearer to its segment than their reach (E8, E8a): to its line if the ball is beside it,
 /// otherwise to the nearer end. No division is needed: the squared distance from the line is w.w - (w.u)^2 / u.u.
+/// Round-off decides for pairs that just touch. A lane therefore never depends on the others: threads group them
+/// differently.
 template <class D>
 HWY_INLINE LaneMask<D> overlap(const RelativePosition<D>& at) {
   const Lane<D> zero = 0.0;
   const auto beyond_start = fnma(at.reach, at.reach, at.squared_distance);  // w.w - reach^2
-  const auto beside = (at.foot > zero) & (at.foot < at.squared_length);
-  if (HWY_LIKELY(all(at.taper == zero))) {
-    const auto beyond_end = beyond_start - (at.foot + at.foot) + at.squared_length;
-    const auto near_line = beyond_start * at.squared_length < at.foot * at.foot;
-    return (beyond_start < zero) | (beyond_end < zero) | (beside & near_line);
+  auto beyond_end = beyond_start - (at.foot + at.foot) + at.squared_length;
+  auto beyond_foot = beyond_start;
+  const auto is_even = at.taper == zero;
+  if (HWY_UNLIKELY(!all(is_even))) {
+    const auto reach_at_end = at.reach + at.taper;
+    const auto from_end = at.squared_distance - (at.foot + at.foot) + at.squared_length;
+    const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
+    const auto reach_at_foot = fma(at.taper, share_of_end(share), at.reach);
+    beyond_end = select(is_even, beyond_end, fnma(reach_at_end, reach_at_end, from_end));
+    beyond_foot = select(is_even, beyond_foot, fnma(reach_at_foot, reach_at_foot, at.squared_distance));
   }
-  const auto reach_at_end = at.reach + at.taper;
-  const auto from_end = at.squared_distance - (at.foot + at.foot) + at.squared_length;
-  const auto beyond_end = fnma(reach_at_end, reach_at_end, from_end);
-  const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
-  const auto reach_at_foot = fma(at.taper, share_of_end(share), at.reach);
-  const auto beyond_foot = fnma(reach_at_foot, reach_at_foot, at.squared_distance);
+  const auto beside = (at.foot > zero) & (at.foot < at.squared_length);
   const auto near_line = beyond_foot * at.squared_length < at.foot * at.foot;
   return (beyond_start < zero) | (beyond_end < zero) | (beside & near_line);
 }
