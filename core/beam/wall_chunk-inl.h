@@ -13,6 +13,7 @@
 #include "beam/cross_section-inl.h"
 #include "beam/deformation-inl.h"
 #include "beam/element_response-inl.h"
+#include "beam/end_turns-inl.h"
 #include "cellcrush/state.h"
 #include "parallel/workers.h"
 
@@ -75,6 +76,7 @@ class WallChunk {
         inverse_length_(state.inverse_length.data()),
         shortening_(state.shortening.data()),
         grown_(state),
+        turns_(state),
         wall_force_(state.wall_force.data()),
         wall_moment_(state.wall_moment.data()),
         internal_force_(state.internal_force.data()),
@@ -157,6 +159,7 @@ class WallChunk {
     bool grows = false;
     Real turn_before = 0;
     Real slenderness_before = 0;
+    Slenderness<D> coupled_before = {0, 0};
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
       const std::ptrdiff_t e = row + lane;
@@ -165,9 +168,9 @@ class WallChunk {
                                    ? gather_joint(&scene_.walls.end[wall])
                                    : load_inner(block.first_inner + (row - block.first_element) + lane, !is_paired_on);
       const Real previous_length = Real::load(length_ + e);
-      const Deformation<D> deformation =
-          reverse_motion(end.position - start.position, Points<D>::load(axis_ + e), previous_length,
-                         Real::load(inverse_length_ + e), start.turn, end.turn);
+      const Real previous_inverse = Real::load(inverse_length_ + e);
+      const Deformation<D> deformation = reverse_motion(end.position - start.position, Points<D>::load(axis_ + e),
+                                                        previous_length, previous_inverse, start.turn, end.turn);
       deformation.axis.store(axis_ + e);
       deformation.length.store(length_ + e);
       deformation.inverse_length.store(inverse_length_ + e);
@@ -181,6 +184,21 @@ class WallChunk {
       const Real inverse_strained = section.inverse_strained(shortening);
       const Real slenderness = thickness * inverse_strained;
       (deformation.stretch * inverse_strained).store(strains.membrane);
+      if (HWY_UNLIKELY(turns_.are_coupled())) {
+        const Slenderness<D> coupled = {thickness * previous_inverse, thickness * deformation.inverse_length};
+        (has_pairs(block) && !is_paired_on
+             ? turns_.bend_between(e - walls_of(block), e, deformation.rotation_start - turn_before, coupled_before,
+                                   coupled)
+             : turns_.bend_start(e, deformation.rotation_start, coupled))
+            .store(strains.bend_start);
+        if (!is_paired_on) {
+          turns_.bend_end(e, deformation.rotation_end, coupled).store(strains.bend_end);
+        }
+        start = end;
+        turn_before = deformation.rotation_end;
+        coupled_before = coupled;
+        continue;
+      }
       if (has_pairs(block) && !is_paired_on) {
         // The turn between the two elements, over their mean length: their common node has no rotation.
         const Real turn = deformation.rotation_start - turn_before;
@@ -350,6 +368,11 @@ class WallChunk {
     Real moment;
   };
 
+  /// The areas where bending is coupled: moments over the current length (E5j).
+  HWY_INLINE Areas coupled(const Areas& areas, const CrossSection<D>& section, std::ptrdiff_t element) const {
+    return {areas.axial, section.volume() * Real::load(inverse_length_ + element) * (areas.moment / areas.axial)};
+  }
+
   /// From the sums over the stresses to the forces on the particles (E7). At the common node of a pair the section has
   /// the mean of both.
   HWY_INLINE void put_forces(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
@@ -361,7 +384,8 @@ class WallChunk {
     const int walls = walls_of(block);
     const auto shorten_row = [&](int j) HWY_ATTR {
       const std::ptrdiff_t row = row_of(block, j);
-      return shorten(section, row, lane, walls, inverse_modulus, work);
+      const Areas areas = shorten(section, row, lane, walls, inverse_modulus, work);
+      return HWY_UNLIKELY(turns_.are_coupled()) ? coupled(areas, section, row + lane) : areas;
     };
     Areas own = shorten_row(0);
     Real start_area = own.moment;
@@ -371,10 +395,15 @@ class WallChunk {
       const bool is_paired_on = has_pairs(block) && j % 2 == 0;
       const Areas next = j + 1 < block.elements ? shorten_row(j + 1) : own;
       const Real end_area = is_paired_on ? Real(0.5) * (own.moment + next.moment) : own.moment;
-      const NodalForces<D> forces = nodal_forces(
-          {own.axial * Real::load(sums.axial), section.thickness * start_area * Real::load(sums.moment_start),
-           section.thickness * end_area * Real::load(sums.moment_end)},
-          Real::load(inverse_length_ + row + lane), Points<D>::load(axis_ + row + lane));
+      const Real inverse_length = Real::load(inverse_length_ + row + lane);
+      Real axial = own.axial * Real::load(sums.axial);
+      if (HWY_UNLIKELY(turns_.are_coupled())) {
+        axial -= section.thickness * own.moment * inverse_length *
+                 turns_.work_of(row + lane, Real::load(sums.moment_start), Real::load(sums.moment_end));
+      }
+      const NodalForces<D> forces = nodal_forces({axial, section.thickness * start_area * Real::load(sums.moment_start),
+                                                  section.thickness * end_area * Real::load(sums.moment_end)},
+                                                 inverse_length, Points<D>::load(axis_ + row + lane));
       work = fma(section.volume(), Real::load(sums.plastic_work), work);
       if (j == 0) {
         put_on_joints(ends, forces.force_on_end, -forces.moment_on_start);
@@ -463,6 +492,7 @@ class WallChunk {
   double* const inverse_length_;
   double* const shortening_;
   GrownWalls<D> grown_;
+  const EndTurns<D> turns_;
   Vector2* const wall_force_;
   double* const wall_moment_;
   Vector2* const internal_force_;

@@ -35,6 +35,8 @@ void visit_shared(OnDevice& device, Own& own, const Visit& visit) {
   visit(device.thickening, own.thickening);
   visit(device.thickening_slope, own.thickening_slope);
   visit(device.radius_growth, own.radius_growth);
+  visit(device.start_turn, own.start_turn);
+  visit(device.end_turn, own.end_turn);
   const auto visit_fibres = [&](auto& on, auto& of) {
     visit(on.stress, of.stress);
     visit(on.back_stress, of.back_stress);

@@ -189,6 +189,8 @@ struct State {
   Array<double> thickening;
   Array<double> thickening_slope;
   Array<double> radius_growth;
+  Array<double> start_turn;
+  Array<double> end_turn;
   FibreHistory<double> fibres;
   FibreHistory<float> single_fibres;
   Array<Vector2> wall_force;

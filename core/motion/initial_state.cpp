@@ -1,5 +1,7 @@
 #include "motion/initial_state.h"
 
+#include <cmath>
+
 #include "motion/particle_motion-inl.h"
 #include "motion/rigid_motion.h"
 
@@ -35,6 +37,27 @@ void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
   }
 }
 
+/// Turns of the ends of elements against their axes at the start (E5j): walls that are drawn curved have one tangent at
+/// a node between two elements, and at their ends the curvature beside. REQUIRES: axes are set.
+void place_turns(const Scene& scene, State& state) {
+  state.start_turn.assign(scene.element_count(), 0.0);
+  state.end_turn.assign(scene.element_count(), 0.0);
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (int wall = 0; wall < block.walls; ++wall) {
+      const auto element = [&](int j) { return block.first_element + j * block.walls + wall; };
+      for (int j = 1; j < block.elements; ++j) {
+        const Vector2& before = state.axis[element(j - 1)];
+        const Vector2& after = state.axis[element(j)];
+        const double half = 0.5 * std::atan2(cross(before, after), before.dot(after));
+        state.end_turn[element(j - 1)] = half;
+        state.start_turn[element(j)] = -half;
+      }
+      state.start_turn[element(0)] = -state.end_turn[element(0)];
+      state.end_turn[element(block.elements - 1)] = -state.start_turn[element(block.elements - 1)];
+    }
+  }
+}
+
 }  // namespace
 
 State place_particles(const Scene& scene) {
@@ -65,6 +88,9 @@ State place_particles(const Scene& scene) {
     state.thickening.assign(scene.element_count(), 0.0);
     state.thickening_slope.assign(scene.element_count(), 0.0);
     state.radius_growth.assign(n, 0.0);
+  }
+  if (scene.section.coupled_bending) {
+    place_turns(scene, state);
   }
   scene.single_fibres ? place_fibres(scene, state.single_fibres) : place_fibres(scene, state.fibres);
   state.wall_force.assign(2 * scene.walls.start.size(), Vector2::Zero());

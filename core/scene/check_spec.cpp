@@ -166,6 +166,10 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
     check.add("section.shear_deformation", "true", "does not go with displacement-based elements, which do not shear.",
               "Set section.formulation to FORCE_BASED, or remove it.");
   }
+  if (section.coupled_bending && section.area_rule == SectionSpec::AreaRule::constant_area) {
+    check.add("section.coupled_bending", "true", "does not go with walls of constant area.",
+              "Set section.area_rule to CONSTANT_VOLUME, or remove it.");
+  }
   check.within_limits("section.shear_factor", section.shear_factor, " (shear area over section area)");
 }
 

@@ -142,6 +142,7 @@ SectionRule make_section_rule(const SectionSpec& spec) {
   rule.offset = 0.5 * to_array(through.points);
   rule.depth_weight = 0.5 * to_array(through.weights);
   rule.shear_factor = spec.shear_deformation ? spec.shear_factor : 0.0;
+  rule.coupled_bending = spec.coupled_bending;
   return rule;
 }
 

@@ -34,6 +34,7 @@ std::string walls_text(const Scene& scene) {
               : "Walls: Timoshenko beams of constant section, large rotation, that shear "
                 "elastically with a shear factor of " +
                     to_text(scene.section.shear_factor) + " (the shear force does not lower the plastic moment), ") +
+         (scene.section.coupled_bending ? "bending coupled with stretching, " : "") +
          std::string(scene.section.force_based ? "force-based, " : "displacement-based, ") +
          std::to_string(scene.section.section_count()) + " x " + std::to_string(scene.section.depth_count()) +
          " integration points per element" +

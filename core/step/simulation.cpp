@@ -196,7 +196,7 @@ struct Simulation::Impl {
 namespace {
 
 // Changes with what follows it in a checkpoint.
-constexpr std::uint64_t kCheckpointFormat = 0x63656C6C6372000D;
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C6372000E;
 
 /// Sizes of the lists that equal scenes have alike.
 std::array<std::size_t, 8> shape_of(const State& state) {

@@ -145,6 +145,7 @@ void read_section(const v1::Section& in, SectionSpec& out, Problems& problems) {
   if (in.has_shear_deformation()) out.shear_deformation = in.shear_deformation();
   if (in.has_shear_factor()) out.shear_factor = in.shear_factor();
   if (in.has_rigid_joints()) out.rigid_joints = in.rigid_joints();
+  if (in.has_coupled_bending()) out.coupled_bending = in.coupled_bending();
 }
 
 void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {

@@ -258,6 +258,7 @@ void write_section(const SectionSpec& in, v1::Section& out) {
     out.set_shear_factor(in.shear_factor);
   }
   if (in.rigid_joints) out.set_rigid_joints(true);
+  if (in.coupled_bending) out.set_coupled_bending(true);
 }
 
 void write_numerics(const NumericsSpec& in, v1::Numerics& out) {

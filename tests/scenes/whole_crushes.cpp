@@ -32,6 +32,11 @@ SceneSpec with_shear(SceneSpec spec) {
   return spec;
 }
 
+SceneSpec with_coupled_bending(SceneSpec spec) {
+  spec.section.coupled_bending = true;
+  return spec;
+}
+
 SceneSpec with_a_rigid_row(SceneSpec spec) {
   spec.inclusions.rows = {2};
   return spec;
@@ -62,7 +67,8 @@ std::vector<WholeCrush> whole_crushes() {
           {"one element a wall", with_elements_per_wall(whole_specimen("triangle"), 1)},
           {"five elements a wall", with_elements_per_wall(whole_specimen("hexagon"), 5)},
           {"a rigid row", with_a_rigid_row(whole_specimen("hexagon"))},
-          {"walls that shear", with_shear(whole_specimen("hexagon"))}};
+          {"walls that shear", with_shear(whole_specimen("hexagon"))},
+          {"coupled bending", with_coupled_bending(whole_specimen("hexagon"))}};
 }
 
 }  // namespace cellcrush::scenes

@@ -48,11 +48,12 @@ struct Material {
 struct SectionRule {
   /// True: linear moment along the element (E5b). False: linear curvature (Eq. 27, E5a).
   bool force_based = false;
-  Eigen::ArrayXd along;         ///< P, s of the sections
-  Eigen::ArrayXd along_weight;  ///< P
-  Eigen::ArrayXd offset;        ///< D, y / h of the points; y is the distance from the axis, positive to the left
-  Eigen::ArrayXd depth_weight;  ///< D
-  double shear_factor = 0.0;    ///< kappa of E5i; 0: the walls do not shear
+  Eigen::ArrayXd along;          ///< P, s of the sections
+  Eigen::ArrayXd along_weight;   ///< P
+  Eigen::ArrayXd offset;         ///< D, y / h of the points; y is the distance from the axis, positive to the left
+  Eigen::ArrayXd depth_weight;   ///< D
+  double shear_factor = 0.0;     ///< kappa of E5i; 0: the walls do not shear
+  bool coupled_bending = false;  ///< bending over the current length (E5j)
 
   [[nodiscard]] std::size_t section_count() const { return static_cast<std::size_t>(along.size()); }
   [[nodiscard]] std::size_t depth_count() const { return static_cast<std::size_t>(offset.size()); }

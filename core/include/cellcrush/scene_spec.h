@@ -199,6 +199,9 @@ struct SectionSpec {
   bool shear_deformation = false;
   /// kappa: shear area over section area. 5/6 is that of a parabolic shear stress over a rectangle.
   double shear_factor = 5.0 / 6.0;
+  /// Whether bending is over the current length, so that moments resist a change of length (E5j): for walls that bend
+  /// to a radius below ten times their thickness. Not at constant area.
+  bool coupled_bending = false;
   /// Whether joints have the size of their walls and are rigid (scene/rigid_joints.h). Not of frames.
   bool rigid_joints = false;
 

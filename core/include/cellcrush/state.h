@@ -140,6 +140,8 @@ struct State {
   LaneVector<double> thickening;        ///< E, growth of half the thickness in contact (E5f); empty at constant area
   LaneVector<double> thickening_slope;  ///< E, its derivative by the length; empty at constant area
   LaneVector<double> radius_growth;     ///< N, what the radius of the ball has grown by (E5f); empty at constant area
+  LaneVector<double> start_turn;        ///< E, rad, of the start against the axis (E5j); empty unless they are coupled
+  LaneVector<double> end_turn;          ///< E, rad, of the end
   FibreHistory<double> fibres;          ///< empty where they are in single precision
   FibreHistory<float> single_fibres;    ///< empty where they are in double precision
   /// 2 W, forces of walls on joints, N: for each block, those at the starts of its walls, then at their ends.
@@ -202,11 +204,11 @@ template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
          reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_totals, axis,
-         length, inverse_length, shortening, thickening, thickening_slope, radius_growth, fibres, single_fibres,
-         wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
-         parted, breaks, net_strain, contact_force, contact_moment, friction_force, impact_friction, support_friction,
-         impact_force, support_force, rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, plate_drive,
-         sides, side_force, ledger, derived_steps, derived_tiles] = state;
+         length, inverse_length, shortening, thickening, thickening_slope, radius_growth, start_turn, end_turn, fibres,
+         single_fibres, wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts,
+         crossing_step, parted, breaks, net_strain, contact_force, contact_moment, friction_force, impact_friction,
+         support_friction, impact_force, support_force, rigid_wall_friction, rigid_wall_force, contact_totals,
+         fastest_step, plate_drive, sides, side_force, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, tangent, flow, yielded, section_axial, section_moment, yielding,
@@ -216,7 +218,7 @@ void visit_fields(S& state, Visitor&& visit) {
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
        reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_motion, rigid_wall_totals, axis,
-       length, inverse_length, shortening, thickening, thickening_slope, radius_growth);
+       length, inverse_length, shortening, thickening, thickening_slope, radius_growth, start_turn, end_turn);
   list_fibres(fibres);
   list_fibres(single_fibres);
   list(wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment);

@@ -81,6 +81,15 @@ TEST(CheckSpec, OnlyForceBasedElementsShear) {
   EXPECT_EQ(problems[1].value, "1.2");
 }
 
+TEST(CheckSpec, OnlyWallsOfConstantVolumeCoupleBendingWithStretching) {
+  const Problems problems = problems_with([](SceneSpec& spec) {
+    spec.section.area_rule = SectionSpec::AreaRule::constant_area;
+    spec.section.coupled_bending = true;
+  });
+  ASSERT_THAT(fields_of(problems), ElementsAre("section.coupled_bending"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("CONSTANT_VOLUME"));
+}
+
 TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
   const Problems problems = problems_with([](SceneSpec& spec) {
     scenes::cells_of(spec) = scenes::hexagons(20, 7, 4.0, -0.1);

@@ -50,12 +50,14 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
               Contains(HasSubstr("each stores its back stress and accumulated plastic strain, in double precision")));
 }
 
-TEST(WhatIsModelled, SaysWhetherWallsShear) {
+TEST(WhatIsModelled, SaysWhetherWallsShearAndCoupleBendingWithStretching) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
   EXPECT_THAT(said_of(spec), Contains(HasSubstr("Walls: Euler beams")));
   spec.section.shear_deformation = true;
   EXPECT_THAT(said_of(spec), Contains(HasSubstr("Walls: Timoshenko beams of constant section, large rotation, that "
                                                 "shear elastically with a shear factor of 0.83")));
+  spec.section.coupled_bending = true;
+  EXPECT_THAT(said_of(spec), Contains(HasSubstr("bending coupled with stretching")));
 }
 
 TEST(WhatIsModelled, SaysThatSlowLoadingNeedsDoublePrecision) {

@@ -47,7 +47,7 @@ export function groupsOf(kind: LatticeKind): Group[] {
       (name) => !kMaterial.includes(name)), "hardening_table", "hardening_table.beyond", "rate_table"]) },
     { title: "Mesh and section", isOpen: false, paths: ["numerics.fidelity", "elements_per_wall",
       ...under("section", ["formulation", "axial_points", "depth_points", "depth_rule", "area_rule",
-                        "shear_deformation", "shear_factor"])] },
+                        "shear_deformation", "shear_factor", "coupled_bending"])] },
     { title: "Contact", isOpen: false, paths: under("contact", ["friction", "stiffness_factor", "damping_ratio",
       "search", "impact_speed_m_per_s"]) },
     { title: "Run", isOpen: false, paths: [...under("numerics", ["threads", "time_step_s", "mass_damping_per_s",
