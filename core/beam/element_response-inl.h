@@ -326,7 +326,7 @@ class UnitResponse {
 template <class T>
 struct RowStrains {
   T* membrane;
-  T* bend_start;  ///< h theta_1 / L
+  T* bend_start;  ///< h theta_1 / L; of coupled bending, the change of h Theta_1 / l (E5j)
   T* bend_end;
   T* modulus_share;
 };

@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// h / l of elements, at the start of a step and at its end.
+/// h / l of elements, with l at the start of a step and at its end. h is that at the start in both.
 template <class D>
 struct Slenderness {
   Lane<D> before;
@@ -54,7 +54,7 @@ class EndTurns {
     return bent;
   }
 
-  /// What the moments at the ends take from the axial force, times the length: N mm.
+  /// Of the moments at the ends, in the units of the moments: over the length, what they take from the axial force.
   HWY_INLINE Real work_of(std::ptrdiff_t element, Real moment_start, Real moment_end) const {
     return fma(moment_start, Real::load(start_ + element), moment_end * Real::load(end_ + element));
   }

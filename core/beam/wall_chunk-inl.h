@@ -362,7 +362,8 @@ class WallChunk {
     element.plastic_work.store(sums.plastic_work);
   }
 
-  /// Areas of elements: A, and A times the thickness over that before loading, mm^2.
+  /// Areas of elements, mm^2: A; and for moments A, or V_0 / l of coupled bending, times the thickness over that before
+  /// loading.
   struct Areas {
     Real axial;
     Real moment;

@@ -166,11 +166,19 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
     check.add("section.shear_deformation", "true", "does not go with displacement-based elements, which do not shear.",
               "Set section.formulation to FORCE_BASED, or remove it.");
   }
-  if (section.coupled_bending && section.area_rule == SectionSpec::AreaRule::constant_area) {
+  check.within_limits("section.shear_factor", section.shear_factor, " (shear area over section area)");
+}
+
+void check_coupled_bending(const SceneSpec& spec, FieldChecker& check) {
+  if (!spec.section.coupled_bending) return;
+  if (spec.section.area_rule == SectionSpec::AreaRule::constant_area) {
     check.add("section.coupled_bending", "true", "does not go with walls of constant area.",
               "Set section.area_rule to CONSTANT_VOLUME, or remove it.");
   }
-  check.within_limits("section.shear_factor", section.shear_factor, " (shear area over section area)");
+  if (std::ranges::any_of(material_specs_of(spec), &LawParameters::fails)) {
+    check.add("section.coupled_bending", "true", "does not go with walls that break.",
+              "Leave material.failure_strain out, or remove it.");
+  }
 }
 
 void check_rigid_joints(const SceneSpec& spec, FieldChecker& check) {
@@ -347,6 +355,7 @@ Problems check_spec(const SceneSpec& spec) {
   check.within_limits("elements_per_wall", spec.elements_per_wall);
   check_material("material.", spec.material, check);
   check_section(spec.section, check);
+  check_coupled_bending(spec, check);
   check_rigid_joints(spec, check);
   check.within_limits("contact.friction", spec.contact.friction);
   check.within_limits("contact.stiffness_factor", spec.contact.stiffness_factor);

@@ -81,13 +81,15 @@ TEST(CheckSpec, OnlyForceBasedElementsShear) {
   EXPECT_EQ(problems[1].value, "1.2");
 }
 
-TEST(CheckSpec, OnlyWallsOfConstantVolumeCoupleBendingWithStretching) {
+TEST(CheckSpec, OnlyWallsOfConstantVolumeThatHoldCoupleBendingWithStretching) {
   const Problems problems = problems_with([](SceneSpec& spec) {
     spec.section.area_rule = SectionSpec::AreaRule::constant_area;
     spec.section.coupled_bending = true;
+    spec.material.failure_strain = 0.1;
   });
-  ASSERT_THAT(fields_of(problems), ElementsAre("section.coupled_bending"));
+  ASSERT_THAT(fields_of(problems), ElementsAre("section.coupled_bending", "section.coupled_bending"));
   EXPECT_THAT(problems[0].remedy, HasSubstr("CONSTANT_VOLUME"));
+  EXPECT_THAT(problems[1].remedy, HasSubstr("material.failure_strain"));
 }
 
 TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
