@@ -22,7 +22,7 @@ def ticks(low, high):
 
 def picture(record):
     """Published curves in black, computed ones in colour."""
-    width, height, left, right, bottom = 320, 220, 52, 8, 36
+    width, height, left, right, bottom = 320, 220, 52, 12, 36
     curves = record["curves"]
     labels = list(dict.fromkeys(curve["label"] for curve in curves))
     colours = {label: COLOURS[i % len(COLOURS)] for i, label in enumerate(labels)}

@@ -19,7 +19,8 @@ A case of cases.json:
             over all runs
   shape     what, of (half_width, height, crown), value, mm (the limit): of the last frame
   family    cells that change with a number: along, quantity, unit, case, cells (arguments of cells.py), set, window of
-            strain, stress (a column of history.csv), percent, members (x, value, and what the others name in braces)
+            strain, stress (a column of history.csv), times (a factor on its mean), percent, members (x, value, and
+            what the others name in braces)
 
 curves/NAME.csv: a line `# source`, a header as in `cellcrush plot --with`, then points, the displacement first.
 """
@@ -184,7 +185,7 @@ def run_family(case, programs, folder):
         low, high = family["window"]
         rows = csv.DictReader((result / "history.csv").open())
         stresses = [float(row[family["stress"]]) for row in rows if low <= float(row["strain"]) <= high]
-        values.append(sum(stresses) / len(stresses))
+        values.append(family.get("times", 1.0) * sum(stresses) / len(stresses))
     published = [member["value"] for member in family["members"]]
     ratios = [[value / of[0] for value in of] for of in (published, values)]
     places = [member["x"] for member in family["members"]]
@@ -192,8 +193,9 @@ def run_family(case, programs, folder):
     rows = [family_row(f"{along} {x:g}, over {places[0]:g}", a, b, family["percent"])
             for x, a, b in list(zip(places, *ratios))[1:]]
     first = family_row(f"{quantity} at {along} {places[0]:g}, {family['unit']}", published[0], values[0], None)
-    curve = {"label": "computed", "force": "", "x": places, "published": ratios[0],
-             "computed": [float(f"{value:.5g}") for value in ratios[1]]}
+    x, told, borne = zip(*sorted(zip(places, *ratios)))
+    curve = {"label": "computed", "force": "", "x": x, "published": told,
+             "computed": [float(f"{value:.5g}") for value in borne]}
     return {"name": case["name"], "curves": [curve], "differences": [first, *rows],
             "axes": [along, f"{quantity} over that at {places[0]:g}"]}
 
