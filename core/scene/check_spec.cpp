@@ -150,53 +150,14 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
   }
 }
 
-void check_section(const SectionSpec& section, FieldChecker& check) {
-  const bool force_based = section.formulation == SectionSpec::Formulation::force_based;
-  check.in_range("section.axial_points", section.axial_count(),
-                 force_based ? FieldChecker::Range{3, 5} : FieldChecker::Range{1, 5},
-                 force_based ? " (force-based; displacement-based: 1 to 5)" : "");
-  if (section.depth_rule == SectionSpec::DepthRule::lobatto) {
-    check.in_range("section.depth_points", section.depth_count(), {2, 10});
-  } else if (section.depth_count() != 4 && section.depth_count() != 6 && section.depth_count() != 10) {
-    check.add("section.depth_points", std::to_string(section.depth_count()),
-              "is not available in the full-moment rule.",
-              "Give 4, 6 or 10, or section.depth_rule LOBATTO with 2 to 10.");
-  }
-  if (section.shear_deformation && !force_based) {
-    check.add("section.shear_deformation", "true", "does not go with displacement-based elements, which do not shear.",
-              "Set section.formulation to FORCE_BASED, or remove it.");
-  }
-  check.within_limits("section.shear_factor", section.shear_factor, " (shear area over section area)");
-}
-
-void check_coupled_bending(const SceneSpec& spec, FieldChecker& check) {
-  if (!spec.section.coupled_bending) return;
-  if (spec.section.area_rule == SectionSpec::AreaRule::constant_area) {
-    check.add("section.coupled_bending", "true", "does not go with walls of constant area.",
-              "Set section.area_rule to CONSTANT_VOLUME, or remove it.");
-  }
-  if (std::ranges::any_of(material_specs_of(spec), &LawParameters::fails)) {
-    check.add("section.coupled_bending", "true", "does not go with walls that break.",
-              "Leave material.failure_strain out, or remove it.");
-  }
-}
-
-void check_rigid_joints(const SceneSpec& spec, FieldChecker& check) {
-  if (!spec.section.rigid_joints) return;
-  if (std::holds_alternative<FrameWalls>(spec.lattice)) {
-    check.add("section.rigid_joints", "true", "does not go with a frame, whose beams are listed in pieces.",
-              "Remove it, or list stiff beams at the joints.");
-  }
-  if (spec.loading.sides.kind == LoadingSpec::Sides::Kind::periodic) {
-    check.add("section.rigid_joints", "true", "does not go with sides that repeat.",
-              "Remove it, or set loading.sides.kind to FREE or RIGID.");
-  }
-}
-
 /// A quasi-static crush has the speed, the ramp and the end that the solver chooses, and real masses.
 void check_quasi_static(const SceneSpec& spec, FieldChecker& check) {
   const LoadingSpec& loading = spec.loading;
-  check.within_limits("loading.kinetic_share", loading.kinetic_share);
+  const bool is_sound = check.within_limits("loading.kinetic_share", loading.kinetic_share);
+  if (is_sound && !loading.quasi_static && loading.kinetic_share != LoadingSpec().kinetic_share) {
+    check.add("loading.kinetic_share", to_text(loading.kinetic_share), "is that of a quasi-static crush.",
+              "Set loading.quasi_static, or remove it.");
+  }
   if (!loading.quasi_static) return;
   const auto exclude = [&check](bool is_given, const char* field, double value) {
     if (is_given) {
@@ -277,15 +238,18 @@ void check_loading(const SceneSpec& spec, FieldChecker& check) {
   check_grips(spec, check);
 }
 
-/// A mass that meets the lattice, or a lattice in flight, exchanges momentum: fictitious masses would change it.
+/// A mass that meets the lattice, or a lattice in flight, exchanges momentum: fictitious masses would change it. They
+/// have weight, too.
 void check_real_masses(const SceneSpec& spec, FieldChecker& check) {
   const bool strikes = std::ranges::any_of(
       spec.loads.rigid_walls, [](const LoadsSpec::RigidWall& wall) { return wall.own.contains("mass_g"); });
   const bool flies = spec.loads.velocity_x_m_per_s != 0.0 || spec.loads.velocity_y_m_per_s != 0.0;
-  if (spec.numerics.mass_scaling != 1.0 && (strikes || flies)) {
+  const bool weighs = spec.loads.gravity_x_m_per_s2 != 0.0 || spec.loads.gravity_y_m_per_s2 != 0.0;
+  if (spec.numerics.mass_scaling != 1.0 && (strikes || flies || weighs)) {
     check.add("numerics.mass_scaling", to_text(spec.numerics.mass_scaling),
               strikes ? "makes the lattice heavier than it is for the rigid wall with a mass that meets it."
-                      : "gives the lattice more kinetic energy than its real mass has.",
+              : flies ? "gives the lattice more kinetic energy than its real mass has."
+                      : "makes the lattice heavier under gravity than it is.",
               "Set it to 1.");
   }
 }
@@ -354,13 +318,7 @@ Problems check_spec(const SceneSpec& spec) {
   check.within_limits("depth_mm", spec.depth_mm);
   check.within_limits("elements_per_wall", spec.elements_per_wall);
   check_material("material.", spec.material, check);
-  check_section(spec.section, check);
-  check_coupled_bending(spec, check);
-  check_rigid_joints(spec, check);
-  check.within_limits("contact.friction", spec.contact.friction);
-  check.within_limits("contact.stiffness_factor", spec.contact.stiffness_factor);
-  check.within_limits("contact.damping_ratio", spec.contact.damping_ratio);
-  check.within_limits("contact.impact_speed_m_per_s", spec.contact.impact_speed_m_per_s, " (0: as the case tells)");
+  check_section_and_contact(spec, check);
   check.within_limits("plates.friction", spec.plates.friction);
   check_loading(spec, check);
   check_numerics(spec.numerics, check);

@@ -22,6 +22,9 @@ double count_elements(const SceneSpec& spec);
 /// Checks a material; `path` ends with a dot.
 void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check);
 
+/// Checks the section rule, contact, and whether what they ask for goes together.
+void check_section_and_contact(const SceneSpec& spec, FieldChecker& check);
+
 /// Checks the frame of a spec and the loads on its nodes and beams: nodes that exist, beams of some length, times in
 /// order.
 void check_frame(const SceneSpec& spec, FieldChecker& check);

@@ -192,8 +192,8 @@ struct SectionSpec {
   Formulation formulation = Formulation::force_based;
   DepthRule depth_rule = DepthRule::full_moment;
   AreaRule area_rule = AreaRule::constant_volume;
-  std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
-  std::optional<int> depth_points;  ///< default: 6 (full-moment: 4, 6 or 10, Lobatto: 2 to 10)
+  std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (2 to 5)
+  std::optional<int> depth_points;  ///< default: 6 (full-moment: 4, 6 or 10, Lobatto: 4 to 10)
   /// Whether walls shear, elastically (E5i): Timoshenko beams, for walls thicker than a fifth of their length.
   /// Force-based only. The shear modulus follows from material.poissons_ratio.
   bool shear_deformation = false;

@@ -41,7 +41,7 @@ struct Rule {
 constexpr Rule kRules[] = {
     {"Paper", Formulation::displacement_based, DepthRule::lobatto, 2, 6},
     {"Default", Formulation::force_based, DepthRule::full_moment, 4, 6},
-    {"DisplacementBased1x2", Formulation::displacement_based, DepthRule::lobatto, 1, 2},
+    {"DisplacementBased2x4", Formulation::displacement_based, DepthRule::lobatto, 2, 4},
     {"DisplacementBased2x6FullMoment", Formulation::displacement_based, DepthRule::full_moment, 2, 6},
     {"DisplacementBased3x4", Formulation::displacement_based, DepthRule::full_moment, 3, 4},
     {"DisplacementBased5x8", Formulation::displacement_based, DepthRule::lobatto, 5, 8},

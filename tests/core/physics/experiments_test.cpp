@@ -336,6 +336,11 @@ TEST(Experiment, HasRealMasses) {
   SceneSpec thrown = scenes::thrown_block();
   thrown.numerics.mass_scaling = 2.0;
   EXPECT_EQ(build_scene(thrown).problems.at(0).field, "numerics.mass_scaling");
+  SceneSpec heavy = scenes::hexagon_specimen(4, 3);
+  heavy.numerics.mass_scaling = 2.0;
+  EXPECT_TRUE(build_scene(heavy).problems.empty());
+  heavy.loads.gravity_y_m_per_s2 = -9.81;
+  EXPECT_EQ(build_scene(heavy).problems.at(0).field, "numerics.mass_scaling");
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ double computed_modulus(const reference::BeamNetwork& network, const Told& told,
   spec.elements_per_wall = 1;
   spec.material.poissons_ratio = kPoissonsRatio;
   spec.section.shear_deformation = shears;
-  spec.section.shear_factor = kShearFactor;
+  if (shears) spec.section.shear_factor = kShearFactor;
   spec.numerics.rigid_link_slenderness = 0.0;
   const double wave_speed = std::sqrt(kModulus / (scenes::kDensity * 1e-12) * told.modulus / told.density);
   const double period = 2.0 * (kHigh - kLow) / wave_speed;

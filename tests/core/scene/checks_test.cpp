@@ -92,6 +92,31 @@ TEST(CheckSpec, OnlyWallsOfConstantVolumeThatHoldCoupleBendingWithStretching) {
   EXPECT_THAT(problems[1].remedy, HasSubstr("material.failure_strain"));
 }
 
+TEST(CheckSpec, RefusesWhatTheCaseWouldNotUse) {
+  const Problems problems = problems_with([](SceneSpec& spec) {
+    spec.section.shear_factor = 0.7;
+    spec.loading.kinetic_share = 0.02;
+  });
+  ASSERT_THAT(fields_of(problems), ElementsAre("section.shear_factor", "loading.kinetic_share"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("section.shear_deformation"));
+  EXPECT_THAT(problems[1].remedy, HasSubstr("loading.quasi_static"));
+}
+
+TEST(CheckSpec, RefusesSoFewPointsThatElementsAreMechanismsOrFarOff) {
+  const auto with = [](int axial, int depth) {
+    return problems_with([&](SceneSpec& spec) {
+      spec.section.formulation = SectionSpec::Formulation::displacement_based;
+      spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
+      spec.section.axial_points = axial;
+      spec.section.depth_points = depth;
+    });
+  };
+  EXPECT_THAT(fields_of(with(1, 3)), ElementsAre("section.axial_points", "section.depth_points"));
+  EXPECT_THAT(fields_of(with(6, 11)), ElementsAre("section.axial_points", "section.depth_points"));
+  EXPECT_THAT(fields_of(with(2, 4)), ElementsAre());
+  EXPECT_THAT(fields_of(with(5, 10)), ElementsAre());
+}
+
 TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
   const Problems problems = problems_with([](SceneSpec& spec) {
     scenes::cells_of(spec) = scenes::hexagons(20, 7, 4.0, -0.1);
